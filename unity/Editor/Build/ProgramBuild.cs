@@ -75,13 +75,13 @@ namespace Collektive.Unity.Editor
         {
             var part = Path.Combine(work, "programs.jar");
             var mark = Path.Combine(work, "mark");
-            File.WriteAllText(mark, "Collektive-Runtime: " + project.Runtime.Mark + "\n");
+            File.WriteAllText(mark, "Collektive-Runtime: " + project.Runtime.ManifestValue + "\n");
             // The schema's service entry and binary form are in the folder of the generated code.
             if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string>
                 { "--create", "--file", part, "--manifest", mark, "-C", generated, "META-INF", "-C", classes, "." }))
                 return false;
             AtomicFile.Rename(part, project.Jar);
-            project.NoteMade();
+            project.WriteStamp();
             return true;
         }
 

@@ -35,7 +35,7 @@ namespace Collektive.Unity.Editor
 
         /// <summary>The value in a jar's manifest by which the host refuses programs of another runtime.</summary>
         /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
-        internal string Mark => Kind == AggregateRuntime.BuiltIn ? "builtIn" : "collektive " + Hash(Jars());
+        internal string ManifestValue => Kind == AggregateRuntime.BuiltIn ? "builtIn" : "collektive " + Hash(Jars());
 
         /// <summary>The jars that programs are compiled against, beside the host's.</summary>
         /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>

@@ -30,7 +30,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Those of the scenes named, or of the open ones when a build names none, as they are on disk.</summary>
+        /// <summary>Returns the managers of the named scenes as saved on disk, or of the open scenes if no scene is named.</summary>
         internal static List<SceneSimulation> FindAll(string[] scenes)
         {
             var found = new List<SceneSimulation>();

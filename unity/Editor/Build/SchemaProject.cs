@@ -16,7 +16,7 @@ namespace Collektive.Unity.Editor
             Runtime = runtime;
         }
 
-        /// <summary>What its programs are compiled for.</summary>
+        /// <summary>The runtime for which its programs are compiled.</summary>
         internal ProgramRuntime Runtime { get; }
 
         /// <summary>The schema's path from the project's folder.</summary>
@@ -34,19 +34,19 @@ namespace Collektive.Unity.Editor
         internal bool HasPrograms => Directory.Exists(Programs) && Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories).Length > 0;
 
         /// <summary>Names the version of the package that built the jar, whose generated code is specific to it, and the runtime of the jar.</summary>
-        private string Maker => Jar + ".version";
+        private string StampFile => Jar + ".version";
 
-        private string Made => PackageState.Version + " " + Runtime.Mark;
+        private string Stamp => PackageState.Version + " " + Runtime.ManifestValue;
 
-        /// <summary>Notes that the jar was made now, by this version of the package.</summary>
-        internal void NoteMade() => File.WriteAllText(Maker, Made);
+        /// <summary>Records the package version that built the jar.</summary>
+        internal void WriteStamp() => File.WriteAllText(StampFile, Stamp);
 
         /// <summary>Whether the schema or a program was changed after the jar was made, or another version of the package or runtime made it.</summary>
         internal bool IsStale
         {
             get
             {
-                if (!File.Exists(Jar) || !File.Exists(Maker) || File.ReadAllText(Maker) != Made) return true;
+                if (!File.Exists(Jar) || !File.Exists(StampFile) || File.ReadAllText(StampFile) != Stamp) return true;
                 var made = File.GetLastWriteTimeUtc(Jar);
                 if (File.GetLastWriteTimeUtc(Schema) > made) return true;
                 foreach (var file in Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories))

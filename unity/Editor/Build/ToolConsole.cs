@@ -6,7 +6,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Shows what tools say in the console: a click selects the file, the link opens it at its line.</summary>
+    /// <summary>Logs the output of tools to the console. A click selects the file; the link opens it at the line.</summary>
     internal static class ToolConsole
     {
         /// <summary>Logs the messages in a tool's output; the whole output as one error when it failed without naming a place.</summary>

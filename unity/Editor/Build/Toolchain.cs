@@ -20,28 +20,28 @@ namespace Collektive.Unity.Editor
 
         private const string Tools = "Packages/org.collektive.unity/Tools~/";
 
-        internal static string Generator => Shipped("collektive-generator.jar");
+        internal static string Generator => PackageTool("collektive-generator.jar");
 
-        internal static string CompilerPlugin => Shipped("collektive-compiler-plugin.jar");
+        internal static string CompilerPlugin => PackageTool("collektive-compiler-plugin.jar");
 
         /// <summary>Source of the functions on links: part of the built-in library, and compiled with programs for other runtimes.</summary>
-        internal static string Links => Shipped("Links.kt");
+        internal static string Links => PackageTool("Links.kt");
 
         /// <summary>Folder of <c>types.fbs</c>, which schemas may include.</summary>
-        internal static string SchemaFolder => Path.GetDirectoryName(Shipped("types.fbs"));
+        internal static string SchemaFolder => Path.GetDirectoryName(PackageTool("types.fbs"));
 
         /// <summary>Returns an executable copy of flatc: package managers drop the permission, and the package's folder is read-only.</summary>
         internal static string Flatc()
         {
             if (Installation.Platform == "mac-x64" || Installation.Platform == "linux-arm64")
                 throw new ToolException("flatc is not available for " + Installation.Platform + ": generate the code on another machine and commit it");
-            var shipped = Shipped(Installation.Platform + "/flatc" + (Windows ? ".exe" : ""));
+            var packageTool = PackageTool(Installation.Platform + "/flatc" + (Windows ? ".exe" : ""));
             // By content: package managers set arbitrary file times.
-            var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(shipped) + (Windows ? ".exe" : ""));
+            var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(packageTool) + (Windows ? ".exe" : ""));
             if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));
             var part = AtomicFile.TemporaryPath(copy);
-            File.Copy(shipped, part, true);
+            File.Copy(packageTool, part, true);
             if (!Windows) ToolRun.Do("/bin/chmod", "755", part);
             AtomicFile.Rename(part, copy);
             return copy;
@@ -160,7 +160,7 @@ namespace Collektive.Unity.Editor
             return 0;
         }
 
-        private static string Shipped(string name)
+        private static string PackageTool(string name)
         {
             var path = Installation.PathOf(Tools + name);
             return File.Exists(path) ? path

@@ -12,8 +12,8 @@ namespace Collektive.Unity.Editor
         private readonly List<LinkRecord> links = new List<LinkRecord>();
         private readonly List<NodeRow> rows = new List<NodeRow>();
         // By node id.
-        private int[] hears = Array.Empty<int>();
-        private int[] heard = Array.Empty<int>();
+        private int[] senderCounts = Array.Empty<int>();
+        private int[] receiverCounts = Array.Empty<int>();
         private readonly Queue<string> log = new Queue<string>();
 
         internal Diagnostics(SimulationManager manager)
@@ -46,12 +46,12 @@ namespace Collektive.Unity.Editor
             {
                 var node = Manager.Nodes[i];
                 var program = node.Program.Length > 0 ? node.Program : Manager.Settings.program;
-                if (Matches(node, program, filter)) rows.Add(new NodeRow(node, program, hears[node.Id], heard[node.Id]));
+                if (Matches(node, program, filter)) rows.Add(new NodeRow(node, program, senderCounts[node.Id], receiverCounts[node.Id]));
             }
             return rows;
         }
 
-        /// <summary>The links of a node, those it hears first, by the other's id.</summary>
+        /// <summary>The links of a node, incoming ones first, by the other's id.</summary>
         internal List<NeighbourRow> Neighbours(int id)
         {
             Manager.CopyLinks(links);
@@ -61,7 +61,7 @@ namespace Collektive.Unity.Editor
                 if (link.To == id) rows.Add(new NeighbourRow(link.From, true, link));
                 if (link.From == id) rows.Add(new NeighbourRow(link.To, false, link));
             }
-            rows.Sort((a, b) => a.IsHeard == b.IsHeard ? a.Id.CompareTo(b.Id) : a.IsHeard ? -1 : 1);
+            rows.Sort((a, b) => a.IsSender == b.IsSender ? a.Id.CompareTo(b.Id) : a.IsSender ? -1 : 1);
             return rows;
         }
 
@@ -91,26 +91,26 @@ namespace Collektive.Unity.Editor
 
         private void CountLinks()
         {
-            if (hears.Length < Manager.Simulation.IdCapacity)
+            if (senderCounts.Length < Manager.Simulation.IdCapacity)
             {
-                hears = new int[Manager.Simulation.IdCapacity];
-                heard = new int[Manager.Simulation.IdCapacity];
+                senderCounts = new int[Manager.Simulation.IdCapacity];
+                receiverCounts = new int[Manager.Simulation.IdCapacity];
             }
-            Array.Clear(hears, 0, hears.Length);
-            Array.Clear(heard, 0, heard.Length);
+            Array.Clear(senderCounts, 0, senderCounts.Length);
+            Array.Clear(receiverCounts, 0, receiverCounts.Length);
             var pairs = Manager.Simulation.PresentLinks.Pairs;
             for (var i = 0; i < pairs.Length; i++)
             {
                 ref var pair = ref pairs[i];
-                if (pair.Up.Holders > 0) Count(pair.Low, pair.High);
-                if (pair.Down.Holders > 0) Count(pair.High, pair.Low);
+                if (pair.Up.References > 0) Count(pair.Low, pair.High);
+                if (pair.Down.References > 0) Count(pair.High, pair.Low);
             }
         }
 
         private void Count(int from, int to)
         {
-            heard[from]++;
-            hears[to]++;
+            receiverCounts[from]++;
+            senderCounts[to]++;
         }
 
         private void Ticked(SimulationManager manager) => Times.Add(manager.Times, manager.HostMicros.Rounds / 1000.0);

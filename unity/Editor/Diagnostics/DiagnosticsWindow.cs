@@ -76,7 +76,7 @@ namespace Collektive.Unity.Editor
             selected = -1;
         }
 
-        /// <summary>The nodes, and below them what is known of the selected one. Of the list only what is in view is drawn.</summary>
+        /// <summary>Draws the visible part of the list of nodes, and the details of the selected node.</summary>
         private void DrawNodes()
         {
             filter = EditorGUILayout.TextField("Filter", filter);
@@ -108,7 +108,7 @@ namespace Collektive.Unity.Editor
         private void DrawNode(NodeRow row)
         {
             var name = row.Node == null ? "(destroyed)" : row.Node.name;
-            var title = row.Id + "  " + name + "  (" + row.Program + ")  hears " + row.Hears + ", heard by " + row.Heard
+            var title = row.Id + "  " + name + "  (" + row.Program + ")  receives from " + row.SenderCount + ", sends to " + row.ReceiverCount
                 + (row.Node != null && row.Node.LastError.Length > 0 ? "  ERROR" : "");
             var open = EditorGUILayout.Foldout(selected == row.Id, title, true);
             if (open && selected != row.Id)
@@ -128,7 +128,7 @@ namespace Collektive.Unity.Editor
             EditorGUILayout.LabelField("Neighbours", EditorStyles.boldLabel);
             foreach (var row in diagnostics.Neighbours(node.Id))
             {
-                EditorGUILayout.LabelField((row.IsHeard ? "hears " : "heard by ") + row.Id,
+                EditorGUILayout.LabelField((row.IsSender ? "from " : "to ") + row.Id,
                     row.Link.Length.ToString("0.00") + " m, attenuation " + row.Link.Attenuation.ToString("0.##"));
             }
             EditorGUI.indentLevel--;
@@ -141,7 +141,7 @@ namespace Collektive.Unity.Editor
             for (var i = 0; i < errors.Count && i < MaxErrors; i++)
             {
                 var error = errors[i];
-                var place = error.Node == NodeErrors.NoNode ? "" : error.Node == NodeErrors.Left ? ", nodes that have left" : ", node " + error.Node;
+                var place = error.Node == NodeErrors.NoNode ? "" : error.Node == NodeErrors.DepartedNodes ? ", nodes that have left" : ", node " + error.Node;
                 EditorGUILayout.LabelField(error.Source + place, error.Count + " times, last at tick " + error.LastTick);
                 EditorGUILayout.HelpBox(error.LastMessage, MessageType.Error);
             }

@@ -5,18 +5,18 @@ namespace Collektive.Unity.Editor
     /// <summary>A link of the selected node.</summary>
     internal readonly struct NeighbourRow
     {
-        internal NeighbourRow(int id, bool isHeard, LinkRecord link)
+        internal NeighbourRow(int id, bool isSender, LinkRecord link)
         {
             Id = id;
-            IsHeard = isHeard;
+            IsSender = isSender;
             Link = link;
         }
 
         /// <summary>The node at the other end.</summary>
         internal int Id { get; }
 
-        /// <summary>Whether the selected node hears the other one; else it is the other way round.</summary>
-        internal bool IsHeard { get; }
+        /// <summary>Whether the other node sends to the selected one; otherwise it receives.</summary>
+        internal bool IsSender { get; }
 
         internal LinkRecord Link { get; }
     }

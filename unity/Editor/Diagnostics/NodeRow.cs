@@ -3,13 +3,13 @@ namespace Collektive.Unity.Editor
     /// <summary>A node in the diagnostics window.</summary>
     internal readonly struct NodeRow
     {
-        internal NodeRow(Node node, string program, int hears, int heard)
+        internal NodeRow(Node node, string program, int senderCount, int receiverCount)
         {
             Node = node;
             Id = node.Id;
             Program = program;
-            Hears = hears;
-            Heard = heard;
+            SenderCount = senderCount;
+            ReceiverCount = receiverCount;
         }
 
         /// <summary>Equal to null when it was destroyed since.</summary>
@@ -20,10 +20,10 @@ namespace Collektive.Unity.Editor
         /// <summary>Its own program, or the manager's.</summary>
         internal string Program { get; }
 
-        /// <summary>How many nodes it hears.</summary>
-        internal int Hears { get; }
+        /// <summary>Number of nodes that it receives messages from.</summary>
+        internal int SenderCount { get; }
 
-        /// <summary>How many nodes hear it.</summary>
-        internal int Heard { get; }
+        /// <summary>Number of nodes that receive its messages.</summary>
+        internal int ReceiverCount { get; }
     }
 }

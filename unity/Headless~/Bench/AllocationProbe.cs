@@ -6,7 +6,7 @@ using gradientascent;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>Asks the JVM of this process how much it has allocated, through a program of the benchmark's that prints it.</summary>
+    /// <summary>Reads the bytes allocated by this process's JVM, which a program of the benchmark prints.</summary>
     internal sealed class AllocationProbe : IDisposable
     {
         private const string Mark = "allocated-bytes ";

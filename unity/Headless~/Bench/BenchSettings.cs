@@ -20,7 +20,7 @@ namespace Collektive.Headless.Bench
 
         internal string HostJar { get; private set; }
 
-        /// <summary>What the rounds without a session link to.</summary>
+        /// <summary>The library for the rounds without a session.</summary>
         internal string LibraryJar => System.IO.Path.Combine(System.IO.Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
         internal List<string> Jars { get; } = new List<string>();

@@ -32,7 +32,7 @@ namespace Collektive.Headless.Bench
             {
                 AtLeast(output, "two threads to one at 10,000", single.Median / at10000.Median, 1.6);
                 Part(output, "  its rounds alone", single.Rounds / at10000.Rounds);
-                Part(output, "  what one thread does meanwhile, us", at10000.Median - at10000.Rounds);
+                Part(output, "  time of one thread outside rounds, us", at10000.Median - at10000.Rounds);
             }
             foreach (var row in rows)
             {

@@ -3,7 +3,7 @@ using System.Threading;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>What all variants measure with.</summary>
+    /// <summary>Timing shared by all variants.</summary>
     internal static class Measurement
     {
         internal const double DeltaTime = 0.05;

@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>What was measured of one variant.</summary>
+    /// <summary>Measurements of one variant.</summary>
     internal sealed class Row
     {
         private readonly List<double> times = new List<double>();

@@ -8,7 +8,7 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless.Bench
 {
     /// <summary>
-    /// A long run: what the tails are like, what the collectors cost, and whether memory stays where it is. It begins as all measurements do, when the
+    /// A long run that measures tail latency, garbage collection and memory growth. It begins as all measurements do, when the
     /// compilers are done, and without what those before left in the heap.
     /// </summary>
     internal sealed class Soak

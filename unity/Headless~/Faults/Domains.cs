@@ -60,7 +60,7 @@ namespace Collektive.Headless.Faults
                 GC.Collect();
                 GC.WaitForPendingFinalizers();
             }
-            if (context.IsAlive) throw new InvalidOperationException("something still refers to the code of a play that is over");
+            if (context.IsAlive) throw new InvalidOperationException("the code of an ended play is still referenced");
             return code;
         }
 
@@ -72,7 +72,7 @@ namespace Collektive.Headless.Faults
             var load = type.GetMethod("LoadFromAssemblyPath");
             var context = Activator.CreateInstance(type, "play", true);
             reference = new WeakReference(context, true);
-            // What is not loaded there is shared with the caller.
+            // Other assemblies are shared with the caller.
             foreach (var part in Parts) load.Invoke(context, new object[] { part.Assembly.Location });
             var program = (Assembly)load.Invoke(context, new object[] { typeof(Domains).Assembly.Location });
             var code = (int)program.EntryPoint.Invoke(null, new object[] { arguments });

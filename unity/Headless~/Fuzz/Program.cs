@@ -33,7 +33,7 @@ namespace Collektive.Fuzz
             {
                 var input = mutations.Next();
                 var (problem, isRead) = Read(input);
-                // What is still a scenario has more to break than what is not.
+                // Inputs that are still valid scenarios reach more code.
                 if (isRead && corpus.Count < 2000) corpus.Add(input);
                 Count(problem, input);
             }

@@ -17,7 +17,7 @@ namespace Collektive.Headless
             Type = type;
         }
 
-        /// <summary>As the generated code has it: its capitals are not the schema's.</summary>
+        /// <summary>Name in generated code, whose capitalisation differs from the schema.</summary>
         internal string Name => member.Name;
 
         internal Type Type { get; }

@@ -5,8 +5,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Determines which metrics have converged: those whose value stayed in a band for a number of simulated seconds. Its time of convergence is the
-    /// beginning of that stay. Values between two rows of the metrics do not count.
+    /// Determines which metrics have converged: those whose value stayed in a band for a number of simulated seconds. The time of convergence
+    /// is when that period began. Values between two rows of the metrics do not count.
     /// </summary>
     internal sealed class Convergence
     {
@@ -30,7 +30,7 @@ namespace Collektive.Headless
                     file.Optional(part, "seconds", 0.0));
                 if (part["from"] == null && part["to"] == null)
                     throw file.Error(part, "'" + key + "' needs 'from', 'to' or both: the band of the metric's values");
-                if (!(criterion.From <= criterion.To)) throw file.Error(part, "'" + key + "' has a 'from' that is above its 'to'");
+                if (!(criterion.From <= criterion.To)) throw file.Error(part, "'" + key + "': 'from' is greater than 'to'; swap them");
                 if (!(criterion.Seconds >= 0)) throw file.Error(part, "'" + key + ".seconds' must be 0 or greater");
                 convergence.criteria.Add(criterion);
             }
@@ -93,7 +93,7 @@ namespace Collektive.Headless
 
             internal int Index { get; set; }
 
-            /// <summary>When the metric came to stay; null while it has not converged.</summary>
+            /// <summary>Start of the period in the band; null before convergence.</summary>
             internal double? Time { get; private set; }
 
             internal void Add(double second, double value)

@@ -21,7 +21,7 @@ namespace Collektive.Headless
         /// <summary>Whether the run is to end.</summary>
         internal bool Requested => number != 0;
 
-        /// <summary>What shells use for a command that the signal ended.</summary>
+        /// <summary>The exit code that shells use for a command that the signal ended.</summary>
         internal int ExitCode => 128 + number;
 
         /// <summary>From now on the run ends itself when it is <see cref="Requested"/>.</summary>

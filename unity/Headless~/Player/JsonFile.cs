@@ -33,7 +33,7 @@ namespace Collektive.Headless
 
         internal static JsonFile Read(string path)
         {
-            if (!RegularFile.Exists(path)) throw new ScenarioException("'" + path + "' is not a file: give the path of a scenario file (JSON)");
+            if (!RegularFile.Exists(path)) throw new ScenarioException("'" + path + "' is not a file: enter the path of a scenario file (JSON)");
             if (new FileInfo(path).Length > MaxBytes) throw new ScenarioException(path + ": the file is too large for a scenario or a manifest (over 64 MB)");
             var text = File.ReadAllText(path);
             try

@@ -10,8 +10,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// manifest.json: what was run, with what, and what came out, so that a run can be repeated and compared. Times of the machine are in the keys with
-    /// "_ms", and in "wall_seconds".
+    /// Writes manifest.json: the inputs, versions and results of a run, to repeat and compare it. Times of the machine are in the keys with "_ms", and
+    /// in "wall_seconds".
     /// </summary>
     internal sealed class Manifest
     {
@@ -33,8 +33,8 @@ namespace Collektive.Headless
             path = Path.Combine(options.Out, "manifest.json");
             Root = new JObject(
                 new JProperty("outcome", "running"),
-                new JProperty(FormerRun.ScenarioKey, scenario.ToJson(fields)),
-                new JProperty("file", scenario.Former?.File ?? Path.GetFileName(scenario.Path)),
+                new JProperty(OriginalRun.ScenarioKey, scenario.ToJson(fields)),
+                new JProperty("file", scenario.OriginalRun?.File ?? Path.GetFileName(scenario.Path)),
                 new JProperty("folder", scenario.Folder),
                 new JProperty("inputs", options.Inputs),
                 new JProperty("programs", Hashes(options.Jars)));
@@ -89,7 +89,7 @@ namespace Collektive.Headless
         /// <summary>From the start of the process to the end of the first tick.</summary>
         internal void AddFirstTick(TimeSpan time) => Root.Add("first_tick_ms", Math.Round(time.TotalMilliseconds));
 
-        /// <summary>What recording frames for the replay page took of the run, and writing the page.</summary>
+        /// <summary>Milliseconds spent on recording frames and writing the replay page.</summary>
         internal void AddReplay(double milliseconds) => Root.Add("replay_ms", Math.Round(milliseconds));
 
         internal void Write() => ResultFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));

@@ -73,7 +73,7 @@ namespace Collektive.Headless
             expired += network.Expired;
         }
 
-        /// <summary>Adds what passed on the clock from the end of the former tick to the end of this one, in milliseconds.</summary>
+        /// <summary>Adds the milliseconds between the ends of the previous and of this tick.</summary>
         internal void AddWhole(double milliseconds) => whole.Add(milliseconds);
 
         /// <summary>

@@ -57,7 +57,7 @@ namespace Collektive.Headless
         /// <summary>Whether the run goes on after a tick of which all rounds failed.</summary>
         internal bool KeepGoing { get; private set; }
 
-        /// <summary>Values of the scenario's keys that the command line gives.</summary>
+        /// <summary>Overrides of scenario keys on the command line.</summary>
         internal List<Assignment> Assignments { get; } = new List<Assignment>();
 
         /// <summary>The same for fields of the scene, as <c>FIELD=VALUE</c>.</summary>

@@ -74,7 +74,7 @@ namespace Collektive.Headless
             return 1;
         }
 
-        /// <summary>What the command must build before the run, as JSON.</summary>
+        /// <summary>Prints the build steps that the run needs, as JSON.</summary>
         private static void Plan(Scenario scenario) => Console.WriteLine(new JObject(
             new JProperty("scripts", scenario.Scripts),
             new JProperty("schema", scenario.Schema),

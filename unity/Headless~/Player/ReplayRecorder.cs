@@ -56,7 +56,7 @@ namespace Collektive.Headless
             writer = new ReplayWriter(scratchPath, metadata);
         }
 
-        /// <summary>What the replay has cost the run so far, in milliseconds.</summary>
+        /// <summary>Milliseconds spent on the replay so far.</summary>
         internal double Milliseconds => clock.Elapsed.TotalMilliseconds;
 
         public void Dispose() => writer.Dispose();
@@ -106,8 +106,8 @@ namespace Collektive.Headless
             }
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {
-                if (pair.Up.Holders > 0) writer.Link(pair.Low, pair.High, pair.Down.Holders > 0);
-                else if (pair.Down.Holders > 0) writer.Link(pair.High, pair.Low);
+                if (pair.Up.References > 0) writer.Link(pair.Low, pair.High, pair.Down.References > 0);
+                else if (pair.Down.References > 0) writer.Link(pair.High, pair.Low);
             }
             writer.EndFrame();
             clock.Stop();
@@ -118,7 +118,7 @@ namespace Collektive.Headless
             neighbours = new int[manager.Simulation.IdCapacity];
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {
-                if (!pair.IsHeld) continue;
+                if (!pair.IsReferenced) continue;
                 neighbours[pair.Low]++;
                 neighbours[pair.High]++;
             }
@@ -155,7 +155,7 @@ namespace Collektive.Headless
                 else if (collider is TerrainCollider terrain && terrain.terrainData != null) Add(metadata, terrain);
             }
             if (floor == null) foreach (var node in manager.Nodes) arena.Encapsulate(node.transform.position);
-            // The page wants an arena of some size.
+            // The page needs an arena of nonzero width and depth.
             arena.Expand(new Vector3(arena.size.x > 0 ? 0 : 1, 0, arena.size.z > 0 ? 0 : 1));
             metadata.SetArena(arena.min.x, arena.min.y, arena.min.z, arena.max.x, arena.max.y, arena.max.z, grows: floor == null);
             foreach (var landmark in scene.Landmarks)

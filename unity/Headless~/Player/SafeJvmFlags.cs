@@ -9,7 +9,7 @@ namespace Collektive.Headless
     /// </summary>
     internal static class SafeJvmFlags
     {
-        private static readonly Regex[] Forms = new[]
+        private static readonly Regex[] SafePatterns = new[]
         {
             @"-X(mx|ms|mn|ss)[0-9]+[kKmMgGtT]?",
             @"-X(int|comp|mixed|batch|noclassgc|check:jni|share:(auto|on|off))",
@@ -35,6 +35,6 @@ namespace Collektive.Headless
         /// </summary>
         private const string NamesOfPlaces = "MallocLimit|File|Path|List|Exit|At|Cache|Output|Configuration|Config|Options|Command|Recording|Only|Error|Mode";
 
-        internal static bool Contains(string flag) => Forms.Any(form => form.IsMatch(flag));
+        internal static bool Contains(string flag) => SafePatterns.Any(form => form.IsMatch(flag));
     }
 }

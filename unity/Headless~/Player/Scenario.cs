@@ -42,7 +42,7 @@ namespace Collektive.Headless
             this.root = root;
             file.RefuseUnknown(root, "", Keys);
             var version = file.Required<int>(root, "version");
-            if (version != Version) throw file.Error(root["version"], "version " + version + " is not known; this player reads version " + Version);
+            if (version != Version) throw file.Error(root["version"], "version " + version + " is not supported; use version " + Version);
             File = file;
             Path = path;
             Folder = folder;
@@ -88,7 +88,7 @@ namespace Collektive.Headless
         internal string Folder { get; }
 
         /// <summary>The run to repeat; null if the file is not a manifest.</summary>
-        internal FormerRun Former { get; private set; }
+        internal OriginalRun OriginalRun { get; private set; }
 
         internal string Scene { get; }
 
@@ -147,16 +147,16 @@ namespace Collektive.Headless
         {
             var file = JsonFile.Read(path);
             path = FullPath(path);
-            if (!(file.Root[FormerRun.ScenarioKey] is JObject run))
+            if (!(file.Root[OriginalRun.ScenarioKey] is JObject run))
             {
                 foreach (var assignment in assignments) assignment.Apply(file.Root);
                 return new Scenario(file, path, file.Root, FullPath(folder ?? System.IO.Path.GetDirectoryName(path)), trustsJvm);
             }
-            var former = new FormerRun(file, path);
-            folder = FullPath(folder ?? former.Folder);
+            var original = new OriginalRun(file, path);
+            folder = FullPath(folder ?? original.Folder);
             if (!Directory.Exists(folder))
                 throw new ScenarioException(path + ": the run's folder does not exist: " + folder + " (if it was moved, use --folder)");
-            return new Scenario(file, path, run, folder, trustsJvm) { Former = former };
+            return new Scenario(file, path, run, folder, trustsJvm) { OriginalRun = original };
         }
 
         /// <summary>Applies the overrides of the command line.</summary>
@@ -217,7 +217,7 @@ namespace Collektive.Headless
             throw file.Error(
                 part["interval"] ?? root,
                 "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds " + (interval > MaxTicks
-                    ? "that is at most " + Text(MaxTicks) : "that is not below 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime))));
+                    ? "that is at most " + Text(MaxTicks) : "that is at least 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime))));
         }
 
         /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
@@ -259,8 +259,8 @@ namespace Collektive.Headless
             var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
             if (ticks > MaxTicks)
-                throw error("'seconds' is " + Text(Seconds) + ": with a 'deltaTime' of " + Text(deltaTime) + " these are " + Text(ticks)
-                    + " ticks, and a run has at most 100 million");
+                throw error("'seconds' is " + Text(Seconds) + ": with a 'deltaTime' of " + Text(deltaTime) + " that is " + Text(ticks)
+                    + " ticks, and the maximum is 100 million; use a shorter run or a longer 'deltaTime'");
             Ticks = (int)System.Math.Max(1, ticks);
         }
 
@@ -285,14 +285,14 @@ namespace Collektive.Headless
         /// <summary>A scenario file may come from someone else. The user decides whether its JVM settings may affect this machine.</summary>
         private static void RefuseUnsafe(JsonFile file, JObject root, JvmSettings settings)
         {
-            const string advice = "; add --trust-jvm if you trust the file, or remove it";
+            const string hint = "; add --trust-jvm if you trust the file, or remove it";
             if (settings.home.Length > 0)
-                throw file.Error(root[nameof(settings.home)], "'jvm.home' is refused because it runs a JVM from a folder that the file chooses" + advice);
+                throw file.Error(root[nameof(settings.home)], "'jvm.home' is refused because it runs a JVM from a folder that the file chooses" + hint);
             if (settings.debugPort != 0)
             {
                 throw file.Error(
                     root[nameof(settings.debugPort)],
-                    "'jvm.debugPort' is refused because any user of this machine who can reach the port can run code" + advice);
+                    "'jvm.debugPort' is refused because any user of this machine who can reach the port can run code" + hint);
             }
             for (var i = 0; i < settings.flags.Count; i++)
             {
@@ -300,7 +300,7 @@ namespace Collektive.Headless
                 throw file.Error(
                     root[nameof(settings.flags)],
                     "'jvm.flags[" + i + "]', " + settings.flags[i]
-                        + ", is refused because it is not known to be safe: it may write files, open ports or load code" + advice);
+                        + ", is refused because it is not known to be safe: it may write files, open ports or load code" + hint);
             }
         }
 

@@ -40,7 +40,8 @@ namespace Collektive.Headless
             this.options = options;
             this.interrupt = interrupt;
             this.began = began ?? Process.GetCurrentProcess().StartTime;
-            if (scenario.Former != null && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
+            if (scenario.OriginalRun != null
+                && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
             {
                 throw new ScenarioException(scenario.Path
                     + ": a run is repeated without changes: omit --seed, --seconds and --set, or run its scenario");
@@ -143,7 +144,7 @@ namespace Collektive.Headless
             var holder = new GameObject("Scene");
             var scene = AddScene(holder);
             manifest = new Manifest(scenario, options, SceneFields.Get(scene));
-            scenario.Former?.PrintDifferences(manifest, "inputs");
+            scenario.OriginalRun?.PrintDifferences(manifest, "inputs");
             holder.SetActive(true);
             if (manager.Failure.Length > 0) throw new ScenarioException(manager.Failure);
             return scene;
@@ -171,10 +172,10 @@ namespace Collektive.Headless
 
         private int Play(SimulationManager manager, SceneBuilder scene)
         {
-            // A former run that was interrupted is repeated up to there.
-            var ticks = scenario.Former == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.Former.Ticks);
-            // A repetition goes on like the former run.
-            var stopsAtFailures = !options.KeepGoing && scenario.Former == null;
+            // An original run that was interrupted is repeated up to there.
+            var ticks = scenario.OriginalRun == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.OriginalRun.Ticks);
+            // A repetition goes on like the original run.
+            var stopsAtFailures = !options.KeepGoing && scenario.OriginalRun == null;
             JObject parameters = null;
             var hadNodes = manager.Nodes.Count > 0;
             interrupt.BeginPlay();
@@ -201,12 +202,12 @@ namespace Collektive.Headless
                     if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
                     if (done == before)
                     {
-                        cause = CauseOfNoTick(manager);
+                        cause = ReasonForMissingTick(manager);
                         ended = Stopwatch.GetTimestamp();
                         continue;
                     }
                     hadNodes |= manager.Nodes.Count > 0;
-                    if (stopsAtFailures && manager.Simulation.NoRoundWorked)
+                    if (stopsAtFailures && manager.Simulation.AllRoundsFailed)
                         throw new ScenarioException("stopped at tick " + done
                             + ": all rounds failed; the errors are above. To continue anyway, use --keep-going");
                     parameters = parameters ?? ProgramsWithParameters(manager);
@@ -237,7 +238,7 @@ namespace Collektive.Headless
                 manifest.AddFirstTick(firstTick);
                 if (replay != null) manifest.AddReplay(replay.Milliseconds);
             }
-            scenario.Former?.PrintDifferences(manifest, "versions");
+            scenario.OriginalRun?.PrintDifferences(manifest, "versions");
             if (interrupt.Requested)
             {
                 Console.Error.WriteLine("collektive: interrupted after " + manager.SimulatedTime + " s; the outputs end at that time");
@@ -260,7 +261,7 @@ namespace Collektive.Headless
                 return 1;
             }
             manifest.Outcome = scenario.Pictures ? Manifest.WithoutPictures : Manifest.Complete;
-            var isRepeated = scenario.Former?.IsRepeatedBy(manifest) ?? true;
+            var isRepeated = scenario.OriginalRun?.IsRepeatedBy(manifest) ?? true;
             // Processes end with eight bits of their code: 256 would become 0.
             var quitCode = Loop.ExitCode == 0 ? 0 : Math.Max(1, Loop.ExitCode & 0xff);
             if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
@@ -271,7 +272,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>Returns why a frame had no tick, as far as that can be seen.</summary>
-        private static string CauseOfNoTick(SimulationManager manager)
+        private static string ReasonForMissingTick(SimulationManager manager)
         {
             if (!manager) return ": a script destroyed the Simulation Manager";
             if (!manager.isActiveAndEnabled) return ": a script disabled the Simulation Manager";
@@ -279,7 +280,7 @@ namespace Collektive.Headless
             return Time.timeScale == 1 ? "" : ": a script set Time.timeScale to " + Time.timeScale.ToString(CultureInfo.InvariantCulture);
         }
 
-        /// <summary>Whether the scenario ends now, since all has converged.</summary>
+        /// <summary>Whether all metrics have converged and the scenario stops then.</summary>
         private bool HasConverged => scenario.StopWhenConverged && scenario.Convergence.IsComplete;
 
         private JObject ProgramsWithParameters(SimulationManager manager)

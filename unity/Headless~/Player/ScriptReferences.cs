@@ -8,8 +8,8 @@ using Collektive.Bridge;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// What compiled scripts refer to outside of their assembly. Unless all of it is known to leave nothing behind in the process, such as a culture, a
-    /// thread or an environment variable, each run needs its own process.
+    /// Checks the external references of compiled scripts. If one may leave state in the process, such as a culture, a thread or an environment
+    /// variable, each run needs its own process.
     /// </summary>
     internal static class ScriptReferences
     {
@@ -34,7 +34,7 @@ namespace Collektive.Headless
             + "RuntimeTypeHandle RuntimeFieldHandle TimeSpan StringSplitOptions MidpointRounding").Split(' '));
 
         /// <summary>Types of any number of parameters.</summary>
-        private static readonly HashSet<string> Families = new HashSet<string> { "Action", "Func", "Tuple", "ValueTuple" };
+        private static readonly HashSet<string> GenericTypes = new HashSet<string> { "Action", "Func", "Tuple", "ValueTuple" };
 
         /// <summary>Types of which scripts may use some members only.</summary>
         private static readonly Dictionary<string, string> Members = new Dictionary<string, string>
@@ -185,7 +185,7 @@ namespace Collektive.Headless
             if (type.IsNested) return IsAllowed(type.DeclaringType) || OtherTypes.Contains(name);
             if (type.Namespace != null && Namespaces.Contains(type.Namespace) || Members.ContainsKey(name) || OtherTypes.Contains(name)) return true;
             if (name.EndsWith("Attribute", StringComparison.Ordinal)) return true;
-            return type.Namespace == "System" && (SystemTypes.Contains(type.Name) || Families.Contains(type.Name.Split('`')[0]));
+            return type.Namespace == "System" && (SystemTypes.Contains(type.Name) || GenericTypes.Contains(type.Name.Split('`')[0]));
         }
     }
 }

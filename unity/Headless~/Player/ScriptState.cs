@@ -6,9 +6,8 @@ using Collektive.Bridge;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// What a scene's scripts could leave behind for the next run in the process. Static fields of numbers, strings, structs of these and arrays of all
-    /// that are compared after each run. With any other static field, a list for instance, or a reference that <see cref="ScriptReferences"/> does not know,
-    /// each run needs its own process.
+    /// Compares the static fields of a scene's scripts before and after a run: numbers, strings, structs of these, and arrays of them. With
+    /// any other static field, a list for instance, or a reference that <see cref="ScriptReferences"/> does not know, each run needs its own process.
     /// </summary>
     internal sealed class ScriptState
     {
@@ -41,7 +40,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>What could leave something behind that is not compared, or null.</summary>
+        /// <summary>A possible remaining state that is not compared, or null.</summary>
         internal string Problem { get; }
 
         /// <summary>Whether the fields are as they were.</summary>

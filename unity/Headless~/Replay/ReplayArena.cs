@@ -10,8 +10,8 @@ namespace Collektive.Headless
         private readonly float[] greatest;
         // Metres by which it may grow at each end of an axis.
         private readonly float mayGrow;
-        private readonly float[] leastReached;
-        private readonly float[] greatestReached;
+        private readonly float[] reachedMin;
+        private readonly float[] reachedMax;
 
         internal ReplayArena(float[] least, float[] greatest, bool grows)
         {
@@ -19,8 +19,8 @@ namespace Collektive.Headless
             this.greatest = greatest;
             for (var axis = 0; axis < 3; axis++) LongestSide = Math.Max(LongestSide, (double)greatest[axis] - least[axis]);
             mayGrow = grows ? (float)LongestSide : 0;
-            leastReached = (float[])least.Clone();
-            greatestReached = (float[])greatest.Clone();
+            reachedMin = (float[])least.Clone();
+            reachedMax = (float[])greatest.Clone();
         }
 
         /// <summary>Of the arena before it grows.</summary>
@@ -38,12 +38,12 @@ namespace Collektive.Headless
         }
 
         internal JObject ToJson() =>
-            new JObject { ["min"] = ReplayMetadata.Numbers(leastReached), ["max"] = ReplayMetadata.Numbers(greatestReached) };
+            new JObject { ["min"] = ReplayMetadata.Numbers(reachedMin), ["max"] = ReplayMetadata.Numbers(reachedMax) };
 
         private void Include(int axis, float place)
         {
-            if (place < leastReached[axis]) leastReached[axis] = Math.Max(place, least[axis] - mayGrow);
-            if (place > greatestReached[axis]) greatestReached[axis] = Math.Min(place, greatest[axis] + mayGrow);
+            if (place < reachedMin[axis]) reachedMin[axis] = Math.Max(place, least[axis] - mayGrow);
+            if (place > reachedMax[axis]) reachedMax[axis] = Math.Min(place, greatest[axis] + mayGrow);
         }
     }
 }

@@ -24,7 +24,7 @@ namespace Collektive.Headless
         private const int MaxInteger = 1 << 30;
 
         // Categories with a colour in the order of their appearance.
-        private const int MostInOrder = 256;
+        private const int MaxInOrder = 256;
 
         private readonly HashSet<int> known = new HashSet<int>();
         private readonly JArray order = new JArray();
@@ -54,7 +54,7 @@ namespace Collektive.Headless
 
         internal double Least { get; private set; } = double.PositiveInfinity;
         internal double Greatest { get; private set; } = double.NegativeInfinity;
-        internal bool SomeWithout { get; private set; }
+        internal bool HasMissingValues { get; private set; }
 
         /// <summary>Returns why a value cannot be stored, or null if it can.</summary>
         internal string Refuse(double value)
@@ -62,14 +62,14 @@ namespace Collektive.Headless
             if (double.IsNaN(value)) return null;
             if (double.IsInfinity(value)) return "an infinite " + Name;
             if (Kind == ReplayFieldKind.Number || value == Math.Floor(value) && Math.Abs(value) < MaxInteger) return null;
-            return "the " + Name + " " + value.ToString("R", CultureInfo.InvariantCulture) + ", no whole number below 2^30";
+            return "the " + Name + " " + value.ToString("R", CultureInfo.InvariantCulture) + ", which is not a whole number below 2^30";
         }
 
         /// <summary>Widens the field's range.</summary>
         internal void Include(double value)
         {
-            if (double.IsNaN(value)) SomeWithout = true;
-            else if (Kind == ReplayFieldKind.Category && known.Count < MostInOrder && known.Add((int)value)) order.Add((int)value);
+            if (double.IsNaN(value)) HasMissingValues = true;
+            else if (Kind == ReplayFieldKind.Category && known.Count < MaxInOrder && known.Add((int)value)) order.Add((int)value);
             // Neither is true of NaN.
             if (value < Least) Least = value;
             if (value > Greatest) Greatest = value;
@@ -86,7 +86,7 @@ namespace Collektive.Headless
             // No value at all: no range either.
             json["least"] = Least <= Greatest ? Least : 0;
             json["greatest"] = Least <= Greatest ? Greatest : 0;
-            json["someWithout"] = SomeWithout;
+            json["someWithout"] = HasMissingValues;
             return json;
         }
     }

@@ -39,7 +39,7 @@ namespace Collektive.Headless
         public void SetArena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ, bool grows = false)
         {
             if (!(minX < maxX && minY <= maxY && minZ < maxZ))
-                throw new ArgumentException("The replay's arena must have its least corner first and a floor of some size.");
+                throw new ArgumentException("Pass the arena's minimum corner first; its width and depth must be greater than 0.");
             foreach (var place in new[] { minX, minY, minZ, maxX, maxY, maxZ }) Number(place);
             Arena = new ReplayArena(new[] { minX, minY, minZ }, new[] { maxX, maxY, maxZ }, grows);
         }
@@ -140,7 +140,7 @@ namespace Collektive.Headless
         internal static double Number(double value)
         {
             if (double.IsNaN(value) || double.IsInfinity(value))
-                throw new ArgumentException("A number of the replay's metadata is " + value.ToString(CultureInfo.InvariantCulture) + ": give a finite one.");
+                throw new ArgumentException("The replay's metadata contains " + value.ToString(CultureInfo.InvariantCulture) + ": use finite numbers.");
             return value;
         }
 

@@ -135,8 +135,8 @@ namespace Collektive.Headless
                 {
                     if (!frame.Has(slot)) continue;
                     var step = values[slot] - last[slot];
-                    var surprise = step - motion[slot];
-                    WriteSigned(surprise);
+                    var residual = step - motion[slot];
+                    WriteSigned(residual);
                     last[slot] = values[slot];
                     if (seen[slot]) motion[slot] = step;
                 }

@@ -13,8 +13,8 @@ namespace Collektive.Headless
     /// Writes a run as a replay page; the format is in FORMAT.md. For each frame: <see cref="BeginFrame"/>, each node, then each
     /// link between those nodes, <see cref="EndFrame"/>; at the end <see cref="Finish"/>. Every <see cref="FramesPerSegment"/> frames go to a
     /// scratch file, and slots of nodes that left go to others: memory grows by eight bytes a frame, and between two of those moments a frame
-    /// allocates nothing once the greatest numbers of nodes and links were seen. One thread at a time. After an exception the
-    /// recording is of no further use: dispose the writer.
+    /// allocates nothing once the greatest numbers of nodes and links were seen. One thread at a time. After an exception, dispose
+    /// the writer; the recording is unusable.
     /// </summary>
     public sealed class ReplayWriter : IDisposable
     {
@@ -65,7 +65,7 @@ namespace Collektive.Headless
         {
             this.metadata = metadata.ToJson();
             fields = new List<ReplayField>(metadata.Fields).ToArray();
-            if (fields.Length == 0) throw new ArgumentException("The replay's metadata names no field: give at least one.", nameof(metadata));
+            if (fields.Length == 0) throw new ArgumentException("The replay's metadata has no fields: add at least one.", nameof(metadata));
             metrics = metadata.Metrics;
             movers = metadata.Movers;
             segment = new ReplaySegment(fields);
@@ -85,7 +85,7 @@ namespace Collektive.Headless
         /// </param>
         public void BeginFrame(double time, int links = 0)
         {
-            if (inFrame || finished) throw Order(nameof(BeginFrame), inFrame ? "the frame before is not ended" : "the replay is finished");
+            if (inFrame || finished) throw Order(nameof(BeginFrame), inFrame ? "the previous frame has not ended" : "the replay is finished");
             var last = Frames == 0 ? double.NegativeInfinity : times[Frames - 1];
             if (!(time > last) || double.IsInfinity(time))
                 throw new ArgumentException("Frame " + Number(Frames) + " of the replay has time " + Number(time) + ": it must be finite and later than "
@@ -112,7 +112,7 @@ namespace Collektive.Headless
                     + Number(Frames - 1) + " of the replay: positions must be finite.");
             if (!slotOfId.TryGetValue(id, out var slot)) slot = NewSlot(id);
             else if (frame.Has(slot))
-                throw new ArgumentException("Node " + Number(id) + " is given twice in frame " + Number(Frames - 1) + " of the replay: give each node once.");
+                throw new ArgumentException("Node " + Number(id) + " occurs twice in frame " + Number(Frames - 1) + " of the replay: add each node once.");
             frame.Set(slot, Steps(x), Steps(y), Steps(z));
             arena.Include(x, y, z);
             slotOfLast = slot;
@@ -127,7 +127,7 @@ namespace Collektive.Headless
             var problem = fields[field].Refuse(value);
             if (problem != null)
                 throw new ArgumentException("Node " + Number(ids[slotOfLast]) + " has " + problem + " in frame " + Number(Frames - 1)
-                    + " of the replay: give another value, or NaN for none.");
+                    + " of the replay: use another value, or NaN for no value.");
             frame.SetValue(field, slotOfLast, value);
             fields[field].Include(value);
         }
@@ -143,7 +143,7 @@ namespace Collektive.Headless
             int sender = PresentSlot(from, from, to), receiver = PresentSlot(to, from, to);
             if (sender == receiver)
                 throw new ArgumentException("Node " + Number(from) + " is linked to itself in frame " + Number(Frames - 1)
-                    + " of the replay: leave that link out.");
+                    + " of the replay: omit that link.");
             frame.Link(sender, receiver, isMutual);
         }
 
@@ -163,7 +163,7 @@ namespace Collektive.Headless
         /// <exception cref="InvalidDataException">The file is not a template. No file is written.</exception>
         public void Finish(string templatePath, string outputHtmlPath)
         {
-            if (inFrame || finished) throw Order(nameof(Finish), inFrame ? "the last frame is not ended" : "the replay is finished");
+            if (inFrame || finished) throw Order(nameof(Finish), inFrame ? "the last frame has not ended" : "the replay is finished");
             if (Frames == 0) throw Order(nameof(Finish), "the replay has no frames");
             var template = File.ReadAllText(templatePath);
             var start = template.IndexOf(Placeholder, StringComparison.Ordinal);
@@ -216,7 +216,7 @@ namespace Collektive.Headless
         {
             var slot = free.Count == 0 ? ids.Count : free[free.Count - 1];
             if (slot == MaxSlots)
-                throw new InvalidOperationException("The replay has " + Number(MaxSlots) + " nodes in a segment, the most that it can hold.");
+                throw new InvalidOperationException("The replay has " + Number(MaxSlots) + " nodes in a segment, which is the maximum: use fewer nodes.");
             known.Add(id);
             slotOfId.Add(id, slot);
             if (slot == ids.Count)
@@ -234,7 +234,7 @@ namespace Collektive.Headless
         {
             if (slotOfId.TryGetValue(id, out var slot) && frame.Has(slot)) return slot;
             throw new ArgumentException("Link " + Number(from) + " - " + Number(to) + ": node " + Number(id) + " is not in frame " + Number(Frames - 1)
-                + " of the replay. Give a frame's nodes before its links.");
+                + " of the replay: add the nodes of a frame before its links.");
         }
 
         private int Steps(float metres)

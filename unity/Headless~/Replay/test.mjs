@@ -114,7 +114,7 @@ async function resize(tab, size) {
   }, size, { timeout: 5000 });
 }
 
-/** What axe-core complains about: the rules of WCAG 2.2 A and AA, and its best practices. */
+/** Violations that axe-core finds: the rules of WCAG 2.2 A and AA, and its best practices. */
 async function inaccessible(tab) {
   await tab.evaluate(axe);
   const { violations } = await tab.evaluate(() => window.axe.run());
@@ -333,7 +333,7 @@ await suite('replay page', async (page) => {
     await Promise.all([browser.close(), blind.close()]);
     rmSync(folder, { recursive: true });
   });
-  // What is compared with numbers needs no large picture.
+  // Comparisons with numbers need no large picture.
   const { tab, complaints, close } = await open(file, expected ? { viewport: { width: 480, height: 270 } } : {});
   try {
     const loaded = await tab.evaluate(() => window.replay.ready.then(() => performance.now()));
@@ -704,7 +704,7 @@ await suite('replay page', async (page) => {
       });
     }
 
-    await test('the picture on show can be saved', async () => {
+    await test('the current view can be saved as a picture', async () => {
       const { name, bytes } = await download(tab, '#picture');
       assert.match(name, /-seed\d+-[\d.]+s\.png$/);
       assert.deepEqual([bytes.readUInt32BE(0), bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [0x89504e47, 800, 500]);
@@ -772,7 +772,7 @@ await suite('replay page', async (page) => {
     await test('the dark scheme looks different', async () => {
       const light = await canvas(tab);
       await tab.emulateMedia({ colorScheme: 'dark' });
-      await tab.waitForTimeout(500); // the page hears of it with its next frame
+      await tab.waitForTimeout(500); // the page receives it with its next frame
       const dark = await canvas(tab);
       await tab.emulateMedia({ colorScheme: 'light' });
       assert.ok(light !== dark, 'the picture stays the same');
@@ -786,15 +786,15 @@ await suite('replay page', async (page) => {
   }
 
   await test('data cut short gives a clear message', () =>
-    expectMessage(withData('short', (data) => data.slice(0, data.length >> 1)), /damaged or cut short/));
+    expectMessage(withData('short', (data) => data.slice(0, data.length >> 1)), /damaged or truncated/));
   for (const [part, from, to] of [['header', 0, 0.01], ['recording', 0.4, 0.6]]) {
     await test(`a wrong letter in the ${part} gives a clear message`, () => expectMessage(withData(part, (data) => {
       const at = data.indexOf('A', from * data.length);
       assert.ok(at >= 0 && at < to * data.length, 'A is missing');
       return `${data.slice(0, at)}B${data.slice(at + 1)}`;
-    }), /damaged or cut short/));
+    }), /damaged or truncated/));
   }
-  await test('invalid data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or cut short/));
-  await test('the empty template gives a clear message', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /holds no run/));
+  await test('invalid data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or truncated/));
+  await test('the empty template gives a clear message', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /does not contain a run/));
   await test('without WebGL there is a clear message', () => expectMessage(file, /3D graphics/, { in: blind }));
 });

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 using System.Reflection;
 using UnityEngine;
 
-/// Prints what Unity would serialise of the components and assets of some assemblies, for the validator: one line for each class,
+/// Prints the fields that Unity serialises of the components and assets in assemblies, for the validator: one line for each class,
 /// "class FULL.NAME KIND", followed by "  PATH KIND" for its fields, those of nested classes as "outer.inner".
 /// Usage: Collektive.SerializedFields.exe ASSEMBLY...
 static class Program

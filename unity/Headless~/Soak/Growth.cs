@@ -8,7 +8,7 @@ namespace Collektive.Headless.Soak
     /// <summary>Samples of a run: none of the measures may be higher in the last third of them than in the first, by more than it is allowed.</summary>
     internal sealed class Growth
     {
-        /// <summary>What is measured, and what it may grow by: the noise of collectors and compilers.</summary>
+        /// <summary>Measures and their allowed growth, which is the noise of collectors and compilers.</summary>
         internal static readonly (string Name, double Allowed)[] Measures =
         {
             ("managed heap, KB", 1024), ("RSS, KB", 16384), ("JVM heap, KB", 2048), ("metaspace, KB", 1024), ("classes", 100), ("threads", 1),
@@ -23,7 +23,7 @@ namespace Collektive.Headless.Soak
         /// <returns>Whether nothing has grown.</returns>
         internal bool Report(string file)
         {
-            if (samples.Count < 3) throw new InvalidOperationException("too short: there are " + samples.Count + " samples, and three are needed");
+            if (samples.Count < 3) throw new InvalidOperationException("too short: " + samples.Count + " samples instead of at least 3; use more seconds");
             var results = new XElement("testsuite", new XAttribute("name", "soak"));
             var isFlat = true;
             Console.WriteLine(Row("measure", "settled", "end", "growth", "allowed"));

@@ -40,7 +40,7 @@ namespace Collektive.Headless.Soak
             return failed ? 1 : 0;
         }
 
-        /// <summary>What is measured counts from the second minute on, or in a short run from its second third.</summary>
+        /// <summary>Measurements count from the second minute on, or in a short run from its second third.</summary>
         private static void Play(Churn scene, Growth growth, double seconds)
         {
             var settled = Math.Min(60, seconds / 3);

@@ -6,7 +6,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Headless.Soak
 {
-    /// <summary>What the process has at one moment, in the order of <see cref="Growth.Measures"/>; memory in kilobytes, after collections.</summary>
+    /// <summary>The resources of the process at one moment, in the order of <see cref="Growth.Measures"/>; memory in kilobytes, after collections.</summary>
     internal static class Sample
     {
         private const double Kibi = 1024;

@@ -11,10 +11,10 @@ using UnityEngine.TestTools;
 
 /// Runs the NUnit tests of an assembly one after another on the calling thread, as Unity does, and ends with "N passed, N failed".
 /// Usage: Collektive.TestRunner.exe [--results FILE] [--only CATEGORY] [--without CATEGORY]... ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed
-/// or none ran; tests of a category that are left out are counted. FILE gets the results as JUnit XML at the end; a run that does not come to its
-/// end leaves none.
-/// An attribute of NUnit's that this runner does not know is a failure: its test might not be run as it asks.
-/// Tests of an assembly that uses Unity's test framework get what it gives them: log assertions, coroutines, and, unless it uses the
+/// or none ran; tests of a category that are left out are counted. FILE gets the results as JUnit XML at the end; an interrupted run
+/// writes no file.
+/// Unsupported NUnit attributes are failures, because the test might run differently.
+/// Assemblies that use Unity's test framework get its features: log assertions, coroutines, and, unless it uses the
 /// editor, play mode.
 static class Program
 {

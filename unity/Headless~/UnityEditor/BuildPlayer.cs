@@ -54,7 +54,7 @@ namespace UnityEditor.Build
             if (File.Exists(directoryOrFile))
             {
                 var target = Path.Combine(streamingAssets, pathInStreamingAssets ?? Path.GetFileName(directoryOrFile));
-                if (File.Exists(target)) throw new ArgumentException("there is one of this name already: " + target);
+                if (File.Exists(target)) throw new ArgumentException("a file of this name already exists: " + target);
                 Directory.CreateDirectory(Path.GetDirectoryName(target));
                 File.Copy(directoryOrFile, target);
                 return;

@@ -105,7 +105,7 @@ namespace Collektive.Samples.Channel
             failing.Clear();
             foreach (var node in manager.Nodes)
             {
-                // The end of a wall that the channel goes around is on the ends' side.
+                // The channel goes around the end of the wall that is nearer to source and target.
                 var place = node.transform.position;
                 if (place.z < -WallLength / 2 && DistanceToWall(place) < range) failing.Add(node);
             }

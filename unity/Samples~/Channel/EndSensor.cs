@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Channel
 {
-    /// <summary>Knows whether the channel begins or ends at the node.</summary>
+    /// <summary>Writes whether the channel begins or ends at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/End Sensor")]
     public sealed class EndSensor : Sensor<SensorData>
     {

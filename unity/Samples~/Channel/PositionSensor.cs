@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Channel
 {
-    /// <summary>Perceives where the node is.</summary>
+    /// <summary>Measures the node's position.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/Position Sensor")]
     public sealed class PositionSensor : PositionSensor<SensorData>
     {

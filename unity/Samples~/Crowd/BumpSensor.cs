@@ -5,11 +5,11 @@ using UnityEngine;
 
 namespace Collektive.Samples.Crowd
 {
-    /// <summary>Counts bumps into other walkers; the program does not hear of them.</summary>
+    /// <summary>Counts collisions with other walkers. The program does not receive them.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Bump Sensor")]
     public sealed class BumpSensor : ContactSensor<SensorData>
     {
-        /// <summary>In how many rounds the walker touched another one.</summary>
+        /// <summary>Number of rounds with a collision.</summary>
         public int Rounds { get; private set; }
 
         /// <inheritdoc/>

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace Collektive.Samples.Crowd
 {
     /// <summary>
-    /// Two crowds walk towards each other through a street of 80 x 20 m with pillars in the middle, the first of each to the far end of the other
-    /// side. They hear each other within 5 m.
+    /// Two crowds walk towards each other through a street of 80 x 20 m with pillars in the middle, each to the far end.
+    /// Walkers within 5 m exchange messages.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Crowd Scene")]
     public sealed class CrowdScene : SceneBuilder
@@ -49,8 +49,8 @@ namespace Collektive.Samples.Crowd
         };
 
         /// <summary>
-        /// Walkers at their goals; rounds in which a walker touched another since the beginning, over all walkers; walkers that hear a warning;
-        /// and the greatest density around a walker per square metre.
+        /// Writes the number of walkers at their goals, of rounds with a collision, and of warned walkers, and the greatest density in walkers per square
+        /// metre.
         /// </summary>
         public override void Measure(double[] values)
         {

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Crowd
 {
-    /// <summary>Knows where the walker wants to go.</summary>
+    /// <summary>Writes the walker's goal to the sensor data.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Goal Sensor")]
     public sealed class GoalSensor : Sensor<SensorData>
     {
@@ -12,7 +12,7 @@ namespace Collektive.Samples.Crowd
         [Tooltip("Goal of the walker.")]
         private Vector3 goal;
 
-        /// <summary>Where the walker wants to go.</summary>
+        /// <summary>Goal of the walker.</summary>
         public Vector3 Goal
         {
             get => goal;

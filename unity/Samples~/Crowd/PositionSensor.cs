@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Crowd
 {
-    /// <summary>Perceives where the walker is.</summary>
+    /// <summary>Measures the walker's position.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Position Sensor")]
     public sealed class PositionSensor : PositionSensor<SensorData>
     {

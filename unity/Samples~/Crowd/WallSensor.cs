@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Crowd
 {
-    /// <summary>Perceives walls and pillars; other walkers are on another layer, and are heard of.</summary>
+    /// <summary>Detects walls and pillars. Walkers are on another layer and are known from their messages.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Wall Sensor")]
     public sealed class WallSensor : ObstacleSensor<SensorData>
     {

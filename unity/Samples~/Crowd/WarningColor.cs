@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Crowd
 {
-    /// <summary>Colours walkers by the density around them, and those who heard a warning red.</summary>
+    /// <summary>Colours walkers by the density around them, and warned walkers red.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Warning Color")]
     public sealed class WarningColor : ColorActuator<ActuatorData>
     {

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.GradientAscent
 {
-    /// <summary>Perceives the intensity of a source at the node.</summary>
+    /// <summary>Measures the intensity of a source at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Intensity Sensor")]
     public sealed class IntensitySensor : IntensitySensor<SensorData>
     {

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.GradientAscent
 {
-    /// <summary>Perceives colliders around the node, obstacles and other bodies alike.</summary>
+    /// <summary>Detects colliders around the node, both obstacles and other bodies.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Obstacle Sensor")]
     public sealed class ObstacleSensor : ObstacleSensor<SensorData>
     {

@@ -48,8 +48,7 @@ namespace Collektive.Samples.LeaderElection
         };
 
         /// <summary>
-        /// Nodes whose leader is there, leads itself and is near enough; how many leaders they have; and the greatest distance of one from its
-        /// leader in metres.
+        /// Writes the number of nodes with a valid leader, of their leaders, and the greatest distance to a leader in metres.
         /// </summary>
         public override void Measure(double[] values)
         {

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Rescue
 {
-    /// <summary>Perceives the first casualty that is near and in sight, and knows whether this is the base.</summary>
+    /// <summary>Detects the first casualty that is near and visible, and writes whether the node is the base.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Casualty Sensor")]
     public sealed class CasualtySensor : Sensor<SensorData>
     {

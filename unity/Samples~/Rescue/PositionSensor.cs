@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Samples.Rescue
 {
-    /// <summary>Perceives where the robot is.</summary>
+    /// <summary>Measures the robot's position.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Position Sensor")]
     public sealed class PositionSensor : PositionSensor<SensorData>
     {

@@ -78,8 +78,8 @@ namespace Collektive.Samples.Rescue
         }
 
         /// <summary>
-        /// Casualties with whom a robot stays; those of them that links between robots of channels join with the base; how many robots the channels
-        /// have; how many robots there are; and the share of the ground, in squares of 2 m, where a robot has been.
+        /// Writes the number of casualties with a robot, of casualties connected to the base, of robots in channels and of robots, and the explored share
+        /// of the ground.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -189,9 +189,9 @@ namespace Collektive.Samples.Rescue
             radio.Blocking = false;
             robot.AddComponent<PositionSensor>();
             robot.AddComponent<BarrierSensor>().Reach = 1.5f;
-            var eye = robot.AddComponent<CasualtySensor>();
-            eye.Casualties = Casualties;
-            eye.IsBase = isBase;
+            var sensor = robot.AddComponent<CasualtySensor>();
+            sensor.Casualties = Casualties;
+            sensor.IsBase = isBase;
             robot.AddComponent<DriveActuator>().KeepVertical = true;
             robot.AddComponent<RoleColor>();
             robot.SetActive(true);

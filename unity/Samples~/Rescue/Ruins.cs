@@ -7,7 +7,7 @@ namespace Collektive.Samples.Rescue
     /// <summary>The ground and what stands on it, 80 x 50 m: two buildings with rooms and doors, rubble, a dam with slopes, vehicles.</summary>
     internal static class Ruins
     {
-        /// <summary>What robots neither perceive nor lose radio by: the ground.</summary>
+        /// <summary>Layer of the ground, which sensors and radio ignore.</summary>
         internal const int GroundLayer = 2;
 
         private const float Height = 2.5f;
@@ -68,7 +68,7 @@ namespace Collektive.Samples.Rescue
                 Box("Wall", new Vector3(x, Height / 2, (start + end) / 2), new Vector3(Thickness, Height, end - start + Thickness));
         }
 
-        /// <summary>What of a wall is left by doors, given by their middles from one end to the other.</summary>
+        /// <summary>Yields the parts of a wall between doors, whose centres are in ascending order.</summary>
         private static IEnumerable<(float Start, float End)> Pieces(float from, float to, float[] doors)
         {
             foreach (var door in doors)

@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    /// <summary>A change of what users can use is made on purpose, or not at all.</summary>
+    /// <summary>Compares the public API with the checked-in list.</summary>
     public sealed class PublicApiTests
     {
         private const string Update = "COLLEKTIVE_API_UPDATE";

@@ -5,7 +5,7 @@
  * physics_step applies it, moves the world and returns arrays of what moved and what touched. The steady state needs no calls per body.
  *
  * Units are metres, seconds, kilograms and radians; quaternions are x, y, z, w.
- * Threads: one thread at a time calls into a world, the one that made it as a rule. physics_step and queries of several rays use worker
+ * Threads: one thread at a time may call into a world. physics_step and queries of several rays use worker
  * threads of the world's own inside the call, queries of several spheres between two calls.
  * Determinism: the same calls give the same bits, for any number of threads, on every start of the same build.
  * Ownership: the caller owns what it passes in; what physics_step returns belongs to the world and is valid until the next step.
@@ -229,7 +229,7 @@ PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *co
                                  const physics_vector *gravity, int32_t number, physics_motion *motions, physics_result *result);
 
 /* ---- Queries ----
- * They see shapes where the last step or POSE command put them. `layers` is a mask; triggers are seen only when asked for. */
+ * They see shapes where the last step or POSE command put them. `layers` is a mask; triggers are seen only on request. */
 
 typedef struct {
     uint32_t layers;

@@ -12,7 +12,7 @@ const PxForceMode::Enum FORCE_MODES[] = {PxForceMode::eFORCE, PxForceMode::eIMPU
                                          PxForceMode::eACCELERATION};
 
 // A pair costs about half a kilobyte.
-const uint64_t MOST_PAIRS = 4000000;
+const uint64_t MAX_PAIRS = 4000000;
 const size_t FEW_PLACED = 512;
 // In a large scene each body is far away in memory. So many bodies later, what was prefetched is there.
 const int AHEAD = 8;
@@ -179,8 +179,8 @@ bool physics_world::crowded() {
     uint64_t pairs = 0, looked = 0;
     for (size_t index = 0; index < boxes.size(); index++)
         for (size_t next = index + 1; next < boxes.size() && boxes[next].bounds.minimum.x <= boxes[index].bounds.maximum.x; next++) {
-            if (++looked > 400 * MOST_PAIRS) return false; // long in x, but not known to be one heap
-            if ((boxes[index].moves || boxes[next].moves) && boxes[index].bounds.intersects(boxes[next].bounds) && ++pairs > MOST_PAIRS)
+            if (++looked > 400 * MAX_PAIRS) return false; // long in x, but not known to be one heap
+            if ((boxes[index].moves || boxes[next].moves) && boxes[index].bounds.intersects(boxes[next].bounds) && ++pairs > MAX_PAIRS)
                 return true;
         }
     return false;
@@ -341,7 +341,7 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
             if (actor.mass_stale) world->refresh_mass(actor);
     world->masses_stale = false;
     if (world->placed > FEW_PLACED && world->crowded()) {
-        fail("More than " + std::to_string(MOST_PAIRS) +
+        fail("More than " + std::to_string(MAX_PAIRS) +
              " pairs of colliders overlap in one place: physics does not step. Spread the objects out.");
         return 0;
     }

@@ -1,11 +1,11 @@
-// Pictures and videos of what is on show: the canvas, with the words of the panels painted on it.
+// Exports pictures and videos of the current view, with the panels' text painted on the canvas.
 import { css, NO_VALUE } from './colours.js';
 
 const FRAMES_PER_SECOND = 30;
 const FORMATS = [['video/webm;codecs=vp9', 'webm'], ['video/webm;codecs=vp8', 'webm'], ['video/webm', 'webm'], ['video/mp4', 'mp4']];
 const element = (id) => document.getElementById(id);
 
-/** Paints the picture on show to another canvas of the same size. */
+/** Paints the current view to another canvas of the same size. */
 export function compose(target, legend) {
   const scale = scaleOf(element('canvas'));
   target.width = Math.round(window.innerWidth * scale);
@@ -130,7 +130,7 @@ export class Video {
     this.recorder.start();
   }
 
-  /** Adds the picture on show. */
+  /** Adds the current view. */
   frame() {
     // A canvas of another size would end the recording.
     const width = Math.round(window.innerWidth * scaleOf(element('canvas')));

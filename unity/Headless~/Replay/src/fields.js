@@ -1,4 +1,4 @@
-// What can colour the nodes: the recorded fields, and those that follow from places and links.
+// Fields that can colour nodes: the recorded ones, and those derived from positions and links.
 
 const SAME_TIME = 1e-6; // seconds: 0.3 is the time of the frame at 0.30000000000000004
 

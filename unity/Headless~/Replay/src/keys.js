@@ -1,4 +1,4 @@
-// What the keys do; page.html lists them.
+// Keyboard shortcuts; page.html lists them.
 
 const TURN = 0.08;
 

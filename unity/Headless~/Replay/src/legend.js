@@ -2,7 +2,7 @@
 import { colouring, css, gradientOf, NO_VALUE, palettesOf } from './colours.js';
 import { extent, nameOf, short, textOf } from './fields.js';
 
-const MOST_CATEGORIES = 8;
+const MAX_CATEGORIES = 8;
 const BARS = 24;
 const element = (id) => document.getElementById(id);
 
@@ -140,9 +140,9 @@ export class Legend {
     const counts = new Map();
     for (const slot of frame.slots) if (!Number.isNaN(values[slot])) counts.set(values[slot], (counts.get(values[slot]) ?? 0) + 1);
     const all = [...counts].sort(([a, n], [b, m]) => m - n || a - b);
-    const rest = all.slice(MOST_CATEGORIES);
+    const rest = all.slice(MAX_CATEGORIES);
     this.others = rest.length ? `and ${rest.length.toLocaleString('en')} more` : '';
-    return all.slice(0, MOST_CATEGORIES).map(([value, count]) => ({
+    return all.slice(0, MAX_CATEGORIES).map(([value, count]) => ({
       colour: this.of(value), text: `${textOf(this.field, value)} · ${count.toLocaleString('en')} node${count === 1 ? '' : 's'}`,
     }));
   }

@@ -9,7 +9,7 @@ import { Run } from './run.js';
 import { neighboursOf } from './swarm.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
-const MOST_LISTED = 60; // neighbours with a button
+const MAX_LISTED = 60; // neighbours with a button
 const READABLE_PIXELS = 4; // a node's radius at first sight, in pixels, at least
 const element = (id) => document.getElementById(id);
 
@@ -161,16 +161,16 @@ class Player {
       part('dt', field.name), part('dd', this.runs.map((run) => run.textAt(field, this.selected)).join(' | ')),
     ]));
     const neighbours = here ? neighboursOf(frame, selected).sort((a, b) => frame.ids[a.slot] - frame.ids[b.slot]) : [];
-    const some = frame.linksInAll > frame.links ? ' by the links shown' : '';
+    const some = frame.linksInAll > frame.links ? ' (of the links shown)' : '';
     element('selected-neighbours').textContent = here ? plural(neighbours.length, 'neighbour') + some : '';
-    element('neighbour-list').replaceChildren(...neighbours.slice(0, MOST_LISTED).map(({ slot, way }) => {
+    element('neighbour-list').replaceChildren(...neighbours.slice(0, MAX_LISTED).map(({ slot, way }) => {
       const id = frame.ids[slot];
       const button = part('button', ['to ', 'from ', ''][way - 1] + id);
       button.title = `Node ${id} ${['receives from this node', 'sends to this node', 'sends and receives'][way - 1]}`;
       button.setAttribute('aria-label', `${button.textContent}: select node ${id}`);
       button.addEventListener('click', () => this.selectId(id));
       return button;
-    }), ...(neighbours.length > MOST_LISTED ? [part('span', `and ${neighbours.length - MOST_LISTED} more`)] : []));
+    }), ...(neighbours.length > MAX_LISTED ? [part('span', `and ${neighbours.length - MAX_LISTED} more`)] : []));
   }
 
   tick(now) {
@@ -211,7 +211,7 @@ class Player {
   }
 
   setSpeed(speed) {
-    if (!SPEEDS.includes(speed)) throw new RangeError(`speed ${speed}: one of ${SPEEDS.join(', ')}`);
+    if (!SPEEDS.includes(speed)) throw new RangeError(`unknown speed ${speed}; use one of ${SPEEDS.join(', ')}`);
     this.speed = speed;
     element('speed').value = String(speed);
   }
@@ -316,7 +316,7 @@ class Player {
     this.resize();
   }
 
-  /** The picture on show as a file. */
+  /** Returns the current view as a file. */
   async savePicture() {
     this.view.draw();
     const canvas = compose(document.createElement('canvas'), this.legend);
@@ -478,7 +478,7 @@ async function start() {
   holder.remove(); // the page needs its text no more
   const probe = document.createElement('canvas');
   if (!probe.getContext('webgl2')) {
-    throw new Error('This browser shows no 3D graphics (WebGL 2). Switch on hardware acceleration in its settings, or open the page in another browser.');
+    throw new Error('This browser cannot show 3D graphics (WebGL 2). Enable hardware acceleration in its settings, or open the page in another browser.');
   }
   return new Player(recording);
 }

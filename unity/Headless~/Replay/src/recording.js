@@ -11,7 +11,7 @@ export const TEXELS = 1024; // nodes in a row of a frame's texture
 export class ReplayError extends Error {}
 
 export async function open(text) {
-  if (text.startsWith('@@')) throw new ReplayError('This is the empty page template: it holds no run yet.');
+  if (text.startsWith('@@')) throw new ReplayError('This is the empty page template; it does not contain a run. Open the replay.html of a run.');
   if (typeof DecompressionStream === 'undefined') {
     throw new ReplayError('This browser is too old for the page (it has no DecompressionStream). Any current Chrome, Edge, Firefox or Safari opens it.');
   }
@@ -19,7 +19,8 @@ export async function open(text) {
   return orDamaged(async () => {
     const header = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(await unpack(end < 0 ? text : text.slice(0, end))));
     if (header.version !== VERSION) {
-      throw new ReplayError(`The recording has version ${header.version}, this page reads version ${VERSION}: build page and recording from one release.`);
+      throw new ReplayError(`The recording has version ${header.version}, this page reads version ${VERSION}: run the simulation again with the release `
+        + 'of this page.');
     }
     if (text.length - end !== header.length) throw new Error('a wrong length');
     return new Recording(header, text.slice(end + 1).split('\n'));
@@ -31,7 +32,7 @@ async function orDamaged(read) {
     return await read();
   } catch (error) {
     if (error instanceof ReplayError) throw error;
-    throw new ReplayError(`The data of this page is damaged or cut short (${error.message}). Copy the file again, or run the simulation again.`);
+    throw new ReplayError(`The data of this page is damaged or truncated (${error.message}). Copy the file again, or run the simulation again.`);
   }
 }
 

@@ -9,7 +9,7 @@ export class Run {
     this.fields = fieldsOf(recording);
     this.view = new View(holder, recording);
     this.here = null; // the frame on show
-    this.trails = null; // what they show
+    this.trails = null; // the nodes and frames that they show
   }
 
   get lastTime() {
@@ -32,7 +32,7 @@ export class Run {
     const here = recording.frame(frame);
     const next = recording.frame(Math.min(frame + 1, last));
     if (!here || !next) return false;
-    // What plays on finds its frames there.
+    // Preloads the next frames for playback.
     if (this.here !== here) for (const near of [frame, frame + 1, frame + recording.framesPerSegment]) recording.load(Math.min(near, last)).catch(() => {});
     this.here = here;
     const share = here === next ? 0 : Math.max((time - times[frame]) / (times[frame + 1] - times[frame]), 0);

@@ -53,7 +53,7 @@ export class Swarm {
     for (const material of [body, materials.outline, materials.halo]) this.placeNodes(material);
     for (const material of [materials.link, materials.accentLine]) this.placeLines(material);
     const slotsShown = new InstancedBufferAttribute(new Float32Array(Math.max(slots, 1)), 1).setUsage(DynamicDrawUsage);
-    const shape = this.detailed ? new SphereGeometry(1, 20, 12) : dome();
+    const shape = this.detailed ? new SphereGeometry(1, 20, 12) : hemisphere();
     this.nodes = new Mesh(instanced(shape, slotsShown), body);
     if (this.detailed) {
       this.nodes.castShadow = true;
@@ -192,7 +192,7 @@ export function neighboursOf({ pairs, ways }, slot) {
 }
 
 /** The half of a sphere that the eye sees. */
-function dome() {
+function hemisphere() {
   return new SphereGeometry(1, 12, 2, 0, 2 * Math.PI, 0, Math.PI / 2).rotateX(Math.PI / 2);
 }
 

@@ -1,8 +1,8 @@
-// Where nodes came from: lines through their places in the frames before, the older the fainter.
+// Trails of nodes: lines through their earlier positions, fading with age.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineSegments, Sphere } from 'three';
 
 const SECONDS = 3;
-const MOST_PIECES = 60000;
+const MAX_PIECES = 60000;
 
 export class Trails {
   constructor(material) {
@@ -14,7 +14,7 @@ export class Trails {
 
   /** Draws the trails of some slots up to a frame. Missing frames are requested; then `again` is called. */
   show(recording, frame, slots, again) {
-    const pieces = slots.length === 0 ? 0 : Math.floor(MOST_PIECES / slots.length);
+    const pieces = slots.length === 0 ? 0 : Math.floor(MAX_PIECES / slots.length);
     const first = Math.max(recording.frameAt(recording.times[frame.index] - SECONDS), frame.index - pieces, 0);
     const frames = [];
     for (let i = first; i <= frame.index; i++) frames.push(recording.frame(i));

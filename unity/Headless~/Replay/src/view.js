@@ -140,7 +140,7 @@ export class View {
     object.quaternion.set(-qx, -qy, qz, qw);
   }
 
-  /** Puts what moves where it is between two frames. */
+  /** Interpolates moving shapes between two frames. */
   move(here, next, share) {
     for (const { object, poses } of this.movers) {
       const [from, to] = [here, next].map((index) => poses.slice(7 * index, 7 * index + 7));
@@ -349,7 +349,7 @@ export class View {
     });
   }
 
-  /** Draws now, in place of the picture asked for. */
+  /** Draws now, instead of the requested picture. */
   draw() {
     cancelAnimationFrame(this.pending);
     this.pending = null;

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>The second thread that searches for neighbours: nobody sees which thread found them.</summary>
+    /// <summary>Searches of the second thread give the same results as those of the main thread.</summary>
     [TestFixture]
     public sealed class BackgroundSearchTests
     {
@@ -96,7 +96,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void A_failure_of_its_thread_is_told_to_the_main_thread_once()
+        public void A_failure_of_its_thread_is_reported_to_the_main_thread_once()
         {
             grid.Build(nodes, 3);
             using (var ahead = new BackgroundSearch(grid))

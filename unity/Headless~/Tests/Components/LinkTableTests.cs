@@ -15,7 +15,7 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(2)]
         [TestCase(3)]
         [TestCase(4)]
-        public void A_link_exists_while_somebody_holds_it_and_the_engine_learns_each_change_once(int seed)
+        public void A_link_exists_while_it_is_referenced_and_each_change_is_sent_once(int seed)
         {
             var random = new RandomStream((ulong)seed, 0, RandomPurpose.Scene);
             var table = new LinkTable();
@@ -34,7 +34,7 @@ namespace Collektive.Headless.Tests.Components
                     case 1:
                     case 2:
                     case 3:
-                        holds.Add((from, to, table.Hold(from, to, false, 1, 0)));
+                        holds.Add((from, to, table.AddReference(from, to, false, 1, 0)));
                         model[(from, to)] = model.TryGetValue((from, to), out var count) ? count + 1 : 1;
                         break;
                     case 4:
@@ -75,7 +75,7 @@ namespace Collektive.Headless.Tests.Components
         public void New_values_are_sent_once()
         {
             var table = new LinkTable();
-            var handle = table.Hold(0, 1, false, 10, 0);
+            var handle = table.AddReference(0, 1, false, 10, 0);
             var known = new[] { true, true };
             Assert.That(Sent(table, known), Is.EqualTo(1));
             Assert.That(Sent(table, known), Is.EqualTo(0));
@@ -94,7 +94,7 @@ namespace Collektive.Headless.Tests.Components
             var table = new LinkTable();
             for (var turn = 0; turn < 2; turn++)
             {
-                for (var i = 0; i < 1000; i++) table.HoldForScripts(i, i + 1, 1, 0);
+                for (var i = 0; i < 1000; i++) table.AddScriptReference(i, i + 1, 1, 0);
                 Assert.That(table.Count, Is.EqualTo(1000));
             }
             for (var i = 0; i < 1000; i++) Assert.That(table.ReleaseForScripts(i, i + 1), Is.True);

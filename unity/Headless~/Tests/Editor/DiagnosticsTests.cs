@@ -35,12 +35,12 @@ namespace Collektive.Headless.Tests.Editor
             MakeThree();
             var diagnostics = new Diagnostics(Manager);
             var rows = diagnostics.Nodes("");
-            Assert.That(rows.ConvertAll(row => (row.Node.Id, row.Program, row.Hears, row.Heard)),
+            Assert.That(rows.ConvertAll(row => (row.Node.Id, row.Program, row.SenderCount, row.ReceiverCount)),
                 Is.EqualTo(new[] { (0, "double", 1, 2), (1, "double", 1, 1), (2, "double", 1, 0) }));
             Assert.That(diagnostics.Nodes("2").Count, Is.EqualTo(1));
             Assert.That(diagnostics.Nodes("DOUB").Count, Is.EqualTo(3));
             Assert.That(diagnostics.Nodes("nothing"), Is.Empty);
-            Assert.That(diagnostics.Neighbours(0).ConvertAll(row => (row.Id, row.IsHeard)), Is.EqualTo(new[] { (1, true), (1, false), (2, false) }));
+            Assert.That(diagnostics.Neighbours(0).ConvertAll(row => (row.Id, row.IsSender)), Is.EqualTo(new[] { (1, true), (1, false), (2, false) }));
         }
 
         [Test]
@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests.Editor
             Play(1);
             var errors = new Diagnostics(Manager).Errors();
             Assert.That(errors.ConvertAll(each => (each.Source, each.Node, each.Count)),
-                Is.EqualTo(new[] { ("BrokenSensor", NodeErrors.Left, 4L), ("BrokenSensor", 1, 3L) }));
+                Is.EqualTo(new[] { ("BrokenSensor", NodeErrors.DepartedNodes, 4L), ("BrokenSensor", 1, 3L) }));
             Assert.That(Manager.ErrorCount, Is.EqualTo(7));
             nodes[0].Node.enabled = true;
             Play(1);
@@ -123,12 +123,12 @@ namespace Collektive.Headless.Tests.Editor
         {
             MakeThree();
             Draw();
-            var title = "1  Probe  (double)  hears 1, heard by 1";
+            var title = "1  Probe  (double)  receives from 1, sends to 1";
             Assert.That(Gui.Lines, Has.Some.EqualTo("foldout " + title + ": closed"));
             Gui.Act(title, true);
             Draw();
             Assert.That(Gui.Lines, Has.Some.EqualTo("label Value: 4"));
-            Assert.That(Gui.Lines, Has.Some.EqualTo("label hears 0: 1.00 m, attenuation 0"));
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label from 0: 1.00 m, attenuation 0"));
             Assert.That(Project.Pinged, Is.EqualTo(Manager.Nodes[1]));
         }
 
@@ -341,7 +341,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.Fail("there is no '" + awaited + "': " + string.Join("\n", Gui.Lines));
         }
 
-        /// <summary>0 and 1 hear each other, 2 hears 0; one tick is done.</summary>
+        /// <summary>0 and 1 exchange messages, 2 receives from 0; one tick is done.</summary>
         private List<ProbeNode> MakeThree()
         {
             var nodes = new List<ProbeNode> { MakeNode(1), MakeNode(2, Vector3.right), MakeNode(3, 2 * Vector3.right) };

@@ -10,7 +10,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>From wishes to the words of the JVM, and back from the JVM that runs.</summary>
+    /// <summary>Settings become JVM options, and the running JVM reports its values.</summary>
     [TestFixture]
     public sealed class JvmSettingsTests
     {
@@ -198,7 +198,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void Beside_each_wish_stands_what_is_in_effect()
+        public void Each_setting_shows_its_value_in_effect()
         {
             var report = JvmReport.Of(TestJvm.Settings, TestJvm.Launch);
             Assert.That(report.IsGood, Is.True);

@@ -64,7 +64,7 @@ namespace Collektive.Headless.Tests
         {
             Assert.That(output, Is.StringStarting("exceptions 0, errors 1, manager off\n"));
             foreach (var part in parts) Assert.That(output, Is.StringContaining(part));
-            Assert.That(output, Is.StringContaining("Limits in its documentation"));
+            Assert.That(output, Is.StringContaining("see Limits in the documentation"));
         }
 
         private string Play(string where) => Play(where, Assemblies);

@@ -66,7 +66,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("outputs", "{\"nodes\": [\"position\"]}", "'outputs.nodes' is [\"position\"], it must be of type object; its keys are: fields, interval")]
         [TestCase("threads", "2.5", "'threads' is 2.5, it must be of type whole number")]
         [TestCase("stopAfter", "1", "unknown key 'stopAfter'; known here: version, scene")]
-        public void What_is_wrong_is_named_with_its_place(string key, string value, string message)
+        public void Errors_name_their_position(string key, string value, string message)
         {
             var root = Minimal();
             root[key] = JToken.Parse(value);
@@ -76,13 +76,13 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("parameters", "{\"p\": 3}", "'parameters.p' is 3, it must be of type object")]
         [TestCase("parameters", "{\"p\": {\"width\": [1]}}", "'parameters.p.width' is [1], it must be of type string")]
         [TestCase("converged", "{\"error\": {\"seconds\": 1}}", "'converged.error' needs 'from', 'to' or both")]
-        [TestCase("converged", "{\"error\": {\"from\": 2, \"to\": 1}}", "'converged.error' has a 'from' that is above its 'to'")]
+        [TestCase("converged", "{\"error\": {\"from\": 2, \"to\": 1}}", "'converged.error': 'from' is greater than 'to'")]
         [TestCase("stopWhenConverged", "true", "'stopWhenConverged' needs 'converged'")]
-        [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be a number of seconds that is not below 'deltaTime'")]
+        [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be a number of seconds that is at least 'deltaTime'")]
         [TestCase("outputs", "{\"interval\": 1e9}", "'outputs.interval' is 1E+09: it must be a number of seconds that is at most 1E+08")]
         [TestCase("outputs", "{\"nodes\": {\"field\": []}}", "unknown key 'outputs.nodes.field'; known here: fields, interval")]
-        public void So_is_what_is_wrong_with_the_keys_of_experiments(string key, string value, string message) =>
-            What_is_wrong_is_named_with_its_place(key, value, message);
+        public void Errors_in_keys_of_experiments_have_their_line(string key, string value, string message) =>
+            Errors_name_their_position(key, value, message);
 
         [Test]
         public void Each_key_can_be_set_from_outside()

@@ -482,11 +482,11 @@ namespace Collektive.Headless.Tests
         {
             AssertRefused<ArgumentException>("Node 5 is at (NaN, 0, 0) in frame 0", w => w.Node(5, float.NaN, 0, 0, 0));
             AssertRefused<ArgumentException>("Node 5 has an infinite value in frame 0", w => w.Node(5, 0, 0, 0, float.PositiveInfinity));
-            AssertRefused<ArgumentException>("Node 1 is given twice in frame 0", w => w.Node(1, 0, 0, 0, 0));
+            AssertRefused<ArgumentException>("Node 1 occurs twice in frame 0", w => w.Node(1, 0, 0, 0, 0));
             AssertRefused<ArgumentException>("Link 1 - 8: node 8 is not in frame 0", w => w.Link(1, 8));
             AssertRefused<ArgumentException>("Node 1 is linked to itself", w => w.Link(1, 1));
-            AssertRefused<InvalidOperationException>("BeginFrame: the frame before is not ended", w => w.BeginFrame(1));
-            AssertRefused<InvalidOperationException>("Finish: the last frame is not ended", w => w.Finish(template, page));
+            AssertRefused<InvalidOperationException>("BeginFrame: the previous frame has not ended", w => w.BeginFrame(1));
+            AssertRefused<InvalidOperationException>("Finish: the last frame has not ended", w => w.Finish(template, page));
             AssertRefused<InvalidOperationException>("EndFrame: no frame has begun", w => { w.EndFrame(); w.EndFrame(); });
             AssertRefused<InvalidOperationException>("Node: no frame has begun", w => { w.EndFrame(); w.Node(2, 0, 0, 0, 0); });
             AssertRefused<InvalidOperationException>("Link: no frame has begun", w => { w.EndFrame(); w.Link(1, 2); });

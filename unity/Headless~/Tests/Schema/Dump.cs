@@ -9,7 +9,7 @@ using Google.FlatBuffers;
 namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
-    /// One text for the same data, whoever holds it: drafts, mirrors, flatc's readers, and flatc's objects in Java. Members by
+    /// A canonical text of data, independent of its representation: drafts, mirrors, flatc's readers, and flatc's objects in Java. Members by
     /// name in lower case, sorted; reals as their bits; integers as signed 64 bits; absent lists as empty.
     /// </summary>
     internal static class Dump

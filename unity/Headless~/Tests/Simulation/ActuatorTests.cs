@@ -134,7 +134,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nothing_to_colour_is_told_with_the_object_and_costs_the_component_alone()
+        public void Nothing_to_colour_is_reported_with_the_object_and_disables_only_the_component()
         {
             var node = MakeNode(1);
             node.Node.name = "bare";

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>The console tells what happened where, and is not flooded.</summary>
+    /// <summary>Console messages name their source and are rate-limited.</summary>
     [TestFixture]
     public sealed class ConsoleTests : SimulationFixture
     {

@@ -46,7 +46,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(25, "a probe.SensorData inside a kotlin.Pair is a view", "share", "Probe.kt:")]
         [TestCase(26, "a probe.SensorData inside a java.util.", "share", "Probe.kt:")]
         [TestCase(27, "no value for device 99", "when ", "Probe.kt:")]
-        public void An_error_of_a_program_tells_the_node_the_path_and_the_line(int trouble, string what, string path, string line)
+        public void An_error_of_a_program_names_the_node_the_path_and_the_line(int trouble, string what, string path, string line)
         {
             Configure("trouble");
             var good = MakeNode(0);
@@ -273,9 +273,9 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Errors, Is.Empty);
         }
 
-        [TestCase(typeof(SuicidalSensor))]
-        [TestCase(typeof(SuicidalActuator))]
-        [TestCase(typeof(SuicidalRule))]
+        [TestCase(typeof(SelfDestroyingSensor))]
+        [TestCase(typeof(SelfDestroyingActuator))]
+        [TestCase(typeof(SelfDestroyingRule))]
         public void A_part_that_is_destroyed_in_its_own_call_harms_no_other(System.Type type)
         {
             Configure("sum");
@@ -347,7 +347,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void All_nodes_at_one_point_are_told_of_and_go_on()
+        public void Nodes_at_one_point_are_reported_and_keep_running()
         {
             for (var i = 0; i < 50; i++) MakeNode(i, Vector3.one).Node.gameObject.AddComponent<RadiusNeighbourhood>();
             MakeNode(0, Vector3.one).Node.gameObject.AddComponent<KNearestNeighbourhood>();
@@ -359,7 +359,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_scale_of_zero_is_told_of_and_harms_nothing()
+        public void A_scale_of_zero_is_reported_and_has_no_other_effect()
         {
             var node = MakeNode(1);
             node.Node.name = "flat";
@@ -394,7 +394,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_step_of_what_does_not_run_is_told_and_does_nothing()
+        public void A_step_of_a_simulation_that_does_not_run_is_reported_and_has_no_effect()
         {
             Manager.Step();
             Assert.That(Errors, Is.EqualTo(new[] { "the simulation has not started: call Step in play mode, from Update or later" }));
@@ -410,7 +410,7 @@ namespace Collektive.Headless.Tests.Simulation
             var node = MakeNode(1);
             node.Node.gameObject.AddComponent<SteppingActuator>();
             Play(2);
-            Assert.That(Errors[0], Is.StringContaining("SteppingActuator").And.StringContaining("Step was called from within a tick"));
+            Assert.That(Errors[0], Is.StringContaining("SteppingActuator").And.StringContaining("Step was called during a tick"));
             Assert.That(Manager.Tick, Is.EqualTo(2));
             Assert.That(node.Actuator.Calls, Is.EqualTo(2));
         }
@@ -423,7 +423,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Removing_a_link_that_no_script_made_is_told_and_harms_nothing()
+        public void Removing_a_link_that_no_script_added_is_reported_and_has_no_effect()
         {
             var node = MakeNode(1);
             MakeNode(2, Vector3.right).Node.gameObject.AddComponent<RadiusNeighbourhood>();
@@ -436,7 +436,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_part_without_a_node_is_told_and_works_once_it_has_one()
+        public void A_part_without_a_node_is_reported_and_works_once_it_has_one()
         {
             var holder = new GameObject("stray");
             var sensor = holder.AddComponent<ProbeSensor>();
@@ -461,7 +461,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Other_JVM_settings_than_those_of_the_running_JVM_are_told_and_the_simulation_goes_on()
+        public void JVM_settings_that_differ_from_the_running_JVM_are_reported_and_the_simulation_continues()
         {
             MakeNode(1);
             Play(1);
@@ -609,17 +609,17 @@ namespace Collektive.Headless.Tests.Simulation
             protected override void Act(probe.ActuatorData data) => SimulationManager.Current.Step();
         }
 
-        public sealed class SuicidalSensor : Sensor<probe.SensorData>
+        public sealed class SelfDestroyingSensor : Sensor<probe.SensorData>
         {
             protected override void Sense(ref probe.SensorData data) => Object.DestroyImmediate(this);
         }
 
-        public sealed class SuicidalActuator : Actuator<probe.ActuatorData>
+        public sealed class SelfDestroyingActuator : Actuator<probe.ActuatorData>
         {
             protected override void Act(probe.ActuatorData data) => Object.DestroyImmediate(this);
         }
 
-        public sealed class SuicidalRule : NeighbourhoodRule
+        public sealed class SelfDestroyingRule : NeighbourhoodRule
         {
             protected override void FindNeighbours(NeighbourCollector neighbours)
             {

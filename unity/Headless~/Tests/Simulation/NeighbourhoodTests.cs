@@ -6,12 +6,12 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Who hears whom by each ready rule.</summary>
+    /// <summary>Links of each built-in rule.</summary>
     [TestFixture]
     public sealed class NeighbourhoodTests : SimulationFixture
     {
         [Test]
-        public void The_nearest_nodes_are_neighbours_and_hear_each_other()
+        public void The_nearest_nodes_are_neighbours_and_exchange_messages()
         {
             // On a line at 0, 1, 3 and 7 metres each node's nearest is the one to its left, and that of the first is the second.
             var line = MakeLine(0, 1, 3, 7);
@@ -44,7 +44,7 @@ namespace Collektive.Headless.Tests.Simulation
                         break;
                     case 1:
                         one.enabled = !one.enabled;
-                        // Some come back under their id before anybody notices.
+                        // Some rejoin with the same id before the next tick.
                         if (random.Range(0, 2) == 0) one.enabled = !one.enabled;
                         break;
                     case 2:
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_directed_rule_lets_only_the_neighbours_hear()
+        public void With_a_directed_rule_only_the_neighbours_receive_messages()
         {
             var line = MakeLine(0, 1, 3, 7);
             foreach (var node in line)
@@ -338,7 +338,7 @@ namespace Collektive.Headless.Tests.Simulation
             return string.Join(" ", links.ConvertAll(link => link.From + ">" + link.To));
         }
 
-        /// <summary>Names those that it is told to.</summary>
+        /// <summary>Returns the configured neighbours.</summary>
         public sealed class Named : NeighbourhoodRule
         {
             public float Length { get; set; } = 1;

@@ -18,7 +18,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Lost_messages_are_counted_and_nobody_hears_them()
+        public void Lost_messages_are_counted_and_not_received()
         {
             Line(new NetworkModel { loss = 1 }, out _, out var middle, out _);
             Play(2);

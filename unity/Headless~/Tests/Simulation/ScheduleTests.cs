@@ -164,7 +164,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_that_comes_back_has_no_answer_of_before_even_within_its_own_actuator()
+        public void A_node_that_rejoins_has_no_previous_answer_even_in_its_own_actuator()
         {
             Configure("count");
             var node = MakeNode(0);
@@ -203,7 +203,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void While_a_tick_acts_nodes_whose_turn_is_later_have_their_answer_of_before()
+        public void While_a_tick_acts_later_nodes_have_their_previous_answer()
         {
             Configure("count");
             var first = MakeNode(0);
@@ -220,7 +220,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Neighbours_of_a_sleeping_node_still_hear_what_it_sent_last()
+        public void Neighbours_of_a_sleeping_node_still_receive_its_last_message()
         {
             Configure("sum");
             var sleeper = MakeNode(7);

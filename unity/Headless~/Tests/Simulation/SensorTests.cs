@@ -8,7 +8,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>What each ready sensor tells of a scene that can be worked out by hand.</summary>
+    /// <summary>Values of each built-in sensor in scenes with known results.</summary>
     [TestFixture]
     public sealed class SensorTests : SimulationFixture
     {
@@ -178,7 +178,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_short_bump_between_two_rounds_is_told_once()
+        public void A_short_collision_between_two_rounds_is_reported_once()
         {
             Configure("double", settings => settings.deltaTime = 0.3f);
             Physics.gravity = Vector3.zero;

@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_that_join_run_rounds_and_hear_each_other()
+        public void Nodes_that_join_run_rounds_and_exchange_messages()
         {
             var a = Join(1);
             var b = Join(10);
@@ -117,7 +117,7 @@ namespace Collektive.Headless.Tests.Simulation
         {
             simulation.Settings.physicsStep = 1;
             Assert.That(simulation.TryOpen(), Is.False);
-            Assert.That(simulation.Failure, Is.EqualTo("physics step is 1 s: it must be in (0, 0.02]"));
+            Assert.That(simulation.Failure, Is.EqualTo("physics step is 1 s: it must be greater than 0 and at most 0.02"));
             Assert.That(log, Is.EqualTo(new[] { "Simulation stopped: " + simulation.Failure }));
         }
 

@@ -39,7 +39,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_hears_what_its_neighbours_sensed_one_tick_before()
+        public void A_node_receives_what_its_neighbours_sensed_one_tick_before()
         {
             Configure("sum");
             MakeLine();
@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_in_different_arms_do_not_hear_each_other()
+        public void Nodes_in_different_arms_do_not_exchange_messages()
         {
             Configure("arms");
             MakeLine();

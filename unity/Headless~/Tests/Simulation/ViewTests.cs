@@ -36,7 +36,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Links_that_only_one_side_hears_have_their_own_colour()
+        public void Links_in_one_direction_have_their_own_colour()
         {
             var view = AddLinkView();
             view.Scale.low = Color.red;

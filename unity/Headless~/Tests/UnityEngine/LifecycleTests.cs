@@ -213,7 +213,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Quit_tells_everyone_and_destroys()
+        public void Quit_calls_OnApplicationQuit_and_destroys_all_objects()
         {
             var quitting = 0;
             Application.quitting += () => quitting++;

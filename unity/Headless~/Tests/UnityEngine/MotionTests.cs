@@ -46,7 +46,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_body_at_rest_falls_asleep_and_its_contact_is_no_longer_told()
+        public void A_body_at_rest_falls_asleep_and_its_contact_is_no_longer_reported()
         {
             Floor();
             var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();

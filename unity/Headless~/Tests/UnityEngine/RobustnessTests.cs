@@ -15,7 +15,7 @@ namespace Collektive.Headless.Tests.Engine
             void OnTriggerEnter(Collider other) => Object.DestroyImmediate(other.gameObject);
         }
 
-        public class Suicide : MonoBehaviour
+        public class SelfDestroyer : MonoBehaviour
         {
             void OnCollisionStay(Collision collision) => Object.DestroyImmediate(gameObject);
         }
@@ -34,7 +34,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [TestCase(typeof(Destroyer))]
-        [TestCase(typeof(Suicide))]
+        [TestCase(typeof(SelfDestroyer))]
         [TestCase(typeof(Changer))]
         public void Messages_may_remove_and_change_what_touches(Type script)
         {

@@ -49,7 +49,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_trigger_tells_enter_once_and_stay_in_every_step_then_exit()
+        public void A_trigger_sends_enter_once_and_stay_in_every_step_then_exit()
         {
             Zone();
             var mover = Mover(new Vector3(5f, 0f, 0f));
@@ -63,7 +63,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Both_sides_hear_of_a_trigger_even_disabled_ones()
+        public void Both_sides_receive_trigger_messages_even_disabled_ones()
         {
             Zone().GetComponent<Listener>().enabled = false;
             var mover = Mover(Vector3.zero);
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Two_static_colliders_tell_nothing()
+        public void Two_static_colliders_send_no_messages()
         {
             Zone();
             Box(Vector3.zero, Vector3.one);
@@ -108,7 +108,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_trigger_of_a_child_tells_the_body_too()
+        public void A_trigger_of_a_child_sends_messages_to_the_body_too()
         {
             var parent = Mover(new Vector3(9f, 0f, 0f));
             parent.gameObject.AddComponent<Listener>();
@@ -124,7 +124,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_collision_tells_where_how_fast_and_how_hard()
+        public void A_collision_reports_its_point_speed_and_impulse()
         {
             Floor().name = "floor";
             var ball = Ball(new Vector3(2f, 3f, 1f));

@@ -3,7 +3,7 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine
 {
-    /// What `Destroy` asked for, done at the end of the frame in which it is due.
+    /// Objects to destroy at the end of the frame in which they are due.
     static class Destruction
     {
         readonly struct Request
@@ -73,12 +73,12 @@ namespace UnityEngine
         static void Destroy(GameObject gameObject)
         {
             gameObject.SetActive(false); // OnDisable of all, before any OnDestroy
-            var condemned = new List<GameObject>();
-            Collect(gameObject, condemned);
-            foreach (var one in condemned)
+            var toDestroy = new List<GameObject>();
+            Collect(gameObject, toDestroy);
+            foreach (var one in toDestroy)
                 for (var index = 0; index < one.components.Count; index++) SendOnDestroy(one.components[index]);
             gameObject.TransformUnchecked.Detach();
-            foreach (var one in condemned)
+            foreach (var one in toDestroy)
             {
                 foreach (var component in one.components) component.destroyed = true;
                 one.destroyed = true;

@@ -1,6 +1,6 @@
 namespace UnityEngine
 {
-    /// As in Unity, NaN and infinity are refused with an error and change nothing.
+    /// Rejects NaN and infinity with an error, as Unity does.
     static class Finite
     {
         public static bool Accepts(Vector3 value, string what, Object context) => Accepts(value.x + value.y + value.z, value, what, context);

@@ -9,8 +9,8 @@ namespace UnityEngine
         internal readonly List<Component> components = new List<Component>();
         /// The active body, first, and colliders; null until there was one.
         internal List<Component> physicsParts;
-        /// What scripts here have ever answered to.
-        internal TouchMessages hears;
+        /// Messages that scripts here have ever handled.
+        internal TouchMessages touchMessages;
 
         readonly Transform ownTransform;
         int ownLayer;
@@ -104,8 +104,8 @@ namespace UnityEngine
         {
             component.owner = this;
             components.Add(component);
-            if (!(component is MonoBehaviour script) || (hears | script.messages.Touches) == hears) return;
-            hears |= script.messages.Touches;
+            if (!(component is MonoBehaviour script) || (touchMessages | script.messages.Touches) == touchMessages) return;
+            touchMessages |= script.messages.Touches;
             RefreshColliders();
         }
 

@@ -12,7 +12,7 @@ namespace UnityEngine
         Self = 1,
     }
 
-    /// Position, rotation and scale relative to the parent; world values are computed when asked for.
+    /// Position, rotation and scale relative to the parent; world values are computed on access.
     public class Transform : Component, IEnumerable
     {
         internal readonly List<Transform> children = new List<Transform>();

@@ -8,7 +8,7 @@ namespace UnityEngine
         Used = 12,
     }
 
-    /// What immediate-mode GUI is called for: each pass of events begins with a layout, which must draw the same controls.
+    /// The reason for a call of immediate-mode GUI: each pass of events begins with a layout, which must draw the same controls.
     public sealed class Event
     {
         public static Event current { get; set; } = new Event { type = EventType.Layout };

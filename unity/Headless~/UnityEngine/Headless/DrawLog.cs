@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine.Headless
 {
-    /// What was asked to be drawn in the current frame, for tests.
+    /// Records the draw calls of the current frame, for tests.
     public static class DrawLog
     {
         public readonly struct Draw

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine.Headless
 {
-    /// What scripts drew with immediate-mode GUI, and what a user does to it: for tests.
+    /// Controls that scripts drew with immediate-mode GUI, and actions of a user: for tests.
     public static class Gui
     {
         static readonly List<string> Drawn = new List<string>();

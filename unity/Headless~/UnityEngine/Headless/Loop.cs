@@ -34,7 +34,7 @@ namespace UnityEngine.Headless
         /// where Unity loads the first scene. Objects made before belong to the scene too.
         public static void Start(int seed, Action buildScene = null)
         {
-            if (started) throw new InvalidOperationException("The player runs already: call Loop.Quit or Loop.Reset first.");
+            if (started) throw new InvalidOperationException("The player is already running: call Loop.Quit or Loop.Reset first.");
             started = true;
             Random.InitState(seed);
             var methods = InitializeMethods();
@@ -47,7 +47,7 @@ namespace UnityEngine.Headless
         /// One frame of `deltaTime` seconds: fixed steps as they fall due, Update, coroutines, LateUpdate, destruction.
         public static void Frame(float deltaTime)
         {
-            if (!started) throw new InvalidOperationException("The player does not run: call Loop.Start first.");
+            if (!started) throw new InvalidOperationException("The player is not running: call Loop.Start first.");
             DrawLog.Clear();
             Time.BeginFrame(deltaTime);
             Lifecycle.RunStarts();

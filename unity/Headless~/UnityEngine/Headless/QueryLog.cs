@@ -1,6 +1,6 @@
 namespace UnityEngine.Headless
 {
-    /// What physics was asked, for tests.
+    /// Counts physics queries, for tests.
     public static class QueryLog
     {
         /// Rays cast since the process began.

@@ -248,10 +248,10 @@ namespace UnityEngine
         /// The reports with listeners: this object and its body's receive overlaps; its body's, or this one without a body, receives contacts.
         Physx.Reports Listening()
         {
-            var heardByBody = Body is null ? owner.hears : Body.owner.hears;
+            var bodyMessages = Body is null ? owner.touchMessages : Body.owner.touchMessages;
             var reports = Physx.Reports.None;
-            if (((owner.hears | heardByBody) & TouchMessages.Triggers) != 0) reports |= Physx.Reports.Overlaps;
-            if ((heardByBody & TouchMessages.Collisions) != 0) reports |= Physx.Reports.Contacts;
+            if (((owner.touchMessages | bodyMessages) & TouchMessages.Triggers) != 0) reports |= Physx.Reports.Overlaps;
+            if ((bodyMessages & TouchMessages.Collisions) != 0) reports |= Physx.Reports.Contacts;
             return reports;
         }
 

@@ -108,7 +108,7 @@ namespace UnityEngine
         static Physx.Pose At(Vector3 position, Quaternion rotation) => new Physx.Pose(position, rotation.normalized);
 
         /// Between the centres of its two caps.
-        static Physx.Geometry Pill(Vector3 from, Vector3 to, float radius, out Physx.Pose pose)
+        static Physx.Geometry CapsuleGeometry(Vector3 from, Vector3 to, float radius, out Physx.Pose pose)
         {
             var length = (to - from).magnitude;
             pose = new Physx.Pose((from + to) * 0.5f, length > 0f ? Quaternion.FromToRotation(Vector3.right, to - from) : Quaternion.identity);
@@ -146,7 +146,7 @@ namespace UnityEngine
         public static bool CapsuleCast(Vector3 point1, Vector3 point2, float radius, Vector3 direction, out RaycastHit hitInfo,
             float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Sweep(Pill(point1, point2, radius, out var pose), pose, direction, out hitInfo, maxDistance, layerMask, queryTriggerInteraction);
+            Queries.Sweep(CapsuleGeometry(point1, point2, radius, out var pose), pose, direction, out hitInfo, maxDistance, layerMask, queryTriggerInteraction);
 
         public static bool BoxCast(Vector3 center, Vector3 halfExtents, Vector3 direction, Quaternion orientation = default,
             float maxDistance = Mathf.Infinity, int layerMask = DefaultRaycastLayers,
@@ -187,15 +187,15 @@ namespace UnityEngine
 
         public static int OverlapCapsuleNonAlloc(Vector3 point0, Vector3 point1, float radius, Collider[] results, int layerMask = AllLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Overlaps(Pill(point0, point1, radius, out var pose), pose, results, layerMask, queryTriggerInteraction);
+            Queries.Overlaps(CapsuleGeometry(point0, point1, radius, out var pose), pose, results, layerMask, queryTriggerInteraction);
 
         public static Collider[] OverlapCapsule(Vector3 point0, Vector3 point1, float radius, int layerMask = AllLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Overlaps(Pill(point0, point1, radius, out var pose), pose, layerMask, queryTriggerInteraction);
+            Queries.Overlaps(CapsuleGeometry(point0, point1, radius, out var pose), pose, layerMask, queryTriggerInteraction);
 
         public static bool CheckCapsule(Vector3 start, Vector3 end, float radius, int layerMask = DefaultRaycastLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Check(Pill(start, end, radius, out var pose), pose, layerMask, queryTriggerInteraction);
+            Queries.Check(CapsuleGeometry(start, end, radius, out var pose), pose, layerMask, queryTriggerInteraction);
 
         // ---- Distances ------------------------------------------------------------------------------------------------
 

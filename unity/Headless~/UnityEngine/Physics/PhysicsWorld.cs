@@ -174,7 +174,7 @@ namespace UnityEngine
             return (T*)(memory == null ? Marshal.AllocHGlobal(size) : Marshal.ReAllocHGlobal((IntPtr)memory, size));
         }
 
-        /// Brings PhysX up to what scripts asked for, before it is asked something.
+        /// Sends pending changes to PhysX before a query.
         public static void Flush()
         {
             if (commandCount == 0) return;
@@ -232,7 +232,7 @@ namespace UnityEngine
 
         public static void Step(float step)
         {
-            if (stepping) throw new InvalidOperationException("A physics step was asked for inside a physics message.");
+            if (stepping) throw new InvalidOperationException("Physics.Simulate was called in a physics message, such as OnCollisionEnter: call it elsewhere.");
             SyncTransforms();
             if (step <= 0f) return;
             RefreshMaterials();
@@ -248,10 +248,10 @@ namespace UnityEngine
                 if (done == 0) throw new InvalidOperationException(Physx.Error());
                 // Other transforms follow their bodies when they are read, which does not happen between the steps of a tick. These must follow before
                 // their parents are moved.
-                foreach (var body in Nested) body.Lead();
+                foreach (var body in Nested) body.UpdateTransform();
                 foreach (var body in Unpublished) body.Publish();
                 Unpublished.Clear();
-                TellErrors();
+                LogErrors();
                 var broken = BrokenJoints(result);
                 Touching.Send(result);
                 if (broken != null)
@@ -293,7 +293,7 @@ namespace UnityEngine
             foreach (var collider in colliders) collider?.Refresh();
         }
 
-        static void TellErrors()
+        static void LogErrors()
         {
             var error = Physx.Error();
             if (error.Length > 0) Debug.LogError(error);

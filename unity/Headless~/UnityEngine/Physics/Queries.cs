@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Questions about the world at the poses that physics knows. Nothing here allocates in steady state but the array results.
+    /// Queries of the world at the last synchronised poses. In steady state, only array results allocate.
     static unsafe class Queries
     {
         static Physx.Hit[] hits = new Physx.Hit[64];
@@ -55,7 +55,7 @@ namespace UnityEngine
             return true;
         }
 
-        /// The nearest hit of each ray, asked on all threads of physics.
+        /// The nearest hit of each ray, computed on all threads of physics.
         public static void Raycast(Span<RaycastCommand> commands, Span<RaycastHit> nearest)
         {
             Headless.QueryLog.Rays += commands.Length;

@@ -535,10 +535,10 @@ namespace UnityEngine
             PhysicsWorld.Disconnect(this);
             PhysicsWorld.Remove(this);
             place.Follow(Physx.None);
-            var dying = Handle;
+            var oldHandle = Handle;
             Handle = Physx.None;
             foreach (var collider in Colliders.ToArray()) collider.Attach();
-            Physx.physics_actor_destroy(PhysicsWorld.Handle, dying);
+            Physx.physics_actor_destroy(PhysicsWorld.Handle, oldHandle);
             ownMotion = default;
         }
 
@@ -568,7 +568,7 @@ namespace UnityEngine
         }
 
         /// Moves the transform, if the last step moved the body.
-        internal void Lead() => place.Follow();
+        internal void UpdateTransform() => place.Follow();
 
         internal void Publish() => place.Place(Motion.Pose.Position, Motion.Pose.Rotation);
 

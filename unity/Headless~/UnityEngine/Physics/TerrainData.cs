@@ -5,10 +5,10 @@ namespace UnityEngine
     /// A map of heights. Nothing of it is drawn here.
     public sealed class TerrainData : Object
     {
-        const int LeastResolution = 33, MostResolution = 4097;
+        const int MinResolution = 33, MaxResolution = 4097;
 
-        float[,] heights = new float[LeastResolution, LeastResolution]; // by z and x, as shares of the size
-        Vector3 ownSize = new Vector3(LeastResolution - 1, 600f, LeastResolution - 1);
+        float[,] heights = new float[MinResolution, MinResolution]; // by z and x, as shares of the size
+        Vector3 ownSize = new Vector3(MinResolution - 1, 600f, MinResolution - 1);
 
         /// Grows with each change.
         internal int Version { get; private set; }
@@ -19,8 +19,8 @@ namespace UnityEngine
             get => heights.GetLength(0);
             set
             {
-                var resolution = LeastResolution;
-                while (resolution < value && resolution < MostResolution) resolution = 2 * resolution - 1;
+                var resolution = MinResolution;
+                while (resolution < value && resolution < MaxResolution) resolution = 2 * resolution - 1;
                 heights = new float[resolution, resolution];
                 Version++;
             }

@@ -87,7 +87,7 @@ namespace UnityEngine
 
         static void SendTrigger(Physx.Phase phase, GameObject to, Collider other)
         {
-            if ((to.hears & (phase == Physx.Phase.Stay ? TouchMessages.TriggerStay : TouchMessages.TriggerChange)) == 0) return;
+            if ((to.touchMessages & (phase == Physx.Phase.Stay ? TouchMessages.TriggerStay : TouchMessages.TriggerChange)) == 0) return;
             for (var index = 0; index < to.components.Count && to.activeInHierarchy; index++)
             {
                 if (!(to.components[index] is MonoBehaviour script) || !script.didAwake) continue;
@@ -107,7 +107,7 @@ namespace UnityEngine
         {
             var phase = touches[touch].Phase;
             var target = to.Body is null ? to.owner : to.Body.owner;
-            if ((target.hears & (phase == Physx.Phase.Stay ? TouchMessages.CollisionStay : TouchMessages.CollisionChange)) == 0) return;
+            if ((target.touchMessages & (phase == Physx.Phase.Stay ? TouchMessages.CollisionStay : TouchMessages.CollisionChange)) == 0) return;
             Fill(touches[touch], to, other, sign);
             for (var index = 0; index < target.components.Count && target.activeInHierarchy; index++)
             {

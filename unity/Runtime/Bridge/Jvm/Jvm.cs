@@ -57,8 +57,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Checks what <see cref="Start"/> would: files, refused options and, in a child process of some 50 to 200 ms, the options. What
-        /// was found good is not tried again at the start.
+        /// Checks what <see cref="Start"/> would: files, refused options and, in a child process of some 50 to 200 ms, the options.
+        /// Options that pass are not tried again at the start.
         /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         internal static void Check(JvmLaunch launch)

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Bridge
 {
-    /// <summary>The words a JVM is started with: what becomes of <see cref="JvmSettings"/> on this machine.</summary>
+    /// <summary>The command line of a JVM, built from <see cref="JvmSettings"/> for this machine.</summary>
     internal sealed class JvmLaunch
     {
         /// <summary>Makes a launch of the JRE or JDK at <paramref name="home"/> with the host's jar.</summary>

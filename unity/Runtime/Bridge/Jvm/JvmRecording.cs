@@ -38,7 +38,7 @@ namespace Collektive.Bridge
 
         private static void Ask(RecordingAction action, string path, string settings)
         {
-            if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("the recording's path is empty: give the path of a file", nameof(path));
+            if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("the recording's path is empty: enter the path of a file", nameof(path));
             JvmControl.Ask(new JvmControl.Question { Recording = action, Path = Path.GetFullPath(path), Settings = settings });
         }
     }

@@ -131,7 +131,7 @@ namespace Collektive.Bridge
         internal string FindProblem(JvmSettings settings)
         {
             var value = Get(settings);
-            if (Type.IsEnum && !Enum.IsDefined(Type, value)) return "unknown " + Label.ToLowerInvariant() + " " + value + ": choose one of the list";
+            if (Type.IsEnum && !Enum.IsDefined(Type, value)) return "unknown " + Label.ToLowerInvariant() + " " + value + ": choose a value from the list";
             if (value == null) return Label.ToLowerInvariant() + " is not set";
             if (Maximum == 0) return null;
             var number = (int)value;

@@ -4,7 +4,7 @@ using org.collektive.frame;
 
 namespace Collektive.Bridge
 {
-    /// <summary>The JVM that runs, as it was at one moment.</summary>
+    /// <summary>A snapshot of the running JVM.</summary>
     public sealed class JvmStatus
     {
         private const long Mebi = 1 << 20;
@@ -68,7 +68,7 @@ namespace Collektive.Bridge
         /// <summary>Milliseconds in garbage collections so far.</summary>
         public long CollectionMs { get; }
 
-        /// <summary>What the flight recording is doing.</summary>
+        /// <summary>State of the flight recording.</summary>
         public RecordingState Recording { get; }
 
         /// <summary>File of the recording that runs, or of the last one; empty before the first.</summary>

@@ -1,6 +1,6 @@
 namespace Collektive.Bridge
 {
-    /// <summary>How far a flight recording of the JVM is.</summary>
+    /// <summary>State of a flight recording of the JVM.</summary>
     public enum RecordingState : byte
     {
         /// <summary>None runs.</summary>

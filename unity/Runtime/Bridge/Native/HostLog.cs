@@ -64,8 +64,8 @@ namespace Collektive.Bridge
             level = HostLogLevel.Warning;
             line = null;
             if (leftOut == 0 && overflown == 0) return false;
-            line = (leftOut + (long)overflown) + " lines of the JVM and its programs were skipped: the console takes " + LinesPerSecond +
-                " a second of each severity" + (overflown > 0 ? "; " + overflown + " of them came faster than they could be read" : "");
+            line = (leftOut + (long)overflown) + " log lines of the JVM and its programs were skipped: the limit is " + LinesPerSecond +
+                " lines per second and severity" + (overflown > 0 ? "; " + overflown + " of them did not fit into the log buffer" : "");
             lost += overflown;
             leftOut = 0;
             return true;

@@ -27,7 +27,7 @@ namespace Collektive.Bridge
             {
                 var major = Shim.clk_version() >> 16;
                 if (major == Shim.Major) return null;
-                return "the native library collektive_shim is of version " + major + ", this package needs " + Shim.Major
+                return "the native library collektive_shim has version " + major + ", but this package needs version " + Shim.Major
                     + ": reinstall the package and restart the editor";
             }
             catch (Exception error) when (error is DllNotFoundException || error is EntryPointNotFoundException || error is BadImageFormatException)
@@ -39,8 +39,8 @@ namespace Collektive.Bridge
 
         private static string Missing(string reason) =>
             "the native library collektive_shim is not available for this platform, " + OperatingSystem() + " on " + RuntimeInformation.ProcessArchitecture
-                + " (" + reason + "): use a platform that the package supports (Limits in its documentation names them), or reinstall the package if this "
-                + "is one of them, and restart";
+                + " (" + reason + "): reinstall the package and restart. If the error remains, the platform is not supported "
+                + "(see Limits in the documentation)";
 
         /// <summary>The operating system's name; Mono describes all but Windows as Unix.</summary>
         private static string OperatingSystem() =>

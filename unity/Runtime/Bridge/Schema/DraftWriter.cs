@@ -202,7 +202,7 @@ namespace Collektive.Bridge
             return Place;
         }
 
-        /// <summary>Makes room before what is there, so that its start is aligned; the index of its first byte.</summary>
+        /// <summary>Reserves aligned space before the written bytes. Returns the index of its first byte.</summary>
         private int Reserve(int alignment, int bytes)
         {
             var padding = -(Place + bytes) & (alignment - 1);

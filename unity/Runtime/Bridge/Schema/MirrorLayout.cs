@@ -24,6 +24,6 @@ namespace Collektive.Bridge
         }
 
         private static InvalidOperationException Wrong<T>(string what) => new InvalidOperationException(
-            typeof(T).FullName + " " + what + ": this C# runtime lays structs out differently from the schema");
+            typeof(T).FullName + " " + what + ": this C# runtime uses another struct layout than the schema; report an issue with the name of the platform");
     }
 }

@@ -22,7 +22,7 @@ namespace Collektive.Bridge
 
         internal void Clear() => used = 0;
 
-        /// <summary>Copies bytes behind those that there are, as far from an aligned place as they were, and returns their place.</summary>
+        /// <summary>Appends a copy of bytes with the same alignment, and returns its position.</summary>
         internal int Add(ByteBuffer from, int start, int length)
         {
             var place = used + (start - used & Alignment - 1);

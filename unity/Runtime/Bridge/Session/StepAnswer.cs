@@ -43,7 +43,7 @@ namespace Collektive.Bridge
         /// <summary>Microseconds of these that the rounds took.</summary>
         public int RoundMicros => response.RoundMicros;
 
-        /// <summary>What the network did.</summary>
+        /// <summary>Message counts of the step.</summary>
         public NetworkCounts Network => new NetworkCounts(response.Sent, response.Dropped, response.Delayed, response.Expired);
 
         /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
@@ -66,7 +66,7 @@ namespace Collektive.Bridge
             if (Actuators.Count != NodeCount)
             {
                 throw new BridgeException(
-                    BridgeError.Java, "the host answered " + Actuators.Count + " actuator data for " + NodeCount + " nodes");
+                    BridgeError.Java, "the host sent actuator data of " + Actuators.Count + " nodes instead of " + NodeCount + ": report an issue");
             }
         }
     }

@@ -54,7 +54,7 @@ namespace Collektive.Bridge
             nodesRemoved.Add(id);
         }
 
-        /// <summary>Makes a directed link, or gives an existing one new values.</summary>
+        /// <summary>Adds or updates a directed link.</summary>
         public void SetLink(LinkRecord link)
         {
             Links.Add(link);
@@ -66,7 +66,7 @@ namespace Collektive.Bridge
             LinksRemoved.Add(link);
         }
 
-        /// <summary>Makes a node run a round in the next step. Ids must come in ascending order.</summary>
+        /// <summary>Schedules a round of a node in the next step. Call in ascending order of ids.</summary>
         public void AddDue(int id)
         {
             due.Add(id);

@@ -10,7 +10,7 @@ namespace Collektive.Unity
     {
         internal static void Begin(SimulationSettings settings)
         {
-            if (!Plays(settings)) return;
+            if (!IsBatchRun(settings)) return;
             Time.captureDeltaTime = settings.deltaTime;
             Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, settings.deltaTime);
         }
@@ -18,9 +18,9 @@ namespace Collektive.Unity
         /// <param name="isGood">Whether the run reached its end without an error; the process ends with 0 then, else with 1.</param>
         internal static void End(SimulationSettings settings, bool isGood)
         {
-            if (Plays(settings)) Application.Quit(isGood ? 0 : 1);
+            if (IsBatchRun(settings)) Application.Quit(isGood ? 0 : 1);
         }
 
-        private static bool Plays(SimulationSettings settings) => settings.stopAfter > 0 && Application.isBatchMode && !Application.isEditor;
+        private static bool IsBatchRun(SimulationSettings settings) => settings.stopAfter > 0 && Application.isBatchMode && !Application.isEditor;
     }
 }

@@ -18,7 +18,7 @@ namespace Collektive.Unity
         public virtual string ShadeName => null;
 
         /// <summary>
-        /// What a replay can colour nodes by; the first one does when the page is opened. Asked for once, at the start of the run.
+        /// The values by which a replay can colour nodes; the first is the default. Read once, at the start of the run.
         /// Default: <see cref="Shade"/> alone, if it has a name.
         /// </summary>
         public virtual IReadOnlyList<NodeShade> Shades =>

@@ -30,10 +30,11 @@ namespace Collektive.Unity
         {
             if (buffer == null) return "global data was set, but the session's schema has no GlobalData: add it to the schema";
             if (!(buffer is GlobalBuffer<T> typed))
-                return "global data was set as " + typeof(T).FullName + ", but the session's schema has " + buffer.DataType.FullName;
+                return "global data was set as " + typeof(T).FullName + ", but the session's schema has " + buffer.DataType.FullName
+                    + ": set data of that type";
             write(typed.Data);
             var field = buffer.FindNotFinite();
-            return field == null ? null : "global data contains a number that is not finite in " + field;
+            return field == null ? null : "global data contains a number that is not finite in " + field + ": fix the script that sets it";
         }
     }
 }

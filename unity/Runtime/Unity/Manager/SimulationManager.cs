@@ -29,7 +29,7 @@ namespace Collektive.Unity
         private SimulationSettings settings = new SimulationSettings();
 
         [SerializeField]
-        [Tooltip("On: no rounds, no physics, no simulated time.")]
+        [Tooltip("Stops rounds, physics and simulated time.")]
         private bool paused;
 
         private readonly SceneGlobals globals = new SceneGlobals();
@@ -40,8 +40,8 @@ namespace Collektive.Unity
         private bool stepping;
 
         /// <summary>
-        /// Asked after each tick whether the simulation has reached its end. If so, it is paused; to go on, set <see cref="Paused"/> to false. An
-        /// exception counts as an error, and the simulation goes on.
+        /// Evaluated after each tick; true pauses the simulation. To continue, set <see cref="Paused"/> to false. An exception counts as an error, and
+        /// the simulation goes on.
         /// </summary>
         public Func<SimulationManager, bool> StopCondition { get; set; }
 
@@ -117,10 +117,9 @@ namespace Collektive.Unity
         internal Simulation Simulation => simulation ?? (simulation = new Simulation(settings, globals, this));
 
         /// <summary>
-        /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> hears <paramref name="a"/>, and unless it is
-        /// <paramref name="directed"/> also the other way round. The length is the distance now. May be called from any script's
-        /// message method, <c>OnTriggerEnter</c> for instance; it takes effect at the next tick. If a node takes no part in the
-        /// simulation, nothing happens but one warning.
+        /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> receives messages from <paramref name="a"/>, and vice versa unless
+        /// <paramref name="directed"/>. The length is the distance now. May be called from any script's message method, <c>OnTriggerEnter</c>
+        /// for instance; it takes effect at the next tick. If a node takes no part in the simulation, nothing happens but one warning.
         /// </summary>
         public void AddLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Add(a, b, directed);
 
@@ -134,7 +133,7 @@ namespace Collektive.Unity
         /// <typeparam name="T">The draft that generated code has for the schema's <c>GlobalData</c>.</typeparam>
         public void SetGlobals<T>(Action<T> write) => globals.Set(write ?? throw new ArgumentNullException(nameof(write)));
 
-        /// <summary>Whether <paramref name="to"/> hears <paramref name="from"/>.</summary>
+        /// <summary>Whether <paramref name="to"/> receives messages from <paramref name="from"/>.</summary>
         public bool HasLink(int from, int to) => Simulation.PresentLinks.Contains(from, to);
 
         /// <summary>Replaces the content of <paramref name="target"/> with all directed links.</summary>
@@ -145,14 +144,14 @@ namespace Collektive.Unity
 
         /// <summary>
         /// The nodes within <paramref name="radius"/> metres of a point at the beginning of this tick, with their distances, in no order.
-        /// For neighbourhood rules: it is up to date while they are asked.
+        /// Up to date while neighbourhood rules run.
         /// </summary>
         public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances) =>
             Simulation.Grid.Copy(Simulation.Grid.Find(centre, radius), found, distances);
 
         /// <summary>
         /// The <paramref name="count"/> nodes nearest to a point at the beginning of this tick, or all if there are fewer, the nearest first and
-        /// by id at equal distances. For neighbourhood rules: it is up to date while they are asked.
+        /// by id at equal distances. Up to date while neighbourhood rules run.
         /// </summary>
         public void FindNearestNodes(Vector3 centre, int count, List<Node> found, List<float> distances)
         {
@@ -169,7 +168,7 @@ namespace Collektive.Unity
                     : "the simulation has not started: call Step in play mode, from Update or later", this);
                 return;
             }
-            if (stepping) throw new InvalidOperationException("Step was called from within a tick");
+            if (stepping) throw new InvalidOperationException("Step was called during a tick: call it between ticks, for example in Update");
             stepping = true;
             try
             {

@@ -26,9 +26,9 @@ namespace Collektive.Unity
         private Thread thread;
         private Exception error;
         // The main thread has come to this place; the other one has done all from that place on.
-        private int asked;
+        private int requested;
         private int done = int.MaxValue;
-        private bool quits;
+        private bool isStopping;
 
         internal BackgroundSearch(NodeGrid grid) => this.grid = grid;
 
@@ -37,7 +37,7 @@ namespace Collektive.Unity
         {
             if (thread == null)
             {
-                quits = false;
+                isStopping = false;
                 thread = new Thread(Work) { IsBackground = true, Name = "Collektive searches" };
                 thread.Start();
             }
@@ -47,7 +47,7 @@ namespace Collektive.Unity
                 ends = new int[begins.Length];
             }
             found.Count = 0;
-            asked = 0;
+            requested = 0;
             done = count;
             idle.Reset();
             work.Release();
@@ -57,7 +57,7 @@ namespace Collektive.Unity
         internal bool TryTake(int place, out Span<NearNode> near)
         {
             near = default;
-            Volatile.Write(ref asked, place);
+            Volatile.Write(ref requested, place);
             if (place < Volatile.Read(ref done)) return false;
             near = new Span<NearNode>(found.Items, begins[place], ends[place] - begins[place]);
             return true;
@@ -79,7 +79,7 @@ namespace Collektive.Unity
         {
             if (thread == null) return;
             Stop();
-            Volatile.Write(ref quits, true);
+            Volatile.Write(ref isStopping, true);
             work.Release();
             thread.Join();
             thread = null;
@@ -87,7 +87,7 @@ namespace Collektive.Unity
 
         private void Stop()
         {
-            Volatile.Write(ref asked, int.MaxValue);
+            Volatile.Write(ref requested, int.MaxValue);
             idle.Wait();
             done = int.MaxValue;
         }
@@ -97,7 +97,7 @@ namespace Collektive.Unity
             while (true)
             {
                 work.Wait();
-                if (Volatile.Read(ref quits)) return;
+                if (Volatile.Read(ref isStopping)) return;
                 try
                 {
                     Search();
@@ -113,7 +113,7 @@ namespace Collektive.Unity
 
         private void Search()
         {
-            for (var place = done - 1; place > Volatile.Read(ref asked) && found.Count < MaxHits; place--)
+            for (var place = done - 1; place > Volatile.Read(ref requested) && found.Count < MaxHits; place--)
             {
                 begins[place] = found.Count;
                 grid.SearchAround(place, found);

@@ -8,20 +8,20 @@ namespace Collektive.Unity
         internal int Generation;
         internal int NextInBucket;
         // From the lower id to the higher, and back.
-        internal LinkWay Up;
-        internal LinkWay Down;
+        internal LinkDirection Up;
+        internal LinkDirection Down;
 
-        internal bool IsHeld => Up.Holders > 0 || Down.Holders > 0;
+        internal bool IsReferenced => Up.References > 0 || Down.References > 0;
 
         internal bool IsDirty => Up.Dirty || Down.Dirty;
     }
 
     /// <summary>One direction of a pair.</summary>
-    internal struct LinkWay
+    internal struct LinkDirection
     {
         internal float Length;
         internal float Attenuation;
-        internal int Holders;
+        internal int References;
         internal bool Sent;
         internal bool Dirty;
         internal bool ByScript;

@@ -46,18 +46,18 @@ namespace Collektive.Unity
         /// <summary>Number of links.</summary>
         internal int Count { get; private set; }
 
-        /// <summary>Increases whenever links were dropped. While it is unchanged, no handle became stale.</summary>
-        internal int Drops { get; private set; }
+        /// <summary>Increases whenever links are removed with their nodes. While it is unchanged, no handle became stale.</summary>
+        internal int RemovalCount { get; private set; }
 
-        /// <summary>Replaces a list's content with all links and the values of the last <see cref="Settle"/>.</summary>
+        /// <summary>Replaces a list's content with all links and the values of the last <see cref="ApplyChanges"/>.</summary>
         internal void CopyTo(List<LinkRecord> target)
         {
             target.Clear();
             for (var i = 0; i < used; i++)
             {
                 ref var pair = ref pairs[i];
-                if (pair.Up.Holders > 0) target.Add(Record(pair.Low, pair.High, pair.Up));
-                if (pair.Down.Holders > 0) target.Add(Record(pair.High, pair.Low, pair.Down));
+                if (pair.Up.References > 0) target.Add(Record(pair.Low, pair.High, pair.Up));
+                if (pair.Down.References > 0) target.Add(Record(pair.High, pair.Low, pair.Down));
             }
         }
 
@@ -65,18 +65,18 @@ namespace Collektive.Unity
         internal bool Contains(int from, int to)
         {
             var index = Find(from, to);
-            return index != None && WayOf(index, from, to).Holders > 0;
+            return index != None && DirectionOf(index, from, to).References > 0;
         }
 
         /// <summary>Adds a reference to one or both links of a pair, which are created if needed, and returns the handle for <see cref="Release"/>.</summary>
-        internal LinkHandle Hold(int from, int to, bool bothWays, float length, float attenuation)
+        internal LinkHandle AddReference(int from, int to, bool bothWays, float length, float attenuation)
         {
             var index = Find(from, to);
             if (index == None) index = Insert(from, to);
             var handle = new LinkHandle(index, pairs[index].Generation, bothWays || from <= to, bothWays || from > to);
             ref var pair = ref pairs[index];
-            if (handle.Up) Hold(index, ref pair, ref pair.Up);
-            if (handle.Down) Hold(index, ref pair, ref pair.Down);
+            if (handle.Up) AddReference(index, ref pair, ref pair.Up);
+            if (handle.Down) AddReference(index, ref pair, ref pair.Down);
             Update(handle, length, attenuation);
             return handle;
         }
@@ -94,7 +94,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Applies the values that were set.</summary>
-        internal void Settle()
+        internal void ApplyChanges()
         {
             var all = changes.Items;
             for (var i = 0; i < changes.Count; i++)
@@ -119,14 +119,14 @@ namespace Collektive.Unity
         }
 
         /// <summary>Adds the scripts' reference to a link, at most once.</summary>
-        internal void HoldForScripts(int from, int to, float length, float attenuation)
+        internal void AddScriptReference(int from, int to, float length, float attenuation)
         {
             var index = Find(from, to);
-            if (index == None || !WayOf(index, from, to).ByScript)
+            if (index == None || !DirectionOf(index, from, to).ByScript)
             {
-                // Not in one expression: holding may replace the array.
-                index = Hold(from, to, false, length, attenuation).Pair;
-                WayOf(index, from, to).ByScript = true;
+                // Not in one expression: adding a reference may replace the array.
+                index = AddReference(from, to, false, length, attenuation).Pair;
+                DirectionOf(index, from, to).ByScript = true;
                 return;
             }
             Update(new LinkHandle(index, pairs[index].Generation, from <= to, from > to), length, attenuation);
@@ -137,17 +137,17 @@ namespace Collektive.Unity
         internal bool ReleaseForScripts(int from, int to)
         {
             var index = Find(from, to);
-            if (index == None || !WayOf(index, from, to).ByScript) return false;
-            ref var way = ref WayOf(index, from, to);
-            way.ByScript = false;
-            Release(index, ref pairs[index], ref way);
+            if (index == None || !DirectionOf(index, from, to).ByScript) return false;
+            ref var direction = ref DirectionOf(index, from, to);
+            direction.ByScript = false;
+            Release(index, ref pairs[index], ref direction);
             return true;
         }
 
-        /// <summary>Drops all links of nodes that left (<paramref name="isGone"/> by id); the JVM drops its own with the node.</summary>
+        /// <summary>Removes all links of nodes that left (<paramref name="isGone"/> by id); the JVM removes its own with the node.</summary>
         internal void DropLinksOf(bool[] isGone)
         {
-            Drops++;
+            RemovalCount++;
             for (var index = 0; index < used; index++)
             {
                 ref var pair = ref pairs[index];
@@ -166,34 +166,34 @@ namespace Collektive.Unity
         /// </summary>
         internal void Flush(StepRequest request, bool[] isKnown)
         {
-            Settle();
+            ApplyChanges();
             var waiting = 0;
             for (var i = 0; i < dirty.Count; i++)
             {
                 var index = dirty.Items[i];
                 ref var pair = ref pairs[index];
-                if (pair.IsHeld && !(isKnown[pair.Low] && isKnown[pair.High]))
+                if (pair.IsReferenced && !(isKnown[pair.Low] && isKnown[pair.High]))
                 {
                     dirty.Items[waiting++] = index;
                     continue;
                 }
                 if (pair.Up.Dirty) Flush(request, pair.Low, pair.High, ref pair.Up);
                 if (pair.Down.Dirty) Flush(request, pair.High, pair.Low, ref pair.Down);
-                if (!pair.IsHeld) Free(index);
+                if (!pair.IsReferenced) Free(index);
             }
             dirty.Truncate(waiting);
         }
 
-        private static void Flush(StepRequest request, int from, int to, ref LinkWay way)
+        private static void Flush(StepRequest request, int from, int to, ref LinkDirection direction)
         {
-            way.Dirty = false;
-            if (way.Holders > 0) request.SetLink(Record(from, to, way));
-            else if (way.Sent) request.RemoveLink(new LinkEnds { From = from, To = to });
-            way.Sent = way.Holders > 0;
+            direction.Dirty = false;
+            if (direction.References > 0) request.SetLink(Record(from, to, direction));
+            else if (direction.Sent) request.RemoveLink(new LinkEnds { From = from, To = to });
+            direction.Sent = direction.References > 0;
         }
 
-        internal static LinkRecord Record(int from, int to, in LinkWay way) =>
-            new LinkRecord { From = from, To = to, Length = way.Length, Attenuation = way.Attenuation };
+        internal static LinkRecord Record(int from, int to, in LinkDirection direction) =>
+            new LinkRecord { From = from, To = to, Length = direction.Length, Attenuation = direction.Attenuation };
 
         private static int Hash(int low, int high)
         {
@@ -203,51 +203,51 @@ namespace Collektive.Unity
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static bool IsAlive(in LinkPair pair, in LinkHandle handle) =>
-            pair.Generation == handle.Generation && (handle.Up ? pair.Up : pair.Down).Holders > 0;
+            pair.Generation == handle.Generation && (handle.Up ? pair.Up : pair.Down).References > 0;
 
-        private ref LinkWay WayOf(int index, int from, int to)
+        private ref LinkDirection DirectionOf(int index, int from, int to)
         {
             ref var pair = ref pairs[index];
             if (from <= to) return ref pair.Up;
             return ref pair.Down;
         }
 
-        private void Hold(int index, ref LinkPair pair, ref LinkWay way)
+        private void AddReference(int index, ref LinkPair pair, ref LinkDirection direction)
         {
-            if (way.Holders++ > 0) return;
+            if (direction.References++ > 0) return;
             Count++;
-            Touch(index, ref pair, ref way);
+            Touch(index, ref pair, ref direction);
         }
 
-        private void Release(int index, ref LinkPair pair, ref LinkWay way)
+        private void Release(int index, ref LinkPair pair, ref LinkDirection direction)
         {
-            if (--way.Holders > 0) return;
+            if (--direction.References > 0) return;
             Count--;
-            Touch(index, ref pair, ref way);
+            Touch(index, ref pair, ref direction);
         }
 
-        private void Drop(ref LinkWay way)
+        private void Drop(ref LinkDirection direction)
         {
-            if (way.Holders > 0) Count--;
-            way.Holders = 0;
-            way.Sent = false;
-            way.ByScript = false;
+            if (direction.References > 0) Count--;
+            direction.References = 0;
+            direction.Sent = false;
+            direction.ByScript = false;
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private void SetValues(int index, ref LinkPair pair, ref LinkWay way, float length, float attenuation)
+        private void SetValues(int index, ref LinkPair pair, ref LinkDirection direction, float length, float attenuation)
         {
-            if (way.Length == length && way.Attenuation == attenuation) return;
-            way.Length = length;
-            way.Attenuation = attenuation;
-            Touch(index, ref pair, ref way);
+            if (direction.Length == length && direction.Attenuation == attenuation) return;
+            direction.Length = length;
+            direction.Attenuation = attenuation;
+            Touch(index, ref pair, ref direction);
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private void Touch(int index, ref LinkPair pair, ref LinkWay way)
+        private void Touch(int index, ref LinkPair pair, ref LinkDirection direction)
         {
             if (!pair.IsDirty) dirty.Add(index);
-            way.Dirty = true;
+            direction.Dirty = true;
         }
 
         private int Find(int from, int to)

@@ -41,7 +41,7 @@ namespace Collektive.Unity
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public void Add(Node other)
         {
-            CheckAsked();
+            CheckIsCollecting();
             // A node that was never active has no position.
             if (other.Id >= 0) Add(other.Id, Vector3.Distance(node.Position, other.Position), 0);
         }
@@ -51,7 +51,7 @@ namespace Collektive.Unity
         /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or NaN.</exception>
         public void Add(Node other, float length, float attenuation)
         {
-            CheckAsked();
+            CheckIsCollecting();
             if (!IsAmount(length)) throw new ArgumentOutOfRangeException(nameof(length), length, "a link's length must be finite and 0 or greater");
             CheckAttenuation(attenuation);
             Add(other.Id, length, attenuation);
@@ -62,7 +62,7 @@ namespace Collektive.Unity
         /// <exception cref="ArgumentOutOfRangeException">The attenuation is negative, infinite or NaN.</exception>
         public void Add(in NearNode near, float attenuation = 0)
         {
-            CheckAsked();
+            CheckIsCollecting();
             CheckAttenuation(attenuation);
             Add(near.IdOfNode, near.Metres, attenuation);
         }
@@ -96,7 +96,7 @@ namespace Collektive.Unity
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindWithin(float radius)
         {
-            CheckAsked();
+            CheckIsCollecting();
             return simulation.Grid.FindAround(node, radius);
         }
 
@@ -107,7 +107,7 @@ namespace Collektive.Unity
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindNearest(int count, float guess = 0)
         {
-            CheckAsked();
+            CheckIsCollecting();
             var grid = simulation.Grid;
             return count < 1 ? default : grid.FindNearest(node.Position, count, guess > 0 ? guess : grid.MeanRadius);
         }
@@ -115,10 +115,10 @@ namespace Collektive.Unity
         /// <summary>The node that a search found.</summary>
         public Node NodeOf(in NearNode near) => simulation.Grid.NodeAt(near);
 
-        internal void Begin(Node asked)
+        internal void Begin(Node collecting)
         {
-            node = asked;
-            self = asked.Id;
+            node = collecting;
+            self = collecting.Id;
             if (places.Length < simulation.IdCapacity) Array.Resize(ref places, simulation.IdCapacity);
         }
 
@@ -147,7 +147,7 @@ namespace Collektive.Unity
             throw new ArgumentOutOfRangeException(nameof(attenuation), attenuation, "a link's attenuation must be finite and 0 or greater");
         }
 
-        private void CheckAsked()
+        private void CheckIsCollecting()
         {
             if (node is null) throw new InvalidOperationException("neighbours can be added in FindNeighbours only");
         }

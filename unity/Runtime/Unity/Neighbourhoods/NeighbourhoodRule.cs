@@ -22,7 +22,7 @@ namespace Collektive.Unity
         private NeighbourCollector.Neighbour[] held = Array.Empty<NeighbourCollector.Neighbour>();
         private LinkHandle[] links = Array.Empty<LinkHandle>();
         private int heldCount;
-        private int drops;
+        private int removalCount;
         // Users' code may do anything with physics.
         private bool isOwn;
 
@@ -84,8 +84,8 @@ namespace Collektive.Unity
 
         private void Take(NeighbourCollector neighbours, LinkTable table)
         {
-            var dropped = table.Drops != drops;
-            drops = table.Drops;
+            var dropped = table.RemovalCount != removalCount;
+            removalCount = table.RemovalCount;
             var marks = neighbours.Places;
             var all = neighbours.All;
             var kept = held;
@@ -120,14 +120,14 @@ namespace Collektive.Unity
                     Array.Resize(ref held, Math.Max(16, 2 * heldCount));
                     Array.Resize(ref links, held.Length);
                 }
-                Hold(table, heldCount++, all[w]);
+                AddLink(table, heldCount++, all[w]);
             }
         }
 
-        private void Hold(LinkTable table, int place, in NeighbourCollector.Neighbour now)
+        private void AddLink(LinkTable table, int place, in NeighbourCollector.Neighbour now)
         {
             held[place] = now;
-            links[place] = table.Hold(Node.Id, now.Id, !directed, now.Length, now.Attenuation);
+            links[place] = table.AddReference(Node.Id, now.Id, !directed, now.Length, now.Attenuation);
         }
 
         private void Change(LinkTable table, int place, in NeighbourCollector.Neighbour now, bool dropped)
@@ -135,7 +135,7 @@ namespace Collektive.Unity
             // The link is gone when the other node left and came back.
             if (dropped && !table.IsAlive(links[place]))
             {
-                Hold(table, place, now);
+                AddLink(table, place, now);
                 return;
             }
             ref var old = ref held[place];

@@ -39,7 +39,7 @@ namespace Collektive.Unity
         // The range of cells that contain nodes: a swarm on the ground has one layer of cells.
         private Cell least;
         private Cell most;
-        private double asked;
+        private double radiusSum;
         private int searches;
 
         internal NodeGrid() => ahead = new BackgroundSearch(this);
@@ -65,7 +65,7 @@ namespace Collektive.Unity
         /// Mean radius in metres of the searches since the grid was built, or of the previous grid before the first search. The mean and not the
         /// largest, so that one node with a long reach does not put all others into one cell.
         /// </summary>
-        internal float MeanRadius => searches == 0 ? cellSize : (float)(asked / searches);
+        internal float MeanRadius => searches == 0 ? cellSize : (float)(radiusSum / searches);
 
         /// <summary>
         /// Takes the positions of all nodes, for searches of about <paramref name="radius"/> metres. If it <paramref name="maySearchAhead"/>, a second
@@ -77,7 +77,7 @@ namespace Collektive.Unity
             count = all.Count;
             cellSize = Math.Min(Math.Max(radius, 1e-3f), MaxRadius);
             cellsPerMetre = 1 / (double)cellSize;
-            asked = 0;
+            radiusSum = 0;
             searches = 0;
             least = new Cell { X = int.MaxValue, Y = int.MaxValue, Z = int.MaxValue };
             most = new Cell { X = int.MinValue, Y = int.MinValue, Z = int.MinValue };
@@ -185,7 +185,7 @@ namespace Collektive.Unity
         private void Count(float radius)
         {
             if (!(radius >= 0)) return;
-            asked += Math.Min(radius, MaxRadius);
+            radiusSum += Math.Min(radius, MaxRadius);
             searches++;
         }
 

@@ -17,14 +17,14 @@ namespace Collektive.Unity
         private const int MaxRays = 4096;
 
         private readonly RayBatch rays = new RayBatch(16);
-        private readonly Pair[] asked = new Pair[MaxRays];
+        private readonly Pair[] requested = new Pair[MaxRays];
 
         // By the number of the line.
         private readonly GrowingArray<int> obstacles = new GrowingArray<int>();
 
         // A hash table with open addressing; lines of earlier ticks count as free places.
         private Line[] lines = new Line[256];
-        private RaycastHit[] inTheWay = new RaycastHit[16];
+        private RaycastHit[] hits = new RaycastHit[16];
 
         internal SightLines(Simulation simulation) => Rules = new BatchedParts(simulation);
 
@@ -53,7 +53,7 @@ namespace Collektive.Unity
                 Distance = distance;
             }
 
-            internal Vector3 Way => To.Position - From.Position;
+            internal Vector3 Vector => To.Position - From.Position;
 
             internal bool IsForeign(Collider collider)
             {
@@ -82,8 +82,8 @@ namespace Collektive.Unity
             var number = NumberOf(a.Id, b.Id, layers, out var isNew);
             if (!isNew) return number;
             var pair = new Pair(a, b, layers, distance);
-            asked[rays.Count] = pair;
-            rays.Add(new RaycastCommand(pair.From.Position, pair.Way, new QueryParameters(layers, false, QueryTriggerInteraction.Ignore), distance));
+            requested[rays.Count] = pair;
+            rays.Add(new RaycastCommand(pair.From.Position, pair.Vector, new QueryParameters(layers, false, QueryTriggerInteraction.Ignore), distance));
             return number;
         }
 
@@ -108,8 +108,8 @@ namespace Collektive.Unity
             var first = obstacles.Count - rays.Count;
             for (var i = 0; i < rays.Count; i++)
             {
-                obstacles.Items[first + i] = Count(i, asked[i]);
-                asked[i] = default;
+                obstacles.Items[first + i] = Count(i, requested[i]);
+                requested[i] = default;
             }
             rays.Clear();
         }
@@ -130,17 +130,17 @@ namespace Collektive.Unity
 
         private int CastWithoutBatch(in Pair pair)
         {
-            int hits;
+            int hitCount;
             // A full array may have left some out.
-            while ((hits = Physics.RaycastNonAlloc(
-                pair.From.Position, pair.Way, inTheWay, pair.Distance, pair.Layers, QueryTriggerInteraction.Ignore)) == inTheWay.Length)
+            while ((hitCount = Physics.RaycastNonAlloc(
+                pair.From.Position, pair.Vector, hits, pair.Distance, pair.Layers, QueryTriggerInteraction.Ignore)) == hits.Length)
             {
-                inTheWay = new RaycastHit[2 * inTheWay.Length];
+                hits = new RaycastHit[2 * hits.Length];
             }
             var count = 0;
-            for (var i = 0; i < hits; i++)
+            for (var i = 0; i < hitCount; i++)
             {
-                if (pair.IsForeign(inTheWay[i].collider)) count++;
+                if (pair.IsForeign(hits[i].collider)) count++;
             }
             return count;
         }

@@ -27,7 +27,7 @@ namespace Collektive.Unity
         internal sealed override void Run(Simulation simulation, int index)
         {
             if (simulation.Answered is ActuatorBuffer<TData> buffer) Act(buffer[index]);
-            else FailForData(simulation, "actuator", typeof(TData), simulation.Answered.DataType);
+            else FailWithSchemaMismatch(simulation, "actuator", typeof(TData), simulation.Answered.DataType);
         }
 
         /// <summary>

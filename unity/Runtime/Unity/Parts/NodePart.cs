@@ -78,7 +78,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Stops a simulation whose schema differs from the schema of this sensor or actuator.</summary>
-        internal void FailForData(Simulation simulation, string kind, Type actual, Type expected)
+        internal void FailWithSchemaMismatch(Simulation simulation, string kind, Type actual, Type expected)
         {
             simulation.Fail(kind + " " + GetType().Name + " of node " + Node.Id + " ('" + Node.name + "') is written for " + actual.FullName
                 + ", but the session's schema has " + expected.FullName + ": use a component for that schema, or select the other schema", this);

@@ -18,8 +18,8 @@ namespace Collektive.Unity
     {
         internal sealed override void Run(Simulation simulation, int index)
         {
-            if (simulation.Sensed is SensorBuffer<TData> buffer) Sense(ref buffer.Items[index]);
-            else FailForData(simulation, "sensor", typeof(TData), simulation.Sensed.DataType);
+            if (simulation.SensorData is SensorBuffer<TData> buffer) Sense(ref buffer.Items[index]);
+            else FailWithSchemaMismatch(simulation, "sensor", typeof(TData), simulation.SensorData.DataType);
         }
 
         /// <summary>

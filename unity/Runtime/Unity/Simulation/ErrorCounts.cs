@@ -24,7 +24,7 @@ namespace Collektive.Unity
         {
             if (node != null) node.LastError = message;
             Count++;
-            PlaceOf(program, node == null ? NodeErrors.Left : id).Add(1, tick, message);
+            PlaceOf(program, node == null ? NodeErrors.DepartedNodes : id).Add(1, tick, message);
             if (repeated.IsFirst(KeyOf(program, message), "rounds of program '" + program + "' failed in the same way", id, FirstLine(message)))
                 Debug.LogError("round of node " + id + " (program '" + program + "') failed at tick " + tick + ": " + message, node);
         }
@@ -35,7 +35,7 @@ namespace Collektive.Unity
             var source = part.GetType().Name;
             node.LastError = error.Message;
             Count++;
-            // The component may have removed its node: then the error counts for NodeErrors.Left.
+            // The component may have removed its node: then the error counts for NodeErrors.DepartedNodes.
             PlaceOf(source, node.Id).Add(1, tick, error.Message);
             if (repeated.IsFirst(KeyOf(source, error), "calls of " + source + " failed in the same way", node.Id, error.GetType() + ": " + error.Message))
             {
@@ -65,7 +65,7 @@ namespace Collektive.Unity
             places.Remove(node);
             foreach (var errors in left)
             {
-                PlaceOf(errors.Source, NodeErrors.Left).Add(errors.Count, errors.LastTick, errors.LastMessage);
+                PlaceOf(errors.Source, NodeErrors.DepartedNodes).Add(errors.Count, errors.LastTick, errors.LastMessage);
                 Remove(errors);
             }
         }
@@ -128,7 +128,7 @@ namespace Collektive.Unity
     public sealed class NodeErrors
     {
         /// <summary><see cref="Node"/> of the errors of all nodes that have left.</summary>
-        public const int Left = -1;
+        public const int DepartedNodes = -1;
 
         /// <summary><see cref="Node"/> of the errors of a handler, which belongs to no node.</summary>
         public const int NoNode = -2;
@@ -142,7 +142,7 @@ namespace Collektive.Unity
         /// <summary>The program's name, the component's type, or the handler's class and method.</summary>
         public string Source { get; }
 
-        /// <summary>The node's id, <see cref="Left"/> or <see cref="NoNode"/>.</summary>
+        /// <summary>The node's id, <see cref="DepartedNodes"/> or <see cref="NoNode"/>.</summary>
         public int Node { get; }
 
         /// <summary>Number of errors.</summary>

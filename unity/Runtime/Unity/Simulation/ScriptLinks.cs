@@ -20,8 +20,8 @@ namespace Collektive.Unity
         {
             if (!CheckEnds("add", a, b)) return;
             var length = Vector3.Distance(simulation.Find(a).Body.position, simulation.Find(b).Body.position);
-            simulation.Links.HoldForScripts(a, b, length, 0);
-            if (!directed) simulation.Links.HoldForScripts(b, a, length, 0);
+            simulation.Links.AddScriptReference(a, b, length, 0);
+            if (!directed) simulation.Links.AddScriptReference(b, a, length, 0);
         }
 
         /// <summary>Removes a link added by <see cref="Add"/>.</summary>

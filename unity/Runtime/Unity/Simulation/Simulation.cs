@@ -19,7 +19,7 @@ namespace Collektive.Unity
         /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
         private const int MaxLinks = 1 << 24;
 
-        private readonly NodeRegistry roster = new NodeRegistry();
+        private readonly NodeRegistry registry = new NodeRegistry();
         private readonly SceneGlobals globals;
         // Users' code may make nodes join and leave in a tick; a tick runs the nodes that were present when it began and did not leave.
         private Node[] present = Array.Empty<Node>();
@@ -72,7 +72,7 @@ namespace Collektive.Unity
         internal ulong Digest { get; private set; }
 
         /// <summary>Whether the last tick had rounds, and each of them failed.</summary>
-        internal bool NoRoundWorked { get; private set; }
+        internal bool AllRoundsFailed { get; private set; }
 
         internal TickTimes Times { get; private set; }
 
@@ -86,10 +86,10 @@ namespace Collektive.Unity
         internal ErrorCounts Errors { get; } = new ErrorCounts();
 
         /// <summary>Participating nodes, ascending by id.</summary>
-        internal List<Node> Nodes => roster.Nodes;
+        internal List<Node> Nodes => registry.Nodes;
 
         /// <summary>All ids are below it.</summary>
-        internal int IdCapacity => roster.IdCapacity;
+        internal int IdCapacity => registry.IdCapacity;
 
         internal LinkTable Links { get; } = new LinkTable();
 
@@ -100,8 +100,8 @@ namespace Collektive.Unity
         {
             get
             {
-                roster.DropLinksOfGone(Links);
-                Links.Settle();
+                registry.DropLinksOfGone(Links);
+                Links.ApplyChanges();
                 return Links;
             }
         }
@@ -119,7 +119,7 @@ namespace Collektive.Unity
         internal SensorQueries Queries { get; }
 
         /// <summary>Buffer for sensors in a tick.</summary>
-        internal SensorBuffer Sensed => session.Request.Sensors;
+        internal SensorBuffer SensorData => session.Request.Sensors;
 
         /// <summary>Buffer for actuators in a tick.</summary>
         internal ActuatorBuffer Answered => session.Answer.Actuators;
@@ -200,7 +200,7 @@ namespace Collektive.Unity
 
         internal void Join(Node node)
         {
-            var problem = roster.Join(node, this);
+            var problem = registry.Join(node, this);
             if (problem != null) Fail(problem, node);
         }
 
@@ -213,12 +213,12 @@ namespace Collektive.Unity
         /// <summary>At the end of a simulation, errors keep their nodes for the diagnostics window.</summary>
         private void Remove(Node node)
         {
-            roster.Leave(node);
+            registry.Leave(node);
             for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll(Links);
             node.OnLeft();
         }
 
-        internal Node Find(int id) => roster.Find(id);
+        internal Node Find(int id) => registry.Find(id);
 
         private void CloseSession()
         {
@@ -247,42 +247,42 @@ namespace Collektive.Unity
                 FlushChanges();
                 UpdateRules();
             }
-            var ruled = Stopwatch.GetTimestamp();
+            var rulesEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Sense.Auto())
             {
                 Sense();
                 // Last, since users' code may add and remove links until here.
-                Links.Flush(session.Request, roster.IsKnown);
+                Links.Flush(session.Request, registry.IsKnown);
             }
             if (!IsOpen) return;
-            var sensed = Stopwatch.GetTimestamp();
+            var senseEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Step.Auto()) session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
-            var stepped = Stopwatch.GetTimestamp();
+            var stepEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Act.Auto())
             {
                 ReadAnswer();
                 Act();
             }
             if (!IsOpen) return;
-            var acted = Stopwatch.GetTimestamp();
+            var actEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Physics.Auto()) PhysicsSteps.Advance(this);
             var end = Stopwatch.GetTimestamp();
-            Times = TickTimes.Of(start, ruled, sensed, stepped, acted, end);
+            Times = TickTimes.Of(start, rulesEnd, senseEnd, stepEnd, actEnd, end);
         }
 
         /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>
         private void FlushChanges()
         {
-            roster.DropLinksOfGone(Links);
+            registry.DropLinksOfGone(Links);
             var problem = globals.Flush(session.Request);
             if (problem != null) Fail(problem);
-            for (var i = 0; i < roster.Joining.Count && IsOpen; i++)
+            for (var i = 0; i < registry.Joining.Count && IsOpen; i++)
             {
-                var node = roster.Joining[i];
+                var node = registry.Joining[i];
                 problem = node.StartTimer();
                 if (problem != null) Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
             }
-            roster.Flush(session.Request);
+            registry.Flush(session.Request);
         }
 
         /// <summary>Simulated seconds up to which nodes are due in this tick.</summary>
@@ -351,7 +351,7 @@ namespace Collektive.Unity
             var answer = session.Answer;
             var count = answer.NodeCount;
             var allAnswered = count == due.Count;
-            NoRoundWorked = count == 0 && !allAnswered;
+            AllRoundsFailed = count == 0 && !allAnswered;
             for (int i = 0, place = 0; i < count && IsOpen; i++, place++)
             {
                 if (!allAnswered)
@@ -360,7 +360,7 @@ namespace Collektive.Unity
                 }
                 var (node, id) = due.Items[place];
                 // An earlier actuator may have made the node leave, or leave and come back.
-                if (node.Id != id || !roster.IsKnown[id]) continue;
+                if (node.Id != id || !registry.IsKnown[id]) continue;
                 node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
                 node.Actuators.Run(this, node, i);
             }

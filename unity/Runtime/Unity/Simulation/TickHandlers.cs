@@ -65,7 +65,7 @@ namespace Collektive.Unity
         private static void Report(Delegate handler, SimulationManager manager, Exception error) =>
             manager.Simulation.Errors.AddHandler(NameOf(handler), manager.Simulation.TickInProgress, error, Context(handler, manager));
 
-        /// <summary>What a click on the message selects.</summary>
+        /// <summary>The object that a click on the message selects.</summary>
         private static UnityEngine.Object Context(Delegate handler, SimulationManager manager) => handler.Target as UnityEngine.Object ?? manager;
 
         /// <summary>Class and method, for a lambda those around it: the compiler puts their names into angle brackets, or nests classes.</summary>

@@ -16,9 +16,10 @@ namespace Collektive.Unity
         }
 
         /// <summary>The record of a tick, from readings of <see cref="Stopwatch"/> at its start and at the end of each phase.</summary>
-        internal static TickTimes Of(long start, long ruled, long sensed, long stepped, long acted, long end) =>
+        internal static TickTimes Of(long start, long rulesEnd, long senseEnd, long stepEnd, long actEnd, long end) =>
             new TickTimes(
-                Milliseconds(start, ruled), Milliseconds(ruled, sensed), Milliseconds(sensed, stepped), Milliseconds(stepped, acted), Milliseconds(acted, end));
+                Milliseconds(start, rulesEnd), Milliseconds(rulesEnd, senseEnd), Milliseconds(senseEnd, stepEnd), Milliseconds(stepEnd, actEnd),
+                Milliseconds(actEnd, end));
 
         /// <summary>Positions and neighbourhood rules.</summary>
         public double Rules { get; }

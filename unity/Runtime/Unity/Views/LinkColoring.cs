@@ -1,9 +1,9 @@
 namespace Collektive.Unity
 {
-    /// <summary>What a <see cref="LinkView"/> colours links by.</summary>
+    /// <summary>The value by which a <see cref="LinkView"/> colours links.</summary>
     public enum LinkColoring
     {
-        /// <summary>Whether the two nodes hear each other, or only one the other.</summary>
+        /// <summary>Both directions or one.</summary>
         Direction,
 
         /// <summary>The length in metres.</summary>
@@ -12,7 +12,7 @@ namespace Collektive.Unity
         /// <summary>The attenuation.</summary>
         Attenuation,
 
-        /// <summary>The number that <see cref="LinkView.Value"/> gives.</summary>
+        /// <summary>The number that <see cref="LinkView.Value"/> returns.</summary>
         Value,
     }
 }

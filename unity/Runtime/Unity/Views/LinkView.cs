@@ -7,15 +7,14 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Draws all links of the last tick at once from two buffers, the nodes' positions and the pairs of linked nodes, without a GameObject or a matrix
-    /// per link. Each directed link is drawn from its sender half of the way to its receiver: two nodes that hear each other are joined by a whole
-    /// line.
+    /// per link. Each directed link is drawn from its sender half of the way to its receiver: links in both directions form a whole line.
     /// </summary>
     [AddComponentMenu("Collektive/Link View")]
     [DisallowMultipleComponent]
     public sealed class LinkView : MonoBehaviour
     {
         /// <summary>Of the two bars of a pair, as the shader makes them.</summary>
-        private const int CornersOfPair = 48;
+        private const int VerticesPerPair = 48;
 
         /// <summary>The step that the shader draws nothing for.</summary>
         private const int NoLink = 255;
@@ -155,7 +154,7 @@ namespace Collektive.Unity
                 shadowCastingMode = ShadowCastingMode.Off,
                 receiveShadows = false,
             };
-            Graphics.RenderPrimitives(parameters, MeshTopology.Triangles, CornersOfPair, count);
+            Graphics.RenderPrimitives(parameters, MeshTopology.Triangles, VerticesPerPair, count);
         }
 
         private void Take(SimulationManager manager)
@@ -177,8 +176,8 @@ namespace Collektive.Unity
             for (var i = 0; i < all.Length; i++)
             {
                 ref var pair = ref all[i];
-                var up = pair.Up.Holders > 0;
-                var down = pair.Down.Holders > 0;
+                var up = pair.Up.References > 0;
+                var down = pair.Down.References > 0;
                 if (!up && !down) continue;
                 ref var taken = ref pairs[count++];
                 taken.Low = End(pair.Low, up ? StepOf(2 * i, down) : NoLink);
@@ -206,8 +205,8 @@ namespace Collektive.Unity
             for (var i = 0; i < all.Length; i++)
             {
                 ref var pair = ref all[i];
-                if (pair.Up.Holders > 0) Include(numbers[2 * i] = NumberOf(pair.Low, pair.High, pair.Up), ref least, ref most);
-                if (pair.Down.Holders > 0) Include(numbers[2 * i + 1] = NumberOf(pair.High, pair.Low, pair.Down), ref least, ref most);
+                if (pair.Up.References > 0) Include(numbers[2 * i] = NumberOf(pair.Low, pair.High, pair.Up), ref least, ref most);
+                if (pair.Down.References > 0) Include(numbers[2 * i + 1] = NumberOf(pair.High, pair.Low, pair.Down), ref least, ref most);
             }
             scale.Begin();
             scale.Include(least);
@@ -220,11 +219,11 @@ namespace Collektive.Unity
             if (number > most && number <= float.MaxValue) most = number;
         }
 
-        private float NumberOf(int from, int to, in LinkWay way)
+        private float NumberOf(int from, int to, in LinkDirection direction)
         {
-            if (coloring == LinkColoring.Length) return way.Length;
-            if (coloring == LinkColoring.Attenuation) return way.Attenuation;
-            return Value == null ? 0 : Value(LinkTable.Record(from, to, way));
+            if (coloring == LinkColoring.Length) return direction.Length;
+            if (coloring == LinkColoring.Attenuation) return direction.Attenuation;
+            return Value == null ? 0 : Value(LinkTable.Record(from, to, direction));
         }
 
         private void TakePlaces(SimulationManager manager)
@@ -259,7 +258,7 @@ namespace Collektive.Unity
             buffer.SetData(items, 0, 0, itemCount);
         }
 
-        /// <summary>What the shader calls its properties and buffers.</summary>
+        /// <summary>Names of properties and buffers in the shader.</summary>
         private static class ShaderNames
         {
             internal static readonly int Places = Shader.PropertyToID("_LinkPlaces");

@@ -36,7 +36,7 @@ namespace Collektive.Unity
 
         private RayHit[] hits = Array.Empty<RayHit>();
         private Vector3[] directions = Array.Empty<Vector3>();
-        private Vector3[] aims = Array.Empty<Vector3>();
+        private Vector3[] worldDirections = Array.Empty<Vector3>();
         private float angleOfDirections;
 
         // The number of the first ray in the batch.
@@ -79,40 +79,40 @@ namespace Collektive.Unity
             var queries = Node.Simulation.Queries;
             // Not when another sensor has changed the fan since.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections;
-            if (!isBatched) Aim();
+            if (!isBatched) UpdateDirections();
             var centre = Node.Position;
-            for (var i = 0; i < aims.Length; i++)
+            for (var i = 0; i < worldDirections.Length; i++)
             {
-                if (isBatched) hits[i] = Pass(centre, aims[i], queries.Rays.HitOf(query + i, 0));
-                else hits[i] = Cast(centre, aims[i], 0);
+                if (isBatched) hits[i] = Pass(centre, worldDirections[i], queries.Rays.HitOf(query + i, 0));
+                else hits[i] = Cast(centre, worldDirections[i], 0);
             }
             Write(ref data, hits);
         }
 
         internal sealed override void Enqueue()
         {
-            Aim();
+            UpdateDirections();
             var fans = Node.Simulation.Queries.Rays;
             query = fans.Count;
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
-            for (var i = 0; i < aims.Length; i++) fans.Add(new RaycastCommand(Node.Position, aims[i], parameters, range));
+            for (var i = 0; i < worldDirections.Length; i++) fans.Add(new RaycastCommand(Node.Position, worldDirections[i], parameters, range));
         }
 
         /// <summary>Writes the hits from left to right, clockwise seen from above. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<RayHit> hits);
 
         /// <summary>Rotates the rays with the node.</summary>
-        private void Aim()
+        private void UpdateDirections()
         {
-            if (MustUpdateDirections) Spread();
+            if (MustUpdateDirections) ComputeLocalDirections();
             var turn = Node.Body.rotation;
-            for (var i = 0; i < aims.Length; i++) aims[i] = turn * directions[i];
+            for (var i = 0; i < worldDirections.Length; i++) worldDirections[i] = turn * directions[i];
         }
 
-        private void Spread()
+        private void ComputeLocalDirections()
         {
             hits = new RayHit[Math.Max(rays, 0)];
-            aims = new Vector3[hits.Length];
+            worldDirections = new Vector3[hits.Length];
             directions = new Vector3[hits.Length];
             angleOfDirections = angle;
             for (var i = 0; i < directions.Length; i++) directions[i] = Quaternion.AngleAxis(AngleOf(i), Vector3.up) * Vector3.forward;

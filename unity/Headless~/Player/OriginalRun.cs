@@ -4,15 +4,15 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A run to repeat, read from a manifest.</summary>
-    internal sealed class FormerRun
+    /// <summary>The run of a manifest, to repeat and compare.</summary>
+    internal sealed class OriginalRun
     {
         internal const string ScenarioKey = "scenario";
 
         private readonly string path;
         private readonly JObject manifest;
 
-        internal FormerRun(JsonFile file, string path)
+        internal OriginalRun(JsonFile file, string path)
         {
             this.path = path;
             manifest = file.Root;
@@ -63,8 +63,8 @@ namespace Collektive.Headless
                 var before = manifest[key][property.Name];
                 if (JToken.DeepEquals(before, property.Value)) continue;
                 Console.Error.WriteLine(
-                    "collektive: not as in the run of " + path + ": " + property.Name + " is " + Text(property.Value) + ", it was "
-                        + (before == null ? "not named" : Text(before)));
+                    "collektive: changed since the run of " + path + ": " + property.Name + " is " + Text(property.Value) + ", previously "
+                        + (before == null ? "absent" : Text(before)));
             }
         }
 
