@@ -1,7 +1,7 @@
 # The test suites. Each is a CTest test and writes JUnit XML to build/results/NAME, which `./collektive test` adds up.
 include(Suite)
 
-# Preloaded to let one call to the system fail.
+# LD_PRELOAD library that makes one system call fail.
 collektive_step(failing OUTPUT "${COLLEKTIVE_BUILD}/failing.so"
   COMMAND "${CMAKE_C_COMPILER}" -std=gnu11 -O1 -Wall -Wextra -Werror -shared -fPIC -o "${COLLEKTIVE_BUILD}/failing.so" "${SCRIPTS}/tests/chaos/failing.c"
   DEPENDS "${SCRIPTS}/tests/chaos/failing.c")

@@ -22,14 +22,14 @@ from .positions import ExperimentError, Located
 from .store import Store
 from .worker import Outcome, Worker, WorkerError
 
-LEAST_ROOM = 1 << 20
+MIN_FREE_BYTES = 1 << 20
 """Bytes that must be free on the disk before each run."""
 
 REPEATED_SHARE = 0.02
-LEAST_REPEATED = 3
+MIN_REPEATED_RUNS = 3
 """Share and minimum number of runs that are repeated in a fresh process, to check that results do not depend on earlier runs."""
 
-MOST_EQUAL_FAILURES = 5
+MAX_EQUAL_FAILURES = 5
 """After so many first runs that failed with one message, the others would fail, too."""
 
 Task = tuple[Run, bool]
@@ -112,7 +112,7 @@ def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> li
 
 def _spread(count: int) -> Iterable[int]:
     """Returns the indices of the runs that are repeated: the last one of each interval, which has the most runs before it."""
-    size = min(count, max(LEAST_REPEATED, math.ceil(count * REPEATED_SHARE)))
+    size = min(count, max(MIN_REPEATED_RUNS, math.ceil(count * REPEATED_SHARE)))
     return ((index + 1) * count // size - 1 for index in range(size))
 
 
@@ -121,7 +121,7 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
 
     Returns 0 if all runs are complete, 1 otherwise, and 130 after Ctrl-C.
     """
-    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo), math.inf if keep_going else MOST_EQUAL_FAILURES)
+    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo), math.inf if keep_going else MAX_EQUAL_FAILURES)
     written = tables.write(experiment, store, with_csv)
     if code == 0 and written != experiment.count:
         raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; "
@@ -142,7 +142,7 @@ def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> fl
                 outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
                 seconds.append(time.monotonic() - began)
                 if outcome.status != "complete":
-                    raise ExperimentError(f"the trial of '{run.name}' is not complete ({outcome.status}: {outcome.message}), so the time is not known")
+                    raise ExperimentError(f"the time cannot be estimated: the trial run '{run.name}' failed ({outcome.status}: {outcome.message})")
         finally:
             worker.stop()
     return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
@@ -197,7 +197,7 @@ def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, j
 
 
 def _require_room(store: Store) -> None:
-    if shutil.disk_usage(store.folder).free < LEAST_ROOM:
+    if shutil.disk_usage(store.folder).free < MIN_FREE_BYTES:
         raise OSError(f"the disk of '{store.folder}' is full")
 
 

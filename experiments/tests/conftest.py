@@ -82,10 +82,10 @@ def project(tmp_path: Path) -> Project:
 @pytest.fixture(scope="session")
 def lamps(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """A sweep of eight runs in `out`. Tests must not change it."""
-    swept = Project(tmp_path_factory.mktemp("lamps"))
-    result = swept.sweep("--csv", **EIGHT)
+    finished_sweep = Project(tmp_path_factory.mktemp("lamps"))
+    result = finished_sweep.sweep("--csv", **EIGHT)
     assert result.returncode == 0, result.stderr
-    return swept
+    return finished_sweep
 
 
 EIGHT: dict[str, Any] = {"vary": {"fields.lamps": [5, 10], "network.loss": [0, 0.3], "seed": "1-2"},

@@ -265,7 +265,7 @@ def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys:
     change_scene(project, 'throw new System.InvalidOperationException("no luck");')
     assert project.sweep(vary={"seed": [1]}).returncode == 1
     assert main(["plot", str(project.folder / "out")]) == 1
-    assert "has no complete run to plot" in capsys.readouterr().err
+    assert "has no complete runs to plot" in capsys.readouterr().err
 
 
 def test_a_folder_that_is_not_a_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

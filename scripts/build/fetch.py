@@ -204,7 +204,7 @@ def pom_value(name: str) -> str:
 
 _PYTHON = sys.version
 _EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
-# What each fetched folder depends on, beside this module, and the function that fills it.
+# Dependencies of each fetched folder, beside this module, and the function that fills it.
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
     "physx": ([TOOLS / "physx"], _physx),

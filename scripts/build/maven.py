@@ -34,7 +34,7 @@ STARTED = BUILD / "maven-started"
 WITHOUT_TESTS = "-Dmaven.test.skip=true"
 # Twice as fast for a few modules; many modules repay the second compiler.
 SHORT_CALL = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
-FEW = 3
+FEW_MODULES = 3
 
 
 class Module:
@@ -165,7 +165,7 @@ def run(modules: Sequence[Module], changed: set[Module], words: Sequence[str], t
             module.store(TESTS_MARK, "")
     names = ",".join(module.name for module in modules)
     command: list[str | Path] = ["mvn", "-B", "-ntp", "-q", "-Dstyle.color=never", "-T", "2", "-f", PARENT, "-pl", names, *words]
-    options = [os.environ.get("MAVEN_OPTS", ""), SHORT_CALL if max(len(changed), len(tested)) <= FEW else ""]
+    options = [os.environ.get("MAVEN_OPTS", ""), SHORT_CALL if max(len(changed), len(tested)) <= FEW_MODULES else ""]
     try:
         environment = {**os.environ, "MAVEN_OPTS": " ".join(options)}
         code = subprocess.run(command, env=environment).returncode

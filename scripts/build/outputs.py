@@ -18,7 +18,7 @@ RUNNING, COMPLETE, WITHOUT_PICTURES = "running", "complete", "the pictures are m
 SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM, 128 + signal.SIGKILL)
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
 # Folder of the earlier results until a run has begun.
-EARLIER = "earlier.part"
+BACKUP = "earlier.part"
 
 
 @contextlib.contextmanager
@@ -51,12 +51,12 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
         with tempfile.TemporaryFile(dir=folder):
             pass
         if earlier:
-            (folder / EARLIER).mkdir()
+            (folder / BACKUP).mkdir()
     except OSError as error:
         raise Failure(f"cannot write to the output folder '{folder}': {error.strerror}; name another folder with --out") from error
     try:
         for name in earlier:
-            (folder / name).rename(folder / EARLIER / name)
+            (folder / name).rename(folder / BACKUP / name)
         yield
     finally:
         _end(folder)
@@ -64,7 +64,7 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
 
 def _end(folder: Path) -> None:
     """Deletes the earlier results if a new run has begun, and restores them otherwise."""
-    earlier = folder / EARLIER
+    earlier = folder / BACKUP
     if earlier.is_symlink() or not earlier.is_dir():
         return
     if not (folder / "manifest.json").exists():

@@ -18,11 +18,11 @@ from validator.serialized_fields import ScriptClass  # noqa: E402
 from build import metas  # noqa: E402
 
 
-def problems(root: str | Path, classes: Mapping[str, ScriptClass], ledger: str = guids.LEDGER) -> Iterator[str]:
+def problems(root: str | Path, classes: Mapping[str, ScriptClass], guids_file: str = guids.GUIDS_FILE) -> Iterator[str]:
     """Yields the errors of the package at root."""
     yield from metas.problems(root)
     assets = Assets(root)
-    yield from guids.problems(assets, classes, ledger)
+    yield from guids.problems(assets, classes, guids_file)
     yield from asmdefs.problems(assets)
     yield from references.problems(assets, classes)
     yield from packing.problems(assets)

@@ -44,7 +44,7 @@ exec chroot "$root" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/s
 PROGRESS = re.compile(r"\[ *\d+s\] |collektive: |\d+ passed, ")
 
 
-class CannotMakeError(Exception):
+class RootError(Exception):
     """A root cannot be created, for example without a network."""
 
 
@@ -63,7 +63,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
             try:
                 if code := _test_root(name, work, results):
                     failures.append(f"{name} ended with code {code}")
-            except CannotMakeError as error:
+            except RootError as error:
                 print_progress(f"{name}: skipped, its root cannot be made: {error}; the whole log is {_log(name)}")
                 skipped += 1
             finally:
@@ -158,7 +158,7 @@ def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list
     _debootstrap(name, packages, suite, mirror, script, "--download-only", "--no-check-gpg")
     package = next((packages / "var/cache/apt/archives").glob("ubuntu-keyring_*.deb"))
     if hashlib.sha256(package.read_bytes()).hexdigest() != UBUNTU_KEYRING_SHA256:
-        raise CannotMakeError(f"{package.name} has another SHA-256 than expected")
+        raise RootError(f"{package.name} has another SHA-256 than expected")
     _logged(name, ["dpkg-deb", "--extract", package, work / "keyring"])
     _remove(packages)
     return work / "keyring/usr/share/keyrings/ubuntu-archive-keyring.gpg"
@@ -167,7 +167,7 @@ def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list
 def _logged(name: str, command: Sequence[str | Path]) -> None:
     with _log(name).open("ab") as file:
         if subprocess.run(command, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode != 0:
-            raise CannotMakeError(" ".join(map(str, command[:6])) + " failed")
+            raise RootError(" ".join(map(str, command[:6])) + " failed")
 
 
 def _add_clients(root: Path) -> None:

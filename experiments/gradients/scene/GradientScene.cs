@@ -23,7 +23,7 @@ namespace Gradients
         public float spacing = 6;
 
         /// <summary>Metres by which a node may be off its place, along each axis.</summary>
-        public float disorder = 1.5f;
+        public float positionNoise = 1.5f;
 
         /// <summary>Range of radios in metres.</summary>
         public float range = 10;
@@ -77,7 +77,7 @@ namespace Gradients
         {
             var holder = new GameObject("Node");
             holder.transform.position = spacing * new Vector3(place % columns, 0, place / columns)
-                + new Vector3(manager.Random.Range(-disorder, disorder), 0, manager.Random.Range(-disorder, disorder));
+                + new Vector3(manager.Random.Range(-positionNoise, positionNoise), 0, manager.Random.Range(-positionNoise, positionNoise));
             holder.AddComponent<Node>();
             holder.AddComponent<RadiusNeighbourhood>().Radius = range;
             holder.AddComponent<PositionSensor>();
@@ -105,14 +105,14 @@ namespace Gradients
         }
     }
 
-    /// <summary>Perceives where the node is.</summary>
+    /// <summary>Measures the node's position.</summary>
     public sealed class PositionSensor : PositionSensor<gradients.SensorData>
     {
         /// <inheritdoc/>
         protected override void Write(ref gradients.SensorData data, Vector3 position) => data.Position = position.ToValue();
     }
 
-    /// <summary>Knows whether the node is the source.</summary>
+    /// <summary>Writes whether the node is the source.</summary>
     public sealed class SourceSensor : Sensor<gradients.SensorData>
     {
         /// <summary>Whether it is.</summary>

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 
 from build.site.sources import commands, help_of, text
 
-# What to do next, by the name of a code in the C header.
-NEXT = {
+# Solutions by the name of a code in the C header.
+SOLUTIONS = {
     "ARGUMENT": "Correct the setting or argument in the message.",
     "MEMORY": "Close other programs, use fewer nodes or smaller neighbourhoods, or lower the JVM's maximum heap.",
     "HANDLE": "A script uses a closed session or slot. Open a new one.",
@@ -59,7 +59,7 @@ def errors() -> str:
             "Values of `BridgeException.Error` in C#, and return codes of the native library.\n\n"
             "| Code | C# | C | What happened | What to do |\n|---|---|---|---|---|\n")
     for name, number, meaning in codes():
-        page += f"| {number} | `{bridge[number]}` | `CLK_{name}` | {meaning} | {NEXT[name]} |\n"
+        page += f"| {number} | `{bridge[number]}` | `CLK_{name}` | {meaning} | {SOLUTIONS[name]} |\n"
     page += ("\n## Checks of the compiler plugin\n\n`@Suppress(\"NAME\")` silences a warning.\n\n"
              "| Name | Severity | When, and what to do |\n|---|---|---|\n")
     for name, severity, doc in checks():

@@ -21,7 +21,7 @@ SECTIONS = {
                     "repository/disturbances", "repository/decisions", "repository/requirements", "platforms", "limits", "verification"],
     "Project": ["repository/changelog", "repository/contributing", "repository/security", "repository/third-party"],
 }
-LATE = "How-to"
+DEFAULT_SECTION = "How-to"
 # Libraries that draw diagrams, and that make the search work without a server.
 LIBRARIES = {"mermaid.js": "@mermaid-js/tiny/dist/mermaid.tiny.js", "iframe-worker.js": "iframe-worker/shim/index.js"}
 # Pages at the root of the repository.
@@ -95,7 +95,7 @@ def write(folder: Path, modules: Path) -> None:
     named = {name for names in SECTIONS.values() for name in names}
     lines = ["INHERIT: mkdocs.yml", "nav:", "  - Home: index.md"]
     for section, names in SECTIONS.items():
-        late = sorted(pages.keys() - named - {"index"}) if section == LATE else []
+        late = sorted(pages.keys() - named - {"index"}) if section == DEFAULT_SECTION else []
         lines.append(f"  - {section}:")
         lines += [f"      - {title(pages[name])!r}: {name}.md" for name in [*names, *late]]
     (folder / "site.yml").write_text("\n".join(lines) + "\n")

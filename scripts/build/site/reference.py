@@ -37,11 +37,11 @@ def simulation_settings() -> str:
     """Returns the page of simulation settings. Scenario.cs names the settings that are not keys of a scenario."""
     source = re.sub(r'"\s*\+\s*"', "", text("unity/Runtime/Unity/Manager/SimulationSettings.cs"))
     scenario = text("unity/Headless~/Player/Scenario.cs")
-    apart = re.findall(r"nameof\(SimulationSettings\.(\w+)\)", scenario[scenario.index("Shared ="):scenario.index("private readonly JObject root")])
+    inspector_only = re.findall(r"nameof\(SimulationSettings\.(\w+)\)", scenario[scenario.index("Shared ="):scenario.index("private readonly JObject root")])
     page = ("# Simulation settings\n\nFields of the Simulation Manager in the inspector. Most are also keys of a scenario file. For the others, "
             "see [Runs without Unity](../headless.md).\n\n| Field | Type | Default | Key of a scenario | Meaning |\n|---|---|---|---|---|\n")
     for tooltip, kind, name, default in re.findall(r'\[Tooltip\("([^"]+)"\)\].*?public ([\w<>]+) (\w+)(?: = ([^;]+))?;', source, re.S):
-        key = "" if name in apart else "yes"
+        key = "" if name in inspector_only else "yes"
         default = re.sub(r"new .*|^f$", "", default.removesuffix("f")) if default else "0" if kind == "float" else ""
         page += f"| `{name}` | `{kind}` | {f'`{default}`' if default else ''} | {key} | {tooltip} |\n"
     return page

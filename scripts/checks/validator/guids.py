@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 
 from validator.assets import Assets
 
-LEDGER = os.path.join(os.path.dirname(os.path.abspath(__file__)), "guids.txt")
+GUIDS_FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "guids.txt")
 
 
 def referable(assets: Assets, classes: Iterable[str]) -> dict[str, str]:
@@ -18,27 +18,27 @@ def referable(assets: Assets, classes: Iterable[str]) -> dict[str, str]:
     return {guid: path for guid, path in assets.guids.items() if path in paths}
 
 
-def read(ledger: str) -> dict[str, str]:
-    with open(ledger) as file:
+def read(guids_file: str) -> dict[str, str]:
+    with open(guids_file) as file:
         entries = (line.partition(" ") for line in file.read().splitlines())
         return {guid: path for guid, _, path in entries}
 
 
-def problems(assets: Assets, classes: Iterable[str], ledger: str = LEDGER) -> Iterator[str]:
+def problems(assets: Assets, classes: Iterable[str], guids_file: str = GUIDS_FILE) -> Iterator[str]:
     """Yields a line for each missing, changed or unlisted GUID."""
-    listed = read(ledger)
+    listed = read(guids_file)
     present = referable(assets, classes)
     for guid, path in sorted(listed.items(), key=lambda entry: entry[1]):
         if guid not in present:
             yield f"{path}: its GUID {guid} is missing, which breaks users' scenes; restore the GUID in the meta of the asset, also if it was renamed"
     for guid, path in sorted(present.items(), key=lambda entry: entry[1]):
         if listed.get(guid) != path:
-            yield f"{path}: not in {os.path.basename(ledger)} with GUID {guid}; run scripts/checks/validate.py --update"
+            yield f"{path}: not in {os.path.basename(guids_file)} with GUID {guid}; run scripts/checks/validate.py --update"
 
 
-def update(assets: Assets, classes: Iterable[str], ledger: str = LEDGER) -> None:
+def update(assets: Assets, classes: Iterable[str], guids_file: str = GUIDS_FILE) -> None:
     """Adds new and renamed assets. Keeps missing ones, which remain errors."""
-    listed = {**read(ledger), **referable(assets, classes)}
-    with open(ledger, "w") as file:
+    listed = {**read(guids_file), **referable(assets, classes)}
+    with open(guids_file, "w") as file:
         for guid, path in sorted(listed.items(), key=lambda entry: entry[1]):
             file.write(f"{guid} {path}\n")

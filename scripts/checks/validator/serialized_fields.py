@@ -1,4 +1,4 @@
-"""What Unity serialises of each component and asset class, as Collektive.SerializedFields.exe prints it."""
+"""The fields that Unity serialises of each component and asset class, as Collektive.SerializedFields.exe prints them."""
 
 
 class ScriptClass:

@@ -45,8 +45,8 @@ class ValidatorTest(unittest.TestCase):
             else:
                 shutil.copy(path, self.root)
             shutil.copy(path + ".meta", self.root)
-        self.ledger = os.path.join(self.root, "guids.txt")
-        shutil.copy(guids.LEDGER, self.ledger)
+        self.guids_file = os.path.join(self.root, "guids.txt")
+        shutil.copy(guids.GUIDS_FILE, self.guids_file)
 
     def change(self, path: str, pattern: str, new: str) -> None:
         path = os.path.join(self.root, path)
@@ -61,7 +61,7 @@ class ValidatorTest(unittest.TestCase):
 
     def assert_problem(self, *words: str) -> None:
         """Asserts that one problem contains all words."""
-        problems = list(validate.problems(self.root, classes(), self.ledger))
+        problems = list(validate.problems(self.root, classes(), self.guids_file))
         self.assertTrue(any(all(word in problem for word in words) for problem in problems), "\n".join(problems) or "no problem was found")
 
     def test_finds_a_missing_meta(self) -> None:
@@ -87,10 +87,10 @@ class ValidatorTest(unittest.TestCase):
     def test_an_update_lists_what_is_new_and_forgets_nothing(self) -> None:
         os.remove(os.path.join(self.root, PREFAB))
         os.remove(os.path.join(self.root, PREFAB + ".meta"))
-        before = guids.read(self.ledger)
+        before = guids.read(self.guids_file)
         self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
-        guids.update(assets.Assets(self.root), classes(), self.ledger)
-        self.assertEqual(guids.read(self.ledger), before)
+        guids.update(assets.Assets(self.root), classes(), self.guids_file)
+        self.assertEqual(guids.read(self.guids_file), before)
         self.assert_problem(PREFAB, "its GUID", "is missing")
 
     def test_finds_a_script_reference_to_nothing(self) -> None:

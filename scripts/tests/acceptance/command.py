@@ -79,7 +79,7 @@ class Folder(unittest.TestCase):
     def path(self, *parts):
         return os.path.join(self.folder, *parts)
 
-    def await_that(self, holds) -> None:
+    def wait_until(self, holds) -> None:
         """Waits until holds() is true, for at most a minute."""
         end = time.monotonic() + 60
         while not holds():

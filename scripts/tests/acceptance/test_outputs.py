@@ -85,7 +85,7 @@ class Outputs(Project):
         self.assertEqual(self.run_it().returncode, 0)
         process = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
                                     "--seconds", "1000000"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.await_that(lambda: os.path.exists(self.path("out", "metrics.csv")) and len(self.rows()) >= 20)
+        self.wait_until(lambda: os.path.exists(self.path("out", "metrics.csv")) and len(self.rows()) >= 20)
         for pid in processes("Collektive.Player.exe", self.path("out")):
             os.kill(pid, signal.SIGKILL)
         process.wait()
@@ -157,7 +157,7 @@ class Outputs(Project):
     def test_two_runs_into_one_folder_do_not_meet(self) -> None:
         command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "1000000"]
         first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        self.await_that(lambda: os.path.exists(self.path("out", "manifest.json")))
+        self.wait_until(lambda: os.path.exists(self.path("out", "manifest.json")))
         second = self.run_it("--overwrite")
         self.assertEqual(second.returncode, 1)
         self.assertIn("another run writes to", last_error(second))

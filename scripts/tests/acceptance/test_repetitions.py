@@ -22,7 +22,7 @@ class Repetitions(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         first, second = self.manifest(self.path("a")), self.manifest(self.path("b"))
         self.assertIn(f"repeated: 30 ticks, digest {first['digest']}", result.stdout)
-        self.assertNotIn("not as in the run", result.stderr)
+        self.assertNotIn("changed since the run", result.stderr)
         for key in ["scenario", "file", "folder", "inputs", "programs", "parameters", "ticks", "digest", "end"]:
             self.assertEqual(first[key], second[key], key)
         self.assertEqual(first["scenario"]["seed"], 2**64 - 1)
@@ -33,8 +33,8 @@ class Repetitions(Project):
         self.change("scene/Lamps.cs", "Brightness = i + 1", "Brightness = i + 2")
         result = self.repeat()
         self.assertEqual(result.returncode, 1)
-        self.assertRegex(result.stderr, "not as in the run of .*: scripts is ")
-        self.assertNotRegex(result.stderr, "not as in the run of .*: (schema|programs) is ")
+        self.assertRegex(result.stderr, "changed since the run of .*: scripts is ")
+        self.assertNotRegex(result.stderr, "changed since the run of .*: (schema|programs) is ")
         self.assertRegex(last_error(result), "the run differs from the one in .*: digest is [0-9a-f]{16}, previously [0-9a-f]{16}")
 
     def test_a_project_that_was_moved_is_found_with_folder(self) -> None:

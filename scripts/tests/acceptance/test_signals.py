@@ -33,7 +33,7 @@ class Signals(Project):
         self.fail(f"the command ended before it wrote '{words}'")
 
     def await_metrics(self) -> None:
-        self.await_that(lambda: os.path.exists(self.path("out", "metrics.csv")))
+        self.wait_until(lambda: os.path.exists(self.path("out", "metrics.csv")))
         time.sleep(0.5)
 
     def test_a_run_ends_after_its_tick_with_its_outputs(self) -> None:

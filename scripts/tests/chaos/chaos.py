@@ -34,7 +34,7 @@ PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
 SECONDS, TICKS = 20, 200
 LIMIT_S = 240
 # Time limit in seconds until all processes have ended after a signal.
-GONE_S = 20
+EXIT_LIMIT_S = 20
 MARK = "COLLEKTIVE_CHAOS"
 MOUNTED = 'mount -t tmpfs -o size="$SIZE" none "$DISK" || exit 99; eval "$FAULT"; "$@"; code=$?; cp -r "$DISK/out" "$KEEP" 2>/dev/null; exit $code'
 
@@ -174,7 +174,7 @@ class Trial:
         return code, output, self.path("out")
 
     def wait_for_the_last(self) -> list[str]:
-        end = time.monotonic() + GONE_S
+        end = time.monotonic() + EXIT_LIMIT_S
         while time.monotonic() < end:
             left = marked(self.mark)
             if not left:

@@ -51,7 +51,7 @@ class Checkout:
         os.mkfifo(self.root / "gate")
 
     def start(self, code: str) -> subprocess.Popen[str]:
-        """Starts a program of the library's functions, in a process group that can be killed as a whole."""
+        """Starts a program that uses the library, in a process group that can be killed as a whole."""
         return self._popen([sys.executable, "-I", "-c", SETUP + code, str(self.root)])
 
     def start_command(self, *words: str) -> subprocess.Popen[str]:

@@ -6,7 +6,7 @@ from build.site.sources import text
 
 
 def test_each_code_of_the_header_has_what_to_do() -> None:
-    assert [name for name, *_ in errors.codes()] == list(errors.NEXT)
+    assert [name for name, *_ in errors.codes()] == list(errors.SOLUTIONS)
 
 
 def test_the_errors_of_csharp_are_those_of_the_header() -> None:
@@ -33,5 +33,5 @@ def test_the_page_shows_them() -> None:
     page = errors.errors()
     shown = re.findall(r"(?m)^\| .*", page)
     assert page.count("| next tick |") > 20
-    for name in [*(f"CLK_{name}" for name in errors.NEXT), *errors.bridge_errors().values(), *(name for name, *_ in errors.checks()), "replay"]:
+    for name in [*(f"CLK_{name}" for name in errors.SOLUTIONS), *errors.bridge_errors().values(), *(name for name, *_ in errors.checks()), "replay"]:
         assert any(f"`{name}`" in row for row in shown), name

@@ -14,7 +14,7 @@ add_custom_target(broken COMMAND sh -c "echo this is why; exit 1" VERBATIM)
 """
 STEP = 'echo made >>"$1/made" && cat "$1/gate" && cp "$1/in" out'
 BUILD = "fetch.BASE = ()\ntry: graph.build('{}')\nexcept Failure as failure: sys.exit(f'collektive: {{failure}}')\n"
-THING = BUILD.format("thing")
+MODULE = BUILD.format("thing")
 WAITING = "waiting for another collektive command"
 
 
@@ -31,19 +31,19 @@ def test_what_changed_is_built_and_nothing_else(project: Checkout) -> None:
         if (project.root / "in").read_text() != text:
             time.sleep(0.02)
             (project.root / "in").write_text(text)
-        assert project.run(THING).returncode == 0
+        assert project.run(MODULE).returncode == 0
         assert (project.root / "build/cmake/out").read_text() == text
     assert project.made() == ["made", "made"]
 
 
 def test_a_build_with_nothing_to_do_waits_for_no_run(project: Checkout) -> None:
-    assert project.run(THING).returncode == 0
+    assert project.run(MODULE).returncode == 0
     project.close_gate()
     use = project.start("lock.shared(); wait_at_gate()")
     with open(project.root / "gate", "w"):
-        assert project.run(THING).stderr == ""
+        assert project.run(MODULE).stderr == ""
         (project.root / "in").write_text("two")
-        build = project.start(THING)
+        build = project.start(MODULE)
         assert build.stderr is not None
         assert WAITING in build.stderr.readline()
     assert use.wait() == 0
@@ -53,11 +53,11 @@ def test_a_build_with_nothing_to_do_waits_for_no_run(project: Checkout) -> None:
 
 def test_a_build_that_was_killed_starts_over(project: Checkout) -> None:
     project.close_gate()
-    process = project.start(THING)
+    process = project.start(MODULE)
     with open(project.root / "gate", "w"):
         project.kill(process)
     project.open_gate()
-    assert project.run(THING).returncode == 0
+    assert project.run(MODULE).returncode == 0
     assert project.made() == ["made", "made"]
     assert (project.root / "build/cmake/out").read_text() == "one"
 
@@ -70,8 +70,8 @@ def test_an_error_is_shown_and_ends_the_command(project: Checkout) -> None:
 
 
 def test_a_moved_checkout_is_configured_again(project: Checkout) -> None:
-    assert project.run(THING).returncode == 0
+    assert project.run(MODULE).returncode == 0
     project.root = project.root.rename(project.root.with_name("moved"))
-    result = project.run(THING)
+    result = project.run(MODULE)
     assert result.returncode == 0, result.stderr
     assert project.made() == ["made", "made"]

@@ -36,7 +36,7 @@ def test_commands_that_change_nothing_run_at_once(checkout: Checkout) -> None:
     assert first.wait() == 0
 
 
-def test_a_command_that_changes_outputs_lets_others_in_when_it_only_uses_them(checkout: Checkout) -> None:
+def test_a_command_that_changes_outputs_releases_the_lock_when_it_only_uses_them(checkout: Checkout) -> None:
     checkout.close_gate()
     first = checkout.start("lock.exclusive(); lock.shared(); wait_at_gate()")
     with open(checkout.root / "gate", "w"):

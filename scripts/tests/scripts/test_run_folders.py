@@ -43,7 +43,7 @@ def test_they_come_back_when_the_run_does_not_begin(folder: Path) -> None:
 
 def test_after_a_command_that_was_killed_they_come_back_with_the_next_one(folder: Path) -> None:
     before = contents(folder)
-    earlier = folder / outputs.EARLIER
+    earlier = folder / outputs.BACKUP
     earlier.mkdir()
     (folder / "manifest.json").rename(earlier / "manifest.json")
     with pytest.raises(Failure, match="has results of a run"), outputs.open_folder(folder, False):
@@ -60,8 +60,8 @@ def test_files_that_no_run_has_written_are_kept(folder: Path) -> None:
 
 
 def test_a_folder_of_the_user_is_not_emptied(folder: Path) -> None:
-    (folder / outputs.EARLIER).mkdir()
-    thesis = folder / outputs.EARLIER / "thesis.txt"
+    (folder / outputs.BACKUP).mkdir()
+    thesis = folder / outputs.BACKUP / "thesis.txt"
     thesis.write_text("all of it")
     with pytest.raises(Failure, match="cannot write to the output folder"), outputs.open_folder(folder, True):
         pass
@@ -71,7 +71,7 @@ def test_a_folder_of_the_user_is_not_emptied(folder: Path) -> None:
 def test_a_link_to_a_folder_of_the_user_is_not_followed(folder: Path, tmp_path_factory: pytest.TempPathFactory) -> None:
     elsewhere = tmp_path_factory.mktemp("elsewhere")
     (elsewhere / "metrics.csv").write_text("of the user")
-    (folder / outputs.EARLIER).symlink_to(elsewhere)
+    (folder / outputs.BACKUP).symlink_to(elsewhere)
     with pytest.raises(Failure, match="cannot write to the output folder"), outputs.open_folder(folder, True):
         pass
     assert (elsewhere / "metrics.csv").read_text() == "of the user"
