@@ -103,7 +103,7 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     """
     results = load(folder, experiment.labels if experiment else None)
     if results.complete.empty:
-        raise ExperimentError(f"'{folder}' has no complete run to plot: the message of each is in runs.parquet")
+        raise ExperimentError(f"'{folder}' has no complete runs to plot; their errors are in runs.parquet. Correct them and continue with --resume")
     requests = [options] if options else _requests(folder, experiment)
     for request in requests:
         check(results, request)
