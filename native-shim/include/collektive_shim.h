@@ -2,7 +2,8 @@
  * collektive_shim - a HotSpot JVM inside the caller's process, driven through pooled native memory.
  *
  * Introduction
- *   JNI allows one JVM per process. clk_jvm_start creates it on an engine thread that the shim owns, and only that thread calls into Java.
+ *   JNI allows one JVM per process. clk_jvm_start creates it, or starts another process for it (CLK_OWN_PROCESS); calls and frames are the same.
+ *   In this process, an engine thread that the shim owns creates it, and only that thread calls into Java.
  *   The caller's threads wait for it on a semaphore, with a time limit. They never enter Java, and Java threads never enter the caller. The
  *   JVM outlives the code that started it: a reloaded caller finds it with clk_jvm_state.
  *
@@ -56,7 +57,7 @@ extern "C" {
     X(JVM_NOT_FOUND, -5, "no usable JVM at the given path")                                       \
     X(JVM_OPTIONS, -6, "the JVM options are invalid or not allowed")                              \
     X(JVM_START, -7, "the JVM could not be created")                                              \
-    X(JVM_LOST, -8, "the JVM has crashed or stopped responding; restart the process")             \
+    X(JVM_LOST, -8, "the JVM has crashed or stopped responding")                                  \
     X(JVM_NOT_RUNNING, -9, "no JVM is running")                                                   \
     X(JVM_RUNNING, -10, "a JVM is already running with other settings")                           \
     X(HOST, -11, "the host classes are missing or of another version than the shim")              \
@@ -75,8 +76,8 @@ enum clk_error {
 enum clk_jvm_state {
     CLK_STATE_NONE = 0,    /* never started in this process */
     CLK_STATE_RUNNING = 1, /* serves calls */
-    CLK_STATE_LOST = 2,    /* exited, aborted or not responding; this process cannot start another */
-    CLK_STATE_STOPPED = 3  /* ended by clk_jvm_stop; this process cannot start another */
+    CLK_STATE_LOST = 2,    /* exited, aborted or not responding; another can start only if it had its own process */
+    CLK_STATE_STOPPED = 3  /* ended by clk_jvm_stop; another can start only if it had its own process */
 };
 
 /* ---- Version and errors ---------------------------------------------------------------------------------------------- */
@@ -96,6 +97,11 @@ CLK_API int32_t clk_last_error(char *buffer, int32_t capacity);
 
 /* ---- JVM ------------------------------------------------------------------------------------------------------------- */
 
+enum clk_placement {
+    CLK_IN_PROCESS = 0, /* on a thread of this process */
+    CLK_OWN_PROCESS = 1 /* in a child process, which `home`/bin/java runs and which ends with this process */
+};
+
 /* Configuration of the JVM. */
 typedef struct clk_jvm_config {
     uint32_t size;
@@ -105,11 +111,19 @@ typedef struct clk_jvm_config {
     const char *const *options; /* JVM options, one string each, in order; may be NULL when option_count is 0 */
     int32_t start_limit_ms;     /* limit of the whole call; 1 or greater */
     int32_t check_options;      /* not 0: try the options in a child process first (recommended: invalid options can end the process) */
+    int32_t placement;          /* one of enum clk_placement */
+    int32_t reserved;           /* 0 */
 } clk_jvm_config;
 
 /* Starts the JVM. If one is already running, returns CLK_OK for an equal configuration and CLK_JVM_RUNNING for any other.
  * If a check fails, nothing has changed and a later start may succeed. If JNI_CreateJavaVM or a later step fails, the state becomes
- * CLK_STATE_LOST. Options that endanger the process are rejected. JAVA_TOOL_OPTIONS, _JAVA_OPTIONS and JDK_JAVA_OPTIONS are ignored. */
+ * CLK_STATE_LOST.
+ *
+ * With CLK_OWN_PROCESS, a start may follow after an error, a loss and a stop. A start with another configuration replaces a JVM without open
+ * sessions. Slots that were acquired before the first such start cannot be used in calls (CLK_ARGUMENT). The process may not start a JVM of its
+ * own before, but may do so after.
+ *
+ * Options that endanger the process are rejected. JAVA_TOOL_OPTIONS, _JAVA_OPTIONS and JDK_JAVA_OPTIONS are ignored. */
 CLK_API int32_t clk_jvm_start(const clk_jvm_config *config);
 
 /* Runs the checks of clk_jvm_start: files, forbidden options and, if check_options is not 0, all options in a child process (50 to 200 ms).
@@ -123,11 +137,11 @@ CLK_API int32_t clk_jvm_state(void);
  * clk_last_error does. Returns CLK_JVM_NOT_RUNNING if none was started. */
 CLK_API int32_t clk_jvm_description(char *buffer, int32_t capacity);
 
-/* Ends the JVM before the process ends; no JVM can follow. Closes all sessions, runs the JVM's shutdown hooks (which save flight
- * recordings) and destroys it. Java threads that do not end are halted where they are.
+/* Ends the JVM before the process ends; another can follow only if it had its own process. Closes all sessions, runs the JVM's shutdown hooks
+ * (which save flight recordings) and destroys it. Java threads that do not end are halted where they are.
  *   CLK_OK        the JVM has ended, or none was ever started
  *   CLK_TIMEOUT   the JVM did not end within the limit. If possible, its threads were halted so that the process can exit; the state is then
- *                 CLK_STATE_STOPPED. Halting takes up to 10 s more because it waits for a garbage collection to end.
+ *                 CLK_STATE_STOPPED. A process of its own is killed. Halting takes up to 10 s more because it waits for a garbage collection to end.
  *   CLK_JVM_LOST  the JVM was lost; if possible, its threads were halted */
 CLK_API int32_t clk_jvm_stop(int32_t limit_ms);
 
@@ -201,7 +215,7 @@ typedef struct clk_stats {
     uint32_t size;
     int32_t sessions;        /* open now */
     int32_t slots;           /* acquired now, including those of answers */
-    int32_t reserved;        /* always 0 */
+    int32_t process;         /* id of the JVM's own process, running or not; 0 if it runs in this process */
     uint64_t steps;          /* calls of clk_step that reached the host */
     uint64_t slot_bytes;     /* memory of the pool, in use or not */
     uint64_t wrapped;        /* direct ByteBuffers created */

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
+#include "child.h"
 #include "error.h"
 #include "log.h"
 #include "prim.h"
@@ -61,13 +62,24 @@ void engine_set_state(int32_t state) {
     }
 }
 
+void engine_reset(void) {
+    while (prim_semaphore_try(&engine.done)) { /* of a loss that no work waited for */
+    }
+    atomic_store(&engine.state, CLK_STATE_NONE);
+    atomic_flag_clear(&engine.losing);
+}
+
 int32_t engine_check_running(void) {
+    bool again = child_is_used() && !engine_is_forked();
     switch (engine_state()) {
         case CLK_STATE_RUNNING: return CLK_OK;
         case CLK_STATE_LOST:
-            return error_set(CLK_JVM_LOST, "the JVM has crashed or stopped responding (%s); restart the process", engine.reason);
+            return error_set(CLK_JVM_LOST, "the JVM has crashed or stopped responding (%s); %s", engine.reason,
+                             again ? "start it again" : "restart the process");
         case CLK_STATE_STOPPED:
-            return error_set(CLK_JVM_NOT_RUNNING, "the JVM was stopped, and a process can start one only once; restart the process");
+            return error_set(CLK_JVM_NOT_RUNNING, again
+                                                      ? "the JVM was stopped; start it again"
+                                                      : "the JVM was stopped, and a process can start one only once; restart the process");
         default: return error_set(CLK_JVM_NOT_RUNNING, "no JVM was started; call clk_jvm_start first");
     }
 }
@@ -119,6 +131,8 @@ void engine_leave(void) {
 }
 
 /* ---- Work ------------------------------------------------------------------------------------------------------------ */
+
+void engine_adopt(void) { is_engine = true; }
 
 bool engine_is_current(void) { return is_engine; }
 

@@ -25,6 +25,9 @@ int32_t engine_check_running(void);
 /* Sets the state to lost and wakes all waiting callers. Only the first reason is kept. */
 __attribute__((format(printf, 1, 2))) void engine_lose(const char *format, ...);
 
+/* Sets the state to none, also after a loss: another JVM may follow in a process of its own. Needs the turn. */
+void engine_reset(void);
+
 /* Sets the state to stopped and wakes all waiting callers; for a thread that does not return. */
 void engine_end(void);
 
@@ -42,6 +45,9 @@ int32_t engine_run(engine_work *work, int64_t deadline);
 
 /* Returns whether this process was forked from the process that runs the JVM. */
 bool engine_is_forked(void);
+
+/* Makes the calling thread the engine thread of the JVM's own process. */
+void engine_adopt(void);
 
 /* Returns whether the calling thread is the engine thread. */
 bool engine_is_current(void);

@@ -12,7 +12,7 @@
 static struct {
     JNIEnv *env; /* of the engine thread */
     jclass host;
-    jmethodID start, close, stop, calls[HOST_ENTRIES];
+    jmethodID start, close, stop, calls[HOST_CALLS];
     jmethodID to_string, get_name;
     jclass security_exception;
     struct host_call *running; /* NULL between calls */
@@ -24,8 +24,8 @@ uint64_t host_wrapped(void) { return atomic_load_explicit(&java.wrapped, memory_
 
 /* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
 
-/* Copies a Java string as UTF-8 without allocating, as the heap may be full. JNI's "UTF" functions use modified UTF-8. */
-static void string_text(JNIEnv *env, jstring string, char *buffer, int32_t capacity) {
+/* JNI's "UTF" functions use modified UTF-8. */
+void host_text(JNIEnv *env, jstring string, char *buffer, int32_t capacity) {
     jchar units[1024];
     jsize count = (*env)->GetStringLength(env, string);
     if (count > COUNT(units)) count = COUNT(units);
@@ -38,7 +38,7 @@ static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffe
     jstring string = (*env)->CallObjectMethod(env, object, method);
     bool good = !(*env)->ExceptionCheck(env) && string != NULL;
     if (good) {
-        string_text(env, string, buffer, capacity);
+        host_text(env, string, buffer, capacity);
     } else {
         (*env)->ExceptionClear(env);
     }
@@ -115,15 +115,9 @@ static jobject JNICALL shim_grow(JNIEnv *env, jclass class, jlong slot, jint cap
                   "Shim.grow accepts only the answer slot of the running call, on the engine thread");
         return NULL;
     }
-    if (capacity > call->answer->capacity) {
-        struct block *block = slots_exchange(call->slot, capacity);
-        if (block == NULL) {
-            throw_new(env, "java/lang/OutOfMemoryError", error_last());
-            return NULL;
-        }
-        call->answer->next = call->retired;
-        call->retired = call->answer;
-        call->answer = block;
+    if (capacity > call->answer->capacity && !call->grow(call, capacity)) {
+        throw_new(env, "java/lang/OutOfMemoryError", error_last());
+        return NULL;
     }
     return wrap(env, call->answer) ? call->answer->wrapper : NULL;
 }
@@ -249,7 +243,7 @@ int32_t host_start(char *version, int32_t capacity) {
         return error_set(CLK_HOST, "Host.start threw %s; if a class is missing or corrupt, reinstall the JVM and the package", text);
     }
     if (string == NULL) return error_set(CLK_HOST, "Host.start returned null instead of a version; reinstall the package");
-    string_text(env, string, version, capacity);
+    host_text(env, string, version, capacity);
     (*env)->DeleteLocalRef(env, string);
     return CLK_OK;
 }
@@ -264,7 +258,7 @@ static bool is_host_code(jlong code) {
 
 int32_t host_run(struct host_call *call) {
     JNIEnv *env = java.env;
-    static const char *const names[HOST_ENTRIES] = {"Host.open", "Host.step", "Host.control"};
+    static const char *const names[HOST_CALLS] = {"Host.open", "Host.step", "Host.control"};
     const char *where = names[call->entry];
     free_surplus(env);
     if (!wrap(env, call->request) || !wrap(env, call->answer)) return java_error(env, CLK_JAVA, "wrapping a slot");

@@ -10,9 +10,12 @@
 #include <stdint.h>
 #include "slots.h"
 
-enum host_entry { HOST_OPEN, HOST_STEP, HOST_CONTROL, HOST_ENTRIES };
+/* The first three are calls with frames, for host_run. */
+enum host_entry { HOST_OPEN, HOST_STEP, HOST_CONTROL, HOST_CLOSE, HOST_STOP };
+#define HOST_CALLS 3
 
-/* One call of Host.open, Host.step or Host.control. The caller pins `request` and `answer` before, and unpins all blocks afterwards. */
+/* One call of the host; for HOST_CLOSE only `session` is set. The caller pins `request` and `answer` before, and unpins all blocks
+ * afterwards. */
 struct host_call {
     enum host_entry entry;
     clk_session session;
@@ -25,6 +28,8 @@ struct host_call {
     int32_t limit_ms;
     int32_t answer_offset; /* result */
     int32_t answer_length;
+    /* Exchanges `answer` for a block of at least `capacity` bytes. False on failure, with the last error set. */
+    bool (*grow)(struct host_call *call, int32_t capacity);
 };
 
 /* Loads and binds the classes. Call it before any other function except host_refuse_exit. Errors: CLK_HOST. */
@@ -32,6 +37,9 @@ int32_t host_bind(JNIEnv *environment);
 
 /* Calls Host.start() and copies the version line that it returns. Errors: CLK_HOST. */
 int32_t host_start(char *version, int32_t capacity);
+
+/* Copies a Java string as UTF-8 without allocating, as the heap may be full. The JVM's other threads may call it too. */
+void host_text(JNIEnv *environment, jstring string, char *buffer, int32_t capacity);
 
 /* Runs the call and fills in its result. Errors: those of the host, CLK_HOST and CLK_JAVA. */
 int32_t host_run(struct host_call *call);

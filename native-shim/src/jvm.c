@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include "child.h"
 #include "collektive_shim.h"
 #include "engine.h"
 #include "error.h"
@@ -14,6 +15,7 @@
 #include "options.h"
 #include "prim.h"
 #include "session.h"
+#include "slots.h"
 #include "text.h"
 
 #define HALT_LIMIT_MS 10000 /* halting waits for a collection to end, and the heap may be large */
@@ -30,7 +32,8 @@ static struct {
     JavaVM *vm;
     char version[256];
     int32_t stop_limit_ms;
-    _Atomic(char *) description;
+    prim_mutex describing;
+    char *description;    /* guarded by `describing` */
     atomic_bool creating; /* JNI_CreateJavaVM was called */
     atomic_bool created;  /* JNI_CreateJavaVM succeeded */
     atomic_bool stopping; /* clk_jvm_stop was called */
@@ -42,7 +45,7 @@ static struct {
     prim_semaphore halt_wake; /* posted to wake it */
     prim_semaphore detached;  /* posted when it has left the JVM */
     prim_semaphore halted;    /* posted when all threads of the JVM are halted */
-} jvm;
+} jvm = {.describing = PRIM_MUTEX_INIT};
 
 /* ---- Hooks of the JVM ------------------------------------------------------------------------------------------------ */
 
@@ -54,7 +57,7 @@ static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file,
 /* Parks a thread of the JVM that would end the process if it returned. If the start failed, the JVM's signal handlers are removed. A JVM that
  * crashed has installed handlers that report a crash; with these, every null reference in the process's own language would hang its thread. */
 static _Noreturn void lose_and_park(const char *what) {
-    char why[1024] = "";
+    char why[LOG_LAST_CAPACITY] = "";
     atomic_store(&jvm.parked, true);
     if (atomic_load(&jvm.created)) {
         prim_signals_repair();
@@ -127,7 +130,7 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
     jint result = create_vm(&jvm.vm, (void **)env, &arguments);
     free(options);
     if (result != JNI_OK) {
-        char last[1024];
+        char last[LOG_LAST_CAPACITY];
         prim_signals_restore();
         log_jvm_last(last, sizeof last);
         return error_set(CLK_JVM_START, "JNI_CreateJavaVM failed (%d): %s; correct the JVM options and restart the process", result,
@@ -173,6 +176,26 @@ static int32_t work_start(void) {
 static const char *const option_variables[] = {"JAVA_TOOL_OPTIONS", "_JAVA_OPTIONS", "JDK_JAVA_OPTIONS"};
 enum { OPTION_VARIABLES = sizeof option_variables / sizeof option_variables[0] };
 
+/* Takes over the text, which may be NULL. */
+static void describe(char *description) {
+    prim_lock(&jvm.describing);
+    free(jvm.description);
+    jvm.description = description;
+    prim_unlock(&jvm.describing);
+}
+
+/* Needs the turn. The child may end before the state is RUNNING; then its end is the loss. */
+static int32_t start_child(const clk_jvm_config *config, int64_t deadline) {
+    launch_free(&jvm.launch);
+    int32_t result = launch_prepare(&jvm.launch, config, deadline);
+    if (result == CLK_OK) result = child_start(&jvm.launch, deadline, jvm.version, sizeof jvm.version);
+    if (result != CLK_OK) return result;
+    describe(launch_description(&jvm.launch, jvm.version));
+    engine_set_state(CLK_STATE_RUNNING);
+    if (!child_is_alive()) engine_lose("its process ended right after its start");
+    return CLK_OK;
+}
+
 /* Needs the turn, and state NONE. */
 static int32_t start(const clk_jvm_config *config, int64_t deadline) {
     launch_free(&jvm.launch);
@@ -187,7 +210,7 @@ static int32_t start(const clk_jvm_config *config, int64_t deadline) {
         engine_lose("its start failed: %s", error_last());
     }
     /* When the start failed, the engine thread may still write the version. */
-    if (atomic_load(&jvm.creating)) atomic_store(&jvm.description, launch_description(&jvm.launch, result == CLK_OK ? jvm.version : ""));
+    if (atomic_load(&jvm.creating)) describe(launch_description(&jvm.launch, result == CLK_OK ? jvm.version : ""));
     if (result == CLK_OK) engine_set_state(CLK_STATE_RUNNING);
     return result;
 }
@@ -215,21 +238,53 @@ static int32_t without_option_variables(configured *work, const clk_jvm_config *
     return result;
 }
 
-static int32_t compare(const clk_jvm_config *config) {
+static bool is_equal(const clk_jvm_config *config) {
     char *configuration = launch_configuration(config);
     bool equal = configuration != NULL && strcmp(configuration, jvm.launch.configuration) == 0;
     free(configuration);
-    if (equal) return CLK_OK;
+    return equal;
+}
+
+static int32_t refuse_other(void) {
+    if (child_is_used()) return error_set(CLK_JVM_RUNNING, "a JVM with other settings has open sessions; close them first");
     return error_set(CLK_JVM_RUNNING,
                      "a JVM is already running with another home, class path or options; restart the process to change them");
 }
 
+/* Locks the folder of the class archive. A JVM replaces its archive under the same name, so two that end at once could write to one file.
+ * Negative if the archive does not exist or the lock is not available. */
+static int lock_archive(int32_t limit_ms) {
+    const char *archive = options_archive(jvm.launch.options, jvm.launch.option_count);
+    return archive == NULL ? -1 : prim_folder_lock(archive, prim_now() + limit_ms / 4 * PRIM_MILLI);
+}
+
+/* Needs the turn, and a running child. */
+static int32_t stop_child(int32_t limit_ms) {
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int lock = lock_archive(limit_ms);
+    int32_t result = child_stop(limit_ms, deadline);
+    if (lock >= 0) prim_folder_unlock(lock);
+    return result;
+}
+
+/* Removes what a child left behind, alive or not, so that another JVM can start. Needs the turn. */
+static void end_child(void) {
+    child_end();
+    session_forget_all();
+    slots_unpin_shared();
+    engine_reset();
+}
+
 static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) {
-    switch (engine_state()) {
-        case CLK_STATE_NONE: return without_option_variables(start, config, deadline);
-        case CLK_STATE_RUNNING: return compare(config);
-        default: return engine_check_running();
-    }
+    int32_t state = engine_state();
+    if (state == CLK_STATE_RUNNING && is_equal(config)) return CLK_OK;
+    if (state != CLK_STATE_NONE && (!child_is_used() || engine_is_forked()))
+        return state == CLK_STATE_RUNNING ? refuse_other() : engine_check_running();
+    if (state == CLK_STATE_RUNNING && session_count() > 0) return refuse_other();
+    if (state == CLK_STATE_RUNNING) stop_child((int32_t)((deadline - prim_now()) / PRIM_MILLI / 2) + 1);
+    if (child_is_used()) end_child();
+    child_use(config->placement == CLK_OWN_PROCESS);
+    return without_option_variables(child_is_used() ? start_child : start, config, deadline);
 }
 
 static int32_t check_only(const clk_jvm_config *config, int64_t deadline) { return without_option_variables(check, config, deadline); }
@@ -249,9 +304,10 @@ int32_t clk_jvm_start(const clk_jvm_config *config) { return in_turn(start_or_co
 int32_t clk_jvm_check(const clk_jvm_config *config) { return in_turn(check_only, config); }
 
 int32_t clk_jvm_description(char *buffer, int32_t capacity) {
-    const char *description = atomic_load(&jvm.description);
-    if (description == NULL) return error_set(CLK_JVM_NOT_RUNNING, "no JVM was started; call clk_jvm_start first");
-    return text_export(description, buffer, capacity);
+    prim_lock(&jvm.describing);
+    int32_t length = jvm.description != NULL ? text_export(jvm.description, buffer, capacity) : -1;
+    prim_unlock(&jvm.describing);
+    return length >= 0 ? length : error_set(CLK_JVM_NOT_RUNNING, "no JVM was started; call clk_jvm_start first");
 }
 
 /* ---- Stop ------------------------------------------------------------------------------------------------------------ */
@@ -263,13 +319,6 @@ static void detach_halt_thread(void) {
     prim_semaphore_wait_until(&jvm.detached, prim_now() + DETACH_LIMIT_MS * PRIM_MILLI);
 }
 
-/* Locks the folder of the class archive. A JVM replaces its archive under the same name, so two that end at once could write to one file.
- * Negative if the archive does not exist or the lock is not available. */
-static int lock_archive(void) {
-    const char *archive = options_archive(jvm.launch.options, jvm.launch.option_count);
-    return archive == NULL ? -1 : prim_folder_lock(archive, prim_now() + jvm.stop_limit_ms / 4 * PRIM_MILLI);
-}
-
 /* DestroyJavaVM waits for non-daemon threads of programs. If some do not end, this runs the shutdown hooks itself and halts the JVM:
  * JVM_Halt stops all threads at a safepoint and calls hook_exit, which does not return. So no Java thread still runs when the process
  * removes its signal handlers. */
@@ -278,7 +327,7 @@ static int32_t work_stop(void) {
     if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK)
         log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
     session_forget_all();
-    int lock = lock_archive();
+    int lock = lock_archive(jvm.stop_limit_ms);
     if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);
     detach_halt_thread();
     (*jvm.vm)->DestroyJavaVM(jvm.vm);
@@ -306,7 +355,11 @@ int32_t clk_jvm_stop(int32_t limit_ms) {
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = engine_enter(deadline);
     if (result != CLK_OK) return result;
-    if (engine_state() == CLK_STATE_RUNNING) {
+    if (child_is_used() && engine_state() == CLK_STATE_RUNNING) {
+        result = stop_child(limit_ms);
+        end_child();
+        engine_set_state(CLK_STATE_STOPPED);
+    } else if (engine_state() == CLK_STATE_RUNNING) {
         jvm.stop_limit_ms = limit_ms;
         atomic_store(&jvm.stopping, true);
         result = engine_run(work_stop, deadline);

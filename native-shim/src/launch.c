@@ -32,8 +32,17 @@ int32_t launch_check_config(const clk_jvm_config *config) {
     for (int32_t i = 0; i < config->option_count; i++) {
         if (config->options[i] == NULL) return error_set(CLK_ARGUMENT, "option %d is NULL", i);
     }
+    if (config->placement != CLK_IN_PROCESS && config->placement != CLK_OWN_PROCESS)
+        return error_set(CLK_ARGUMENT, "placement is %d, which is not one of enum clk_placement", config->placement);
     if (config->start_limit_ms < 1) return error_set(CLK_ARGUMENT, "start_limit_ms is %d; it must be 1 or greater", config->start_limit_ms);
     return CLK_OK;
+}
+
+static char *concatenate(const char *first, const char *second) {
+    size_t size = strlen(first) + strlen(second) + 1;
+    char *text = malloc(size);
+    if (text != NULL) snprintf(text, size, "%s%s", first, second);
+    return text;
 }
 
 /* Joins all texts, one per line. */
@@ -48,7 +57,10 @@ static char *join(const char *first, const char *second, const char *const *othe
 }
 
 char *launch_configuration(const clk_jvm_config *config) {
-    return join(config->home, config->class_path, config->options, config->option_count);
+    char *text = join(config->home, config->class_path, config->options, config->option_count);
+    char *whole = text != NULL ? concatenate(text, config->placement == CLK_OWN_PROCESS ? "\nown process" : "") : NULL;
+    free(text);
+    return whole;
 }
 
 char *launch_description(const struct launch *launch, const char *version) {
@@ -57,13 +69,6 @@ char *launch_description(const struct launch *launch, const char *version) {
 }
 
 /* ---- The JVM's options ----------------------------------------------------------------------------------------------- */
-
-static char *concatenate(const char *first, const char *second) {
-    size_t size = strlen(first) + strlen(second) + 1;
-    char *text = malloc(size);
-    if (text != NULL) snprintf(text, size, "%s%s", first, second);
-    return text;
-}
 
 static bool add_option(struct launch *launch, const char *prefix, const char *rest) {
     char *option = concatenate(prefix, rest);

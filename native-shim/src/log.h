@@ -3,22 +3,40 @@
 #define COLLEKTIVE_LOG_H
 
 #include <stdarg.h>
+#include <stdatomic.h>
+#include <stdbool.h>
 #include <stdint.h>
 #include "collektive_shim.h"
 
 #define LOG_LINE_CAPACITY 8192 /* bytes of one line, including NUL; longer ones are truncated after a whole character */
 #define LOG_RING_BYTES (256 * 1024)
 
+/* Records between two positions, which count all bytes ever written, modulo 2^32. A writer that dies leaves only whole records. */
+struct log_ring {
+    _Atomic uint32_t head; /* of the oldest record */
+    _Atomic uint32_t tail;
+    _Atomic uint64_t dropped;
+    char bytes[LOG_RING_BYTES];
+};
+
+/* Shares a zeroed ring in memory of both processes: the child writes to it instead of its own ring, and the parent also reads it. Once. */
+void log_share(struct log_ring *ring, bool is_child);
+
 /* Adds a line. Any thread, including those of the JVM: does not call JNI, and holds one lock for the duration of a copy. */
 void log_write(int32_t level, const char *text, int32_t length);
 __attribute__((format(printf, 2, 3))) void log_format(int32_t level, const char *format, ...);
 
-/* Logs a piece of the JVM's output and returns its length, like vprintf. Only whole lines are written to the ring; a line that contains
- * "warning" has at least that level. Any thread. */
+/* Logs a piece of the JVM's output, log_jvm_output like vprintf. Only whole lines are written to the ring; a line that contains "warning" has
+ * at least that level. Any thread. */
+void log_jvm_text(int32_t level, const char *text);
 __attribute__((format(printf, 2, 0))) int32_t log_jvm_output(int32_t level, const char *format, va_list arguments);
 
-/* Copies the JVM's last lines, joined by "; ", at most 1023 bytes. */
+/* Copies the JVM's last lines, joined by "; ". */
+#define LOG_LAST_CAPACITY 2048
 void log_jvm_last(char *buffer, int32_t capacity);
+
+/* Forgets them, for another JVM. */
+void log_jvm_forget(void);
 
 /* Returns the number of lines that did not fit into the ring. */
 uint64_t log_dropped(void);

@@ -25,6 +25,10 @@ typedef struct {
 } prim_mutex;
 #define PRIM_MUTEX_INIT {0}
 typedef void *prim_semaphore;
+typedef prim_semaphore prim_shared_semaphore;
+typedef struct {
+    void *process, *job, *output[2];
+} prim_child;
 typedef union {
     void *once;
 } prim_once;
@@ -35,6 +39,9 @@ typedef union {
 #define PRIM_JAVA "bin/java"
 #define PRIM_NULL_FILE "/dev/null"
 #define PRIM_READ_ADVICE "check its permissions"
+typedef struct {
+    int process, life, output[2];
+} prim_child;
 #define PRIM_FOREIGN_TEXT "the locale of the process cannot encode %s; set LC_ALL=C.UTF-8 or use an ASCII path"
 typedef pthread_mutex_t prim_mutex;
 #define PRIM_MUTEX_INIT PTHREAD_MUTEX_INITIALIZER
@@ -44,12 +51,16 @@ typedef pthread_once_t prim_once;
 #define PRIM_LIBJVM "lib/server/libjvm.dylib"
 #define PRIM_SYSTEM "Darwin"
 typedef void *prim_semaphore;
+typedef struct {
+    _Atomic uint32_t count, waiting;
+} prim_shared_semaphore;
 #else
 #define PRIM_LIBJVM "lib/server/libjvm.so"
 #define PRIM_SYSTEM "Linux"
 typedef struct {
     _Atomic uint32_t count, waiting;
 } prim_semaphore;
+typedef prim_semaphore prim_shared_semaphore;
 #endif
 #endif
 
@@ -80,6 +91,14 @@ bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline);
 void prim_semaphore_wait(prim_semaphore *semaphore);
 /* False if the deadline passed first. */
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline);
+
+/* Semaphores in shared memory, which this process and its child use alike; zeroed at first. Reset them while there is no child. */
+void prim_shared_reset(prim_shared_semaphore *semaphore);
+void prim_shared_post(prim_shared_semaphore *semaphore);
+bool prim_shared_try(prim_shared_semaphore *semaphore);
+bool prim_shared_sleep_until(prim_shared_semaphore *semaphore, int64_t deadline);
+/* Spins before it sleeps. False if the deadline passed first. */
+bool prim_shared_wait_until(prim_shared_semaphore *semaphore, int64_t deadline);
 
 /* Runs `init` once per process. */
 void prim_run_once(prim_once *once, void (*init)(void));
@@ -120,6 +139,20 @@ int32_t prim_signals_repair(void);
 void *prim_allocate(size_t bytes);
 void prim_free(void *memory);
 
+/* Memory that this process shares with its child: one mapping without a name, of which only the committed parts need memory. */
+#if defined(_WIN32)
+#define PRIM_SHARED_BYTES (UINT64_C(4) << 30) /* a reserved page costs 8 bytes */
+#else
+#define PRIM_SHARED_BYTES (UINT64_C(16) << 30)
+#endif
+
+/* Reserves the mapping, or returns the one of an earlier call. From one thread at a time. NULL on failure, with the reason in `why`. */
+uint8_t *prim_shared_reserve(char *why, size_t why_size);
+/* Commits memory, so that no later access fails; new memory is zero. False if out of memory. Offset and size are multiples of 4096. */
+bool prim_shared_commit(uint64_t offset, uint64_t bytes);
+/* Returns memory to the system until it is committed again. False if the system cannot do that: it stays committed. */
+bool prim_shared_discard(uint64_t offset, uint64_t bytes);
+
 /* ---- Files and libraries --------------------------------------------------------------------------------------------- */
 
 enum prim_file { PRIM_MISSING, PRIM_UNREADABLE, PRIM_FILE, PRIM_DIRECTORY };
@@ -146,6 +179,9 @@ char *prim_jvm_text(const char *text);
 void *prim_library_open(const char *path, char *why, size_t why_size);
 void *prim_library_symbol(void *library, const char *name);
 
+/* Copies the path of this library. False if it is unknown or too long. */
+bool prim_library_path(char *path, size_t size);
+
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
 /* Hides a variable from getenv and child processes until prim_environment_show(hidden). Meanwhile other threads may read other variables, but
@@ -157,5 +193,23 @@ void prim_environment_show(char *hidden);
  * output_size. PRIM_EXITED sets `status` to the exit code, or 128 + signal. The program is killed at the deadline. */
 enum prim_run { PRIM_EXITED, PRIM_NOT_STARTED, PRIM_TIMED_OUT };
 enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status);
+
+/* A child that shares the memory of prim_shared_reserve and ends with this process. It inherits that memory and nothing else, without names.
+ * The thread that starts a child must not end before it; only this thread calls prim_child_read and prim_child_reap. */
+
+/* Starts a program without input. False on failure, with the reason in `why`. */
+bool prim_child_start(char *const argv[], prim_child *child, char *why, size_t why_size);
+int32_t prim_child_id(const prim_child *child);
+/* Waits for output and reads it, NUL-terminated. Returns 1 for standard output, 2 for standard error, 0 if the child ended and all was read. */
+int prim_child_read(prim_child *child, char *buffer, size_t size);
+/* Frees the child's resources if it ends by the deadline, and sets `status` to its exit code, or to -signal. False otherwise. */
+bool prim_child_reap(prim_child *child, int64_t deadline, int *status);
+/* Kills a child that prim_child_reap has not freed, with its own children. */
+void prim_child_kill(prim_child *child);
+
+/* The argument by which the child finds the memory. */
+void prim_child_token(char *text, size_t size);
+/* In the child: maps the memory, and ends this process when the parent ends. NULL if this process is not such a child. */
+uint8_t *prim_child_attach(const char *token);
 
 #endif

@@ -15,6 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <sys/wait.h>
@@ -25,6 +28,9 @@
 #include <xlocale.h>
 #define environ (*_NSGetEnviron())
 #else
+#include <linux/memfd.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
 extern char **environ;
 #endif
 
@@ -101,6 +107,73 @@ void *prim_allocate(size_t bytes) {
 }
 
 void prim_free(void *memory) { free(memory); }
+
+/* Descriptors that the child gets as 3 and 4 are never below it, so that none overwrites another. */
+#define FIRST_DESCRIPTOR 10
+
+static int move_up(int descriptor) {
+    int moved = descriptor < 0 ? -1 : fcntl(descriptor, F_DUPFD_CLOEXEC, FIRST_DESCRIPTOR);
+    if (descriptor >= 0) close(descriptor);
+    return moved;
+}
+
+static int shared = -1; /* the memory that children map */
+
+static uint8_t *map_shared(int memory) {
+    void *address = mmap(NULL, PRIM_SHARED_BYTES, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_NORESERVE, memory, 0);
+    return address == MAP_FAILED ? NULL : address;
+}
+
+static int make_shared(void) {
+#if defined(__APPLE__)
+    char name[32]; /* until it is unlinked below; only this user may open it */
+    snprintf(name, sizeof name, "/clk-%d-%llx", getpid(), (unsigned long long)prim_now());
+    int memory = shm_open(name, O_RDWR | O_CREAT | O_EXCL, 0600);
+    if (memory >= 0) shm_unlink(name);
+    return move_up(memory);
+#else
+    return move_up((int)syscall(SYS_memfd_create, "collektive", MFD_CLOEXEC)); /* glibc has a function since 2.27 */
+#endif
+}
+
+uint8_t *prim_shared_reserve(char *why, size_t why_size) {
+    static uint8_t *address;
+    struct rlimit limit;
+    if (address != NULL) return address;
+    shared = make_shared();
+    /* Beyond this limit ftruncate would end the process by SIGXFSZ. */
+    if (shared >= 0 && getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < PRIM_SHARED_BYTES) {
+        errno = EFBIG;
+    } else if (shared >= 0 && ftruncate(shared, (off_t)PRIM_SHARED_BYTES) == 0) {
+        address = map_shared(shared);
+    }
+    if (address != NULL) return address;
+    snprintf(why, why_size, "%s", strerror(errno));
+    if (shared >= 0) close(shared);
+    shared = -1;
+    return NULL;
+}
+
+/* macOS commits a page at its first access. */
+bool prim_shared_commit(uint64_t offset, uint64_t bytes) {
+#if defined(__APPLE__)
+    (void)offset;
+    (void)bytes;
+    return true;
+#else
+    return fallocate(shared, 0, (off_t)offset, (off_t)bytes) == 0;
+#endif
+}
+
+bool prim_shared_discard(uint64_t offset, uint64_t bytes) {
+#if defined(__APPLE__)
+    (void)offset;
+    (void)bytes;
+    return false;
+#else
+    return fallocate(shared, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, (off_t)offset, (off_t)bytes) == 0;
+#endif
+}
 
 /* ---- Files and libraries --------------------------------------------------------------------------------------------- */
 
@@ -182,6 +255,13 @@ void *prim_library_open(const char *path, char *why, size_t why_size) {
 
 void *prim_library_symbol(void *library, const char *name) { return dlsym(library, name); }
 
+bool prim_library_path(char *path, size_t size) {
+    Dl_info info;
+    char full[4096];
+    if (dladdr(&shared, &info) == 0 || realpath(info.dli_fname, full) == NULL) return false;
+    return (size_t)snprintf(path, size, "%s", full) < size;
+}
+
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
 /* Replaces one pointer of environ, because unsetenv and setenv could move or free the array while other threads read it. */
@@ -256,30 +336,48 @@ static bool reap(pid_t child, int64_t deadline, int *status) {
     }
 }
 
-static bool spawn(char *const argv[], int output, pid_t *child) {
+#if defined(__APPLE__)
+#define ONLY_LISTED POSIX_SPAWN_CLOEXEC_DEFAULT
+static bool close_others(posix_spawn_file_actions_t *actions, int first) {
+    (void)actions;
+    (void)first;
+    return true;
+}
+#else
+#define ONLY_LISTED 0
+/* glibc has the function since 2.34. Before, the child inherits descriptors that another library opened without O_CLOEXEC. */
+static bool close_others(posix_spawn_file_actions_t *actions, int first) {
+    int (*close_from)(posix_spawn_file_actions_t *, int);
+    *(void **)&close_from = dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addclosefrom_np");
+    return close_from == NULL || close_from(actions, first) == 0;
+}
+#endif
+
+/* Starts a program with these descriptors as 1, 2, ... and no others. Returns 0, or the error number. */
+static int spawn(char *const argv[], const int descriptors[], int count, pid_t *child) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
     sigset_t none, defaults;
-    if (posix_spawn_file_actions_init(&actions) != 0) return false;
+    if (posix_spawn_file_actions_init(&actions) != 0) return ENOMEM;
     if (posix_spawnattr_init(&attributes) != 0) {
         posix_spawn_file_actions_destroy(&actions);
-        return false;
+        return ENOMEM;
     }
     sigemptyset(&none);
     sigemptyset(&defaults);
     sigaddset(&defaults, SIGPIPE);
     sigaddset(&defaults, SIGCHLD);
     /* A separate process group, so that kill also reaches the child's children. */
-    bool spawned = posix_spawnattr_setpgroup(&attributes, 0) == 0 && posix_spawnattr_setsigmask(&attributes, &none) == 0 &&
-                   posix_spawnattr_setsigdefault(&attributes, &defaults) == 0 &&
-                   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF) == 0 &&
-                   posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0) == 0 &&
-                   posix_spawn_file_actions_adddup2(&actions, output, 1) == 0 &&
-                   posix_spawn_file_actions_adddup2(&actions, output, 2) == 0 &&
-                   posix_spawn(child, argv[0], &actions, &attributes, argv, environ) == 0;
+    const short flags = POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | ONLY_LISTED;
+    bool good = posix_spawnattr_setpgroup(&attributes, 0) == 0 && posix_spawnattr_setsigmask(&attributes, &none) == 0 &&
+                posix_spawnattr_setsigdefault(&attributes, &defaults) == 0 && posix_spawnattr_setflags(&attributes, flags) == 0 &&
+                posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0) == 0;
+    for (int i = 0; good && i < count; i++) good = posix_spawn_file_actions_adddup2(&actions, descriptors[i], i + 1) == 0;
+    good = good && close_others(&actions, count + 1);
+    int error = good ? posix_spawn(child, argv[0], &actions, &attributes, argv, environ) : ENOMEM;
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
-    return spawned;
+    return error;
 }
 
 /* Without pipe2, a process that another thread spawns meanwhile inherits the pipe, which delays the end of the output. */
@@ -296,7 +394,7 @@ enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *outpu
     pid_t child;
     output[0] = '\0';
     if (!make_pipe(ends)) return PRIM_NOT_STARTED;
-    bool spawned = spawn(argv, ends[1], &child);
+    bool spawned = spawn(argv, (const int[]){ends[1], ends[1]}, 2, &child) == 0;
     close(ends[1]);
     bool done = spawned && read_all(ends[0], deadline, output, output_size) && reap(child, deadline, status);
     close(ends[0]);
@@ -307,4 +405,93 @@ enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *outpu
         return PRIM_TIMED_OUT;
     }
     return PRIM_EXITED;
+}
+
+/* ---- The child that shares memory ------------------------------------------------------------------------------------ */
+
+/* The descriptors of the child after its two outputs. Its end of the connection `life` closes when it ends, and the parent's when that ends. */
+enum { CHILD_MEMORY = 3, CHILD_LIFE = 4 };
+
+static bool make_life(int ends[2]) {
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) return false;
+    ends[0] = move_up(ends[0]);
+    ends[1] = move_up(ends[1]);
+    return ends[0] >= 0 && ends[1] >= 0;
+}
+
+static void close_all(const int descriptors[], int count) {
+    for (int i = 0; i < count; i++) {
+        if (descriptors[i] >= 0) close(descriptors[i]);
+    }
+}
+
+bool prim_child_start(char *const argv[], prim_child *child, char *why, size_t why_size) {
+    int life[2] = {-1, -1}, output[2] = {-1, -1}, error[2] = {-1, -1};
+    pid_t process = 0;
+    int failure = 0;
+    if (!make_pipe(output) || !make_pipe(error) || !make_life(life)) failure = errno;
+    if (failure == 0) failure = spawn(argv, (const int[]){output[1], error[1], shared, life[1]}, CHILD_LIFE, &process);
+    close_all((const int[]){output[1], error[1], life[1]}, 3);
+    *child = (prim_child){.process = process, .life = life[0], .output = {output[0], error[0]}};
+    if (failure == 0) return true;
+    close_all((const int[]){output[0], error[0], life[0]}, 3);
+    snprintf(why, why_size, "%s", strerror(failure));
+    return false;
+}
+
+int32_t prim_child_id(const prim_child *child) { return child->process; }
+
+int prim_child_read(prim_child *child, char *buffer, size_t size) {
+    for (bool ended = false;;) {
+        struct pollfd waits[] = {{.fd = child->output[0], .events = POLLIN},
+                                 {.fd = child->output[1], .events = POLLIN},
+                                 {.fd = ended ? -1 : child->life, .events = POLLIN}};
+        /* After the end, a process that the child started may hold its outputs open: reads only what is there. */
+        int ready = poll(waits, 3, ended ? 0 : -1);
+        if (ready < 0 && errno == EINTR) continue;
+        if (ready <= 0) return 0;
+        for (int i = 0; i < 2; i++) {
+            if (waits[i].revents == 0) continue;
+            ssize_t count = read(child->output[i], buffer, size - 1);
+            if (count > 0) {
+                buffer[count] = '\0';
+                return i + 1;
+            }
+            if (count < 0 && errno == EINTR) continue;
+            close(child->output[i]);
+            child->output[i] = -1;
+        }
+        ended = ended || waits[2].revents != 0;
+    }
+}
+
+bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
+    if (!reap(child->process, deadline, status)) return false;
+    if (*status > 128 && *status < 128 + 64) *status = 128 - *status;
+    close_all((const int[]){child->output[0], child->output[1], child->life}, 3);
+    return true;
+}
+
+void prim_child_kill(prim_child *child) { kill(-child->process, SIGKILL); }
+
+void prim_child_token(char *text, size_t size) { snprintf(text, size, "inherited"); }
+
+static void end_with_parent(void) {
+    char byte;
+    while (read(CHILD_LIFE, &byte, 1) < 0 && errno == EINTR) {
+    }
+    _exit(1);
+}
+
+/* The death signal also ends a child that is suspended; the connection also one whose parent ended before the signal was requested. */
+uint8_t *prim_child_attach(const char *token) {
+    struct stat memory;
+    if (strcmp(token, "inherited") != 0 || fstat(CHILD_MEMORY, &memory) != 0 || (uint64_t)memory.st_size != PRIM_SHARED_BYTES) return NULL;
+    uint8_t *address = map_shared(CHILD_MEMORY);
+    if (address == NULL || fcntl(CHILD_LIFE, F_SETFD, FD_CLOEXEC) != 0) return NULL;
+    close(CHILD_MEMORY);
+#if !defined(__APPLE__)
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
+    return prim_thread_start(end_with_parent, "collektive-life", (size_t)64 * 1024) ? address : NULL;
 }

@@ -3,6 +3,7 @@
 
 #include <windows.h>
 
+#include <limits.h>
 #include <process.h>
 #include <stdlib.h>
 #include <string.h>
@@ -95,6 +96,26 @@ void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { *semaphore
 
 void prim_semaphore_post(prim_semaphore *semaphore) { ReleaseSemaphore(*semaphore, 1, NULL); }
 
+/* Created for this process and its child, in which inherited handles have the same values. */
+static SECURITY_ATTRIBUTES inheritable = {.nLength = sizeof inheritable, .bInheritHandle = TRUE};
+static HANDLE shared_handles[8];
+static DWORD shared_count;
+
+void prim_shared_reset(prim_shared_semaphore *semaphore) {
+    if (*semaphore == NULL && shared_count < sizeof shared_handles / sizeof *shared_handles) {
+        *semaphore = CreateSemaphoreW(&inheritable, 0, LONG_MAX, NULL);
+        shared_handles[shared_count++] = *semaphore;
+    }
+    while (prim_semaphore_try(semaphore)) {
+    }
+}
+
+void prim_shared_post(prim_shared_semaphore *semaphore) { prim_semaphore_post(semaphore); }
+
+bool prim_shared_try(prim_shared_semaphore *semaphore) { return prim_semaphore_try(semaphore); }
+
+bool prim_shared_sleep_until(prim_shared_semaphore *semaphore, int64_t deadline) { return prim_semaphore_sleep_until(semaphore, deadline); }
+
 bool prim_semaphore_try(prim_semaphore *semaphore) { return WaitForSingleObject(*semaphore, 0) == WAIT_OBJECT_0; }
 
 bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline) {
@@ -180,6 +201,45 @@ void *prim_allocate(size_t bytes) { return _aligned_malloc(bytes, 64); }
 
 void prim_free(void *memory) { _aligned_free(memory); }
 
+static void describe(DWORD error, char *why, size_t why_size) {
+    wchar_t text[256];
+    DWORD length = FormatMessageW(FORMAT_MESSAGE_FROM_SYSTEM | FORMAT_MESSAGE_IGNORE_INSERTS | FORMAT_MESSAGE_MAX_WIDTH_MASK, NULL, error,
+                                  0, text, sizeof text / sizeof *text, NULL);
+    while (length > 0 && (text[length - 1] == L' ' || text[length - 1] == L'.')) length--;
+    text[length] = L'\0';
+    char *utf8 = narrow_of(CP_UTF8, text, NULL);
+    snprintf(why, why_size, "%s (error %lu)", utf8 != NULL && utf8[0] != '\0' ? utf8 : "no reason given", error);
+    free(utf8);
+}
+
+static HANDLE section;
+static uint8_t *section_view;
+
+uint8_t *prim_shared_reserve(char *why, size_t why_size) {
+    if (section_view != NULL) return section_view;
+    section = CreateFileMappingW(INVALID_HANDLE_VALUE, &inheritable, PAGE_READWRITE | SEC_RESERVE, (DWORD)(PRIM_SHARED_BYTES >> 32),
+                                 (DWORD)PRIM_SHARED_BYTES, NULL);
+    if (section != NULL) section_view = MapViewOfFile(section, FILE_MAP_ALL_ACCESS, 0, 0, 0);
+    if (section_view == NULL) {
+        describe(GetLastError(), why, why_size);
+        if (section != NULL) CloseHandle(section);
+    } else {
+        shared_handles[shared_count++] = section;
+    }
+    return section_view;
+}
+
+bool prim_shared_commit(uint64_t offset, uint64_t bytes) {
+    return VirtualAlloc(section_view + offset, bytes, MEM_COMMIT, PAGE_READWRITE) != NULL;
+}
+
+/* Windows cannot decommit parts of a section. */
+bool prim_shared_discard(uint64_t offset, uint64_t bytes) {
+    (void)offset;
+    (void)bytes;
+    return false;
+}
+
 /* ---- Files and libraries --------------------------------------------------------------------------------------------- */
 
 enum prim_file prim_file_kind(const char *path) {
@@ -237,17 +297,6 @@ FILE *prim_file_read(const char *path) {
     return to_wide(path, wide, PATH_UNITS) ? _wfopen(wide, L"r") : NULL;
 }
 
-static void describe(DWORD error, char *why, size_t why_size) {
-    wchar_t text[256];
-    DWORD length = FormatMessageW(FORMAT_MESSAGE_FROM_SYSTEM | FORMAT_MESSAGE_IGNORE_INSERTS | FORMAT_MESSAGE_MAX_WIDTH_MASK, NULL, error,
-                                  0, text, sizeof text / sizeof *text, NULL);
-    while (length > 0 && (text[length - 1] == L' ' || text[length - 1] == L'.')) length--;
-    text[length] = L'\0';
-    char *utf8 = narrow_of(CP_UTF8, text, NULL);
-    snprintf(why, why_size, "%s (error %lu)", utf8 != NULL && utf8[0] != '\0' ? utf8 : "no reason given", error);
-    free(utf8);
-}
-
 /* jvm.dll is in bin/server and depends on libraries in bin. Windows searches bin only if it is added, with backslashes. */
 void *prim_library_open(const char *path, char *why, size_t why_size) {
     wchar_t wide[PATH_UNITS], full[PATH_UNITS], bin[PATH_UNITS];
@@ -269,6 +318,17 @@ void *prim_library_open(const char *path, char *why, size_t why_size) {
 }
 
 void *prim_library_symbol(void *library, const char *name) { return (void *)(uintptr_t)GetProcAddress((HMODULE)library, name); }
+
+bool prim_library_path(char *path, size_t size) {
+    wchar_t wide[PATH_UNITS];
+    HMODULE self;
+    if (!GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS,
+                            (LPCWSTR)(uintptr_t)&stay_loaded, &self)) {
+        return false;
+    }
+    DWORD units = GetModuleFileNameW(self, wide, PATH_UNITS);
+    return units > 0 && units < PATH_UNITS && WideCharToMultiByte(CP_UTF8, 0, wide, -1, path, (int)size, NULL, NULL) > 0;
+}
 
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
@@ -334,12 +394,12 @@ static wchar_t *command_line(char *const argv[]) {
     return line;
 }
 
-/* Starts a program in a job, which includes its children, and lets it inherit only these two handles. NULL if it does not start. */
-static HANDLE spawn(wchar_t *line, HANDLE input, HANDLE output, HANDLE job) {
-    HANDLE handles[] = {input, output};
+/* Starts a program in a job, which includes its children, and lets it inherit only these handles: its input, output and error, which may be
+ * its output, and others. NULL if it does not start. */
+static HANDLE spawn(wchar_t *line, HANDLE handles[], DWORD count, HANDLE error, HANDLE job) {
     STARTUPINFOEXW startup = {
         .StartupInfo = {
-            .cb = sizeof startup, .dwFlags = STARTF_USESTDHANDLES, .hStdInput = input, .hStdOutput = output, .hStdError = output}};
+            .cb = sizeof startup, .dwFlags = STARTF_USESTDHANDLES, .hStdInput = handles[0], .hStdOutput = handles[1], .hStdError = error}};
     PROCESS_INFORMATION child = {0};
     SIZE_T size = 0;
     InitializeProcThreadAttributeList(NULL, 1, 0, &size);
@@ -348,10 +408,10 @@ static HANDLE spawn(wchar_t *line, HANDLE input, HANDLE output, HANDLE job) {
         free(startup.lpAttributeList);
         return NULL;
     }
-    BOOL started =
-        UpdateProcThreadAttribute(startup.lpAttributeList, 0, PROC_THREAD_ATTRIBUTE_HANDLE_LIST, handles, sizeof handles, NULL, NULL) &&
-        CreateProcessW(NULL, line, NULL, NULL, TRUE, CREATE_NO_WINDOW | CREATE_SUSPENDED | EXTENDED_STARTUPINFO_PRESENT, NULL, NULL,
-                       &startup.StartupInfo, &child);
+    BOOL started = UpdateProcThreadAttribute(startup.lpAttributeList, 0, PROC_THREAD_ATTRIBUTE_HANDLE_LIST, handles,
+                                             count * sizeof *handles, NULL, NULL) &&
+                   CreateProcessW(NULL, line, NULL, NULL, TRUE, CREATE_NO_WINDOW | CREATE_SUSPENDED | EXTENDED_STARTUPINFO_PRESENT, NULL,
+                                  NULL, &startup.StartupInfo, &child);
     DeleteProcThreadAttributeList(startup.lpAttributeList);
     free(startup.lpAttributeList);
     if (!started) return NULL;
@@ -399,14 +459,13 @@ static HANDLE make_job(void) {
 }
 
 enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status) {
-    SECURITY_ATTRIBUTES inherited = {.nLength = sizeof inherited, .bInheritHandle = TRUE};
     HANDLE from = NULL, to = NULL, child = NULL;
-    HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inherited, OPEN_EXISTING, 0, NULL);
+    HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inheritable, OPEN_EXISTING, 0, NULL);
     HANDLE job = make_job();
     wchar_t *line = command_line(argv);
     output[0] = '\0';
-    if (line != NULL && input != INVALID_HANDLE_VALUE && CreatePipe(&from, &to, &inherited, 0)) {
-        child = spawn(line, input, to, job);
+    if (line != NULL && input != INVALID_HANDLE_VALUE && CreatePipe(&from, &to, &inheritable, 0)) {
+        child = spawn(line, (HANDLE[]){input, to}, 2, to, job);
         CloseHandle(to);
     }
     free(line);
@@ -422,4 +481,70 @@ enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *outpu
     CloseHandle(child);
     to_utf8_in_place(jvm_code_page(), output, output_size);
     return done ? PRIM_EXITED : PRIM_TIMED_OUT;
+}
+
+/* ---- The child that shares memory ------------------------------------------------------------------------------------ */
+
+#define OUTPUT_POLL_MS 20
+
+static void close_all(const HANDLE handles[], int count) {
+    for (int i = 0; i < count; i++) {
+        if (handles[i] != NULL && handles[i] != INVALID_HANDLE_VALUE) CloseHandle(handles[i]);
+    }
+}
+
+/* The job ends the child when this process ends, which closes its only handle. */
+bool prim_child_start(char *const argv[], prim_child *child, char *why, size_t why_size) {
+    HANDLE from[2] = {NULL}, to[2] = {NULL};
+    HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inheritable, OPEN_EXISTING, 0, NULL);
+    HANDLE job = make_job();
+    wchar_t *line = command_line(argv);
+    *child = (prim_child){.job = job};
+    if (line != NULL && job != NULL && CreatePipe(&from[0], &to[0], &inheritable, 0) && CreatePipe(&from[1], &to[1], &inheritable, 0)) {
+        HANDLE handles[3 + sizeof shared_handles / sizeof *shared_handles] = {input, to[0], to[1]};
+        memcpy(handles + 3, shared_handles, shared_count * sizeof *shared_handles);
+        child->process = spawn(line, handles, 3 + shared_count, to[1], job);
+    }
+    if (child->process == NULL) describe(GetLastError(), why, why_size);
+    free(line);
+    close_all((const HANDLE[]){input, to[0], to[1]}, 3);
+    child->output[0] = from[0];
+    child->output[1] = from[1];
+    if (child->process == NULL) close_all((const HANDLE[]){job, from[0], from[1]}, 3);
+    return child->process != NULL;
+}
+
+int32_t prim_child_id(const prim_child *child) { return (int32_t)GetProcessId(child->process); }
+
+int prim_child_read(prim_child *child, char *buffer, size_t size) {
+    for (bool ended = false;; ended = WaitForSingleObject(child->process, OUTPUT_POLL_MS) == WAIT_OBJECT_0) {
+        for (int i = 0; i < 2; i++) {
+            DWORD ready = 0, count = 0;
+            if (!PeekNamedPipe(child->output[i], NULL, 0, NULL, &ready, NULL) || ready == 0) continue;
+            if (!ReadFile(child->output[i], buffer, (DWORD)size / 4, &count, NULL) || count == 0) continue; /* UTF-8 may be longer */
+            buffer[count] = '\0';
+            to_utf8_in_place(jvm_code_page(), buffer, size);
+            return i + 1;
+        }
+        if (ended) return 0;
+    }
+}
+
+/* Crashes have codes beyond those of signed numbers. */
+bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
+    if (!reap(child->process, deadline, status)) return false;
+    *status &= INT_MAX;
+    close_all((const HANDLE[]){child->process, child->job, child->output[0], child->output[1]}, 4);
+    return true;
+}
+
+void prim_child_kill(prim_child *child) { TerminateJobObject(child->job, 1); }
+
+void prim_child_token(char *text, size_t size) { snprintf(text, size, "%llx", (unsigned long long)(uintptr_t)section); }
+
+uint8_t *prim_child_attach(const char *token) {
+    char *end;
+    uintptr_t handle = (uintptr_t)strtoull(token, &end, 16);
+    if (end == token || *end != '\0') return NULL;
+    return MapViewOfFile((HANDLE)handle, FILE_MAP_ALL_ACCESS, 0, 0, 0);
 }

@@ -2,6 +2,7 @@
 
 #include <stdatomic.h>
 #include <stdbool.h>
+#include "child.h"
 #include "collektive_shim.h"
 #include "engine.h"
 #include "error.h"
@@ -22,7 +23,7 @@ struct session {
 static struct {
     struct session all[MAX_SESSIONS];
     struct session control; /* never opened by a caller: it owns the answer slot of clk_control */
-    struct host_call call;  /* the call that the engine thread runs */
+    struct host_call call;  /* the call that the host runs */
     atomic_int count;
     _Atomic uint64_t steps;
 } sessions;
@@ -104,17 +105,27 @@ static int32_t enter(int32_t limit_ms, int64_t *deadline) {
     return running != CLK_OK ? running : result;
 }
 
-/* Runs work that the host should end by the deadline. If it has not ended after the grace period, the JVM is lost. */
-static int32_t run(engine_work *work, int64_t deadline) {
-    int32_t result = engine_run(work, deadline + SESSION_GRACE_MS * PRIM_MILLI);
+static int32_t work_call(void) { return sessions.call.entry == HOST_CLOSE ? host_close(sessions.call.session) : host_run(&sessions.call); }
+
+/* Runs sessions.call, which the host should end by the deadline. If it has not ended after the grace period, the JVM is lost. */
+static int32_t run(int64_t deadline) {
+    deadline += SESSION_GRACE_MS * PRIM_MILLI;
+    if (sessions.call.entry == HOST_STEP) atomic_fetch_add_explicit(&sessions.steps, 1, memory_order_relaxed);
+    int32_t result = child_is_used() ? child_run(&sessions.call, deadline) : engine_run(work_call, deadline);
     if (result != CLK_TIMEOUT) return result;
     engine_lose("the engine thread did not answer within the time limit and a grace period of %d ms", SESSION_GRACE_MS);
+    if (child_is_used()) child_end();
     return engine_check_running();
 }
 
-static int32_t work_call(void) {
-    if (sessions.call.entry == HOST_STEP) atomic_fetch_add_explicit(&sessions.steps, 1, memory_order_relaxed);
-    return host_run(&sessions.call);
+/* Exchanges the answer's block. The old one is still in use. */
+static bool grow_answer(struct host_call *call, int32_t capacity) {
+    struct block *block = slots_exchange(call->slot, capacity);
+    if (block == NULL) return false;
+    call->answer->next = call->retired;
+    call->retired = call->answer;
+    call->answer = block;
+    return true;
 }
 
 static void unpin_all(struct host_call *call) {
@@ -150,9 +161,10 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
                                .length = length,
                                .slot = session->answer,
                                .answer = own,
-                               .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms};
-    int32_t result = run(work_call, deadline);
-    /* These blocks stay pinned and are never reused: Java threads that did not end may still read or write them. */
+                               .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms,
+                               .grow = grow_answer};
+    int32_t result = run(deadline);
+    /* These blocks stay pinned and are not reused while the JVM lives: Java threads that did not end may still read or write them. */
     if (result == CLK_JVM_LOST || result == CLK_SESSION_FAILED) return result;
     if (result == CLK_OK) {
         answer->offset = call->answer_offset;
@@ -208,8 +220,6 @@ int32_t clk_control(clk_slot slot, int32_t offset, int32_t length, int32_t limit
     return result;
 }
 
-static int32_t work_close(void) { return host_close(sessions.call.session); }
-
 int32_t clk_session_close(clk_session session, int32_t limit_ms) {
     if (check_limit(limit_ms) != CLK_OK) return CLK_ARGUMENT;
     int64_t deadline;
@@ -219,8 +229,8 @@ int32_t clk_session_close(clk_session session, int32_t limit_ms) {
     if (found == NULL) {
         result = CLK_HANDLE;
     } else {
-        sessions.call.session = session;
-        result = run(work_close, deadline);
+        sessions.call = (struct host_call){.entry = HOST_CLOSE, .session = session};
+        result = run(deadline);
         if (result != CLK_JVM_LOST) session_release(found);
     }
     engine_leave();

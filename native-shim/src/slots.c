@@ -29,6 +29,11 @@ static struct {
     uint64_t unused_bytes;
     struct block *unused[MAX_CLASS + 1]; /* by class */
     struct block *surplus;               /* to be freed, once the engine thread has deleted their wrappers */
+
+    uint8_t *shared; /* NULL until slots_share; then all blocks come from there, and their ranges are never split */
+    uint64_t shared_end;
+    struct block *newest;                   /* of the shared blocks, which are never freed */
+    struct block *discarded[MAX_CLASS + 1]; /* shared blocks without memory, by class */
 } pool = {.mutex = PRIM_MUTEX_INIT};
 
 /* ---- Blocks (under the mutex) ---------------------------------------------------------------------------------------- */
@@ -39,6 +44,42 @@ static int class_of(int32_t capacity) {
     return class;
 }
 
+/* A block without memory; NULL if the address space is used up. */
+static struct block *shared_reserve(int class) {
+    struct block *block = pool.discarded[class];
+    if (block != NULL) {
+        pool.discarded[class] = block->next;
+        return block;
+    }
+    if (PRIM_SHARED_BYTES - pool.shared_end < (uint64_t)1 << class || (block = malloc(sizeof *block)) == NULL) return NULL;
+    *block =
+        (struct block){.address = pool.shared + pool.shared_end, .offset = pool.shared_end, .capacity = 1 << class, .older = pool.newest};
+    block->number = pool.newest == NULL ? 0 : pool.newest->number + 1;
+    pool.newest = block;
+    pool.shared_end += (uint64_t)1 << class;
+    return block;
+}
+
+static struct block *shared_create(int class) {
+    struct block *block = shared_reserve(class);
+    if (block == NULL || prim_shared_commit(block->offset, (uint64_t)block->capacity)) return block;
+    block->next = pool.discarded[class];
+    pool.discarded[class] = block;
+    return NULL;
+}
+
+static struct block *private_create(int class) {
+    struct block *block = malloc(sizeof *block);
+    uint8_t *address = prim_allocate((size_t)1 << class);
+    if (block != NULL && address != NULL) {
+        *block = (struct block){.address = address, .capacity = 1 << class};
+        return block;
+    }
+    free(block);
+    prim_free(address);
+    return NULL;
+}
+
 static struct block *block_take(int32_t capacity) {
     int class = class_of(capacity);
     struct block *block = pool.unused[class];
@@ -46,15 +87,11 @@ static struct block *block_take(int32_t capacity) {
         pool.unused[class] = block->next;
         pool.unused_bytes -= (uint64_t)block->capacity;
     } else {
-        block = malloc(sizeof *block);
-        uint8_t *address = prim_allocate((size_t)1 << class);
-        if (block == NULL || address == NULL) {
-            free(block);
-            prim_free(address);
+        block = pool.shared != NULL ? shared_create(class) : private_create(class);
+        if (block == NULL) {
             error_set(CLK_MEMORY, "out of native memory for a slot of %d bytes", 1 << class);
             return NULL;
         }
-        *block = (struct block){.address = address, .capacity = 1 << class};
         pool.bytes += (uint64_t)block->capacity;
     }
     block->next = NULL;
@@ -62,16 +99,21 @@ static struct block *block_take(int32_t capacity) {
 }
 
 static void block_release(struct block *block) {
+    int class = class_of(block->capacity);
+    bool usable = pool.shared == NULL || block->offset != 0;
+    bool fits = pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES;
     block->abandoned = false;
-    if (pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES) {
-        int class = class_of(block->capacity);
+    if (usable && (fits || (block->offset != 0 && !prim_shared_discard(block->offset, (uint64_t)block->capacity)))) {
         block->next = pool.unused[class];
         pool.unused[class] = block;
         pool.unused_bytes += (uint64_t)block->capacity;
         return;
     }
     pool.bytes -= (uint64_t)block->capacity;
-    if (block->wrapper == NULL) {
+    if (block->offset != 0) {
+        block->next = pool.discarded[class];
+        pool.discarded[class] = block;
+    } else if (block->wrapper == NULL) {
         slots_free(block);
     } else {
         block->next = pool.surplus;
@@ -232,6 +274,39 @@ struct block *slots_exchange(clk_slot handle, int32_t capacity) {
     }
     prim_unlock(&pool.mutex);
     return block;
+}
+
+uint8_t *slots_share(uint64_t reserved) {
+    char why[256];
+    prim_lock(&pool.mutex);
+    if (pool.shared == NULL) {
+        uint8_t *shared = prim_shared_reserve(why, sizeof why);
+        if (shared == NULL || !prim_shared_commit(0, reserved)) {
+            error_set(CLK_MEMORY, "cannot share memory with the JVM's process: %s; free memory, or run the JVM in this process",
+                      shared == NULL ? why : "out of memory");
+        } else {
+            for (int class = MIN_CLASS; class <= MAX_CLASS; class++) {
+                for (struct block *block; (block = pool.unused[class]) != NULL; slots_free(block)) {
+                    pool.unused[class] = block->next;
+                    pool.bytes -= (uint64_t)block->capacity;
+                }
+            }
+            pool.unused_bytes = 0;
+            pool.shared_end = reserved;
+            pool.shared = shared;
+        }
+    }
+    prim_unlock(&pool.mutex);
+    return pool.shared;
+}
+
+void slots_unpin_shared(void) {
+    prim_lock(&pool.mutex);
+    for (struct block *block = pool.newest; block != NULL; block = block->older) {
+        if (block->pins > 0 && block->abandoned) block_release(block);
+        block->pins = 0;
+    }
+    prim_unlock(&pool.mutex);
 }
 
 struct block *slots_take_surplus(void) {

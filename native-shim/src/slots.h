@@ -11,11 +11,14 @@
 
 struct block {
     uint8_t *address;
-    int32_t capacity;   /* a power of two */
-    int32_t pins;       /* calls of the host that use it now */
-    bool abandoned;     /* no slot owns it: the last unpin returns it to the pool */
-    void *wrapper;      /* global reference to its direct ByteBuffer, or NULL; engine thread only, while pinned */
-    struct block *next; /* the next block of the pool's list, or of the retired blocks of a call */
+    uint64_t offset;  /* in the memory shared with the JVM's own process, where no block begins at 0; 0: in memory of this process only */
+    uint32_t number;  /* of the shared block, from 0 on; its place and size never change */
+    int32_t capacity; /* a power of two */
+    int32_t pins;     /* calls of the host that use it now */
+    bool abandoned;   /* no slot owns it: the last unpin returns it to the pool */
+    void *wrapper;    /* global reference to its direct ByteBuffer, or NULL; engine thread only, while pinned */
+    struct block *older; /* the shared block created before */
+    struct block *next;  /* the next block of the pool's list, or of the retired blocks of a call */
 };
 
 /* Returns the slot's block, which stays valid until slots_unpin; NULL for a stale handle, with the last error set. */
@@ -25,6 +28,13 @@ void slots_unpin(struct block *block);
 /* Replaces the slot's block by one of at least `capacity` bytes and returns it pinned; NULL on failure, with the last error set. The old block,
  * which the caller has pinned, stays valid until slots_unpin. */
 struct block *slots_exchange(clk_slot slot, int32_t capacity);
+
+/* From now on takes all memory from the mapping that a child inherits, after its first `reserved` bytes. Returns its beginning, NULL on failure
+ * with the last error set. Blocks that slots own already stay where they are. */
+uint8_t *slots_share(uint64_t reserved);
+
+/* Unpins all shared blocks, once the process that used them has ended. No call may run. */
+void slots_unpin_shared(void);
 
 /* Removes a surplus block from the pool; NULL if none. The caller deletes its wrapper and then frees it with slots_free. Engine thread only. */
 struct block *slots_take_surplus(void);

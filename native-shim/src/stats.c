@@ -1,4 +1,5 @@
 #include <string.h>
+#include "child.h"
 #include "collektive_shim.h"
 #include "engine.h"
 #include "error.h"
@@ -13,8 +14,9 @@ int32_t clk_get_stats(clk_stats *stats) {
     if (size < sizeof stats->size) return error_set(CLK_ARGUMENT, "stats->size is %u; set it to sizeof(clk_stats)", size);
     clk_stats now = {.size = size,
                      .sessions = session_count(),
+                     .process = child_process(),
                      .steps = session_steps(),
-                     .wrapped = host_wrapped(),
+                     .wrapped = host_wrapped() + child_wrapped(),
                      .logs_dropped = log_dropped(),
                      .signal_repairs = engine_signal_repairs()};
     slots_count(&now.slots, &now.slot_bytes);

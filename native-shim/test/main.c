@@ -16,6 +16,7 @@
 const char *const host_classes = TEST_HOST_CLASSES;
 const char *const host_jar = TEST_HOST_JAR;
 const char *const incompatible_classes = TEST_INCOMPATIBLE_CLASSES;
+int32_t placement = CLK_IN_PROCESS;
 clk_slot request;
 clk_memory request_memory = {.size = sizeof request_memory};
 clk_answer answer = {.size = sizeof answer};
@@ -66,6 +67,8 @@ static const char *named_java_home(void) {
 #endif
 }
 
+const char *own_or(const char *own, const char *in_process) { return placement == CLK_OWN_PROCESS ? own : in_process; }
+
 const char *java_home(void) {
     const char *named = named_java_home();
     return named != NULL ? named : TEST_JAVA_HOME;
@@ -115,7 +118,8 @@ static clk_jvm_config config_of(const char *home, const char *class_path, const 
                              .class_path = class_path,
                              .options = options,
                              .start_limit_ms = limit_ms,
-                             .check_options = check_options};
+                             .check_options = check_options,
+                             .placement = placement};
     while (options != NULL && options[config.option_count] != NULL) config.option_count++;
     return config;
 }
@@ -215,17 +219,19 @@ int main(int argument_count, char **arguments) {
         void (*run)(void);
     } cases[] = {
 #define CASE_ENTRY(name) {#name, name},
-        CASES(CASE_ENTRY) CASE_ENTRY(bench) CASE_ENTRY(fuzz)
+        CASES(CASE_ENTRY) CASE_ENTRY(bench) CASE_ENTRY(fuzz) CASE_ENTRY(parent)
 #undef CASE_ENTRY
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        if (argument_count == 2 && strcmp(arguments[1], cases[i].name) == 0) {
+        if (argument_count >= 2 && strcmp(arguments[1], cases[i].name) == 0) {
+            if (argument_count == 3 && strcmp(arguments[2], "own") == 0) placement = CLK_OWN_PROCESS;
+            if (placement == CLK_OWN_PROCESS && strncmp(cases[i].name, "slot", 4) == 0) CHECK_OK(start(NULL)); /* shared slots */
             cases[i].run();
             fflush(NULL);
             /* Not exit(): threads of a lost JVM still run. */
             _exit(0);
         }
     }
-    fprintf(stderr, "usage: shim_test CASE | bench | fuzz; the cases are in test.h\n");
+    fprintf(stderr, "usage: shim_test CASE | bench | fuzz [own]; the cases are in test.h\n");
     return 2;
 }

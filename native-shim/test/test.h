@@ -1,4 +1,5 @@
-/* Each case runs in a separate process: `shim_test CASE`. Its name is the specification; a failed CHECK ends it. */
+/* Each case runs in a separate process, and with the JVM in its own process: `shim_test CASE` and `shim_test CASE own`. Its name is the
+ * specification; a failed CHECK ends it. */
 #ifndef COLLEKTIVE_TEST_H
 #define COLLEKTIVE_TEST_H
 
@@ -34,6 +35,8 @@ void make_folder(const char *folder, const char *name);
 
 /* Starts the JVM of java_home() with the test host and these options, ended by NULL, after all checks. */
 int32_t start(const char *const *options);
+const char *own_or(const char *own, const char *in_process); /* by the placement */
+extern int32_t placement;                        /* of all starts: each case runs in both, as `shim_test CASE` and `shim_test CASE own` */
 int32_t check(const char *const *options);       /* the same checks without the start */
 int32_t check_texts(const char *const *options); /* also without the child process */
 int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);
@@ -86,11 +89,14 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(stop_ends_all) X(stop_waits_while_another_writes_its_classes) X(stop_without_start) X(stop_halts_threads_that_stay) \
     X(stop_times_out) X(stop_while_the_start_hangs) X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
     X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults) \
-    X(calls_in_any_order)
+    X(calls_in_any_order) \
+    X(own_survives_kills) X(own_ends_with_its_parent) X(own_with_a_bad_launcher) X(own_without_resources) X(own_with_older_slots) \
+    X(own_changes_options) X(own_reports_its_death_at_once)
 /* clang-format on */
 
-void bench(void); /* `shim_test bench` */
-void fuzz(void);  /* `shim_test fuzz`: for CLK_FUZZ_SECONDS, from CLK_FUZZ_SEED on */
+void bench(void);  /* `shim_test bench` */
+void parent(void); /* of own_ends_with_its_parent: starts a JVM, prints its process id and waits */
+void fuzz(void);   /* `shim_test fuzz`: for CLK_FUZZ_SECONDS, from CLK_FUZZ_SEED on */
 
 #define CASE_DECLARE(name) void name(void);
 CASES(CASE_DECLARE)

@@ -21,9 +21,9 @@ def library(platform: str) -> str:
 
 
 def functions() -> set[str]:
-    """Returns the functions of the public header."""
+    """Returns the functions of the public header, and the one that Java calls."""
     with open(os.path.join(ROOT, "native-shim/include/collektive_shim.h")) as file:
-        return set(re.findall(r"^CLK_API .*?\b(clk_\w+)\(", file.read(), re.M))
+        return set(re.findall(r"^CLK_API .*?\b(clk_\w+)\(", file.read(), re.M)) | {"Java_org_collektive_host_Main_serve"}
 
 
 def output(*command: str) -> str:
@@ -99,6 +99,6 @@ def test_the_library_of_linux_runs_with_glibc_2_17(platform: str) -> None:
 @pytest.mark.skipif("win-x64" not in PLATFORMS, reason="only ./collektive test platforms builds it")
 def test_the_library_of_windows_needs_only_windows() -> None:
     dump = output("objdump", "-p", library("win-x64"))
-    assert set(re.findall(r"\b(clk_\w+)$", dump, re.M)) == functions()
+    assert set(re.findall(r"\b((?:clk|Java)_\w+)$", dump, re.M)) == functions()
     needed = {name.lower() for name in re.findall(r"DLL Name: (\S+)", dump)}
     assert needed and all(re.fullmatch(r"kernel32\.dll|ntdll\.dll|api-ms-win-.*\.dll", name) for name in needed)

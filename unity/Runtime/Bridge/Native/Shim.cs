@@ -23,6 +23,8 @@ namespace Collektive.Bridge
             public byte** Options;
             public int StartLimitMs;
             public int CheckOptions;
+            public int Placement;
+            public int Reserved;
         }
 
         [StructLayout(LayoutKind.Sequential)]
@@ -49,7 +51,7 @@ namespace Collektive.Bridge
             public uint Size;
             public int Sessions;
             public int Slots;
-            public int Reserved;
+            public int Process;
             public ulong Steps;
             public ulong SlotBytes;
             public ulong Wrapped;

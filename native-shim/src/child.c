@@ -1,0 +1,287 @@
+#include "child.h"
+
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "channel.h"
+#include "engine.h"
+#include "error.h"
+#include "log.h"
+#include "prim.h"
+#include "slots.h"
+#include "text.h"
+
+#define STACK_BYTES ((size_t)256 * 1024)
+#define MAIN_CLASS "org.collektive.host.Main"
+#define OUTPUT_SHOWN 600
+#define REAP_LIMIT_MS 1000 /* from the end of the child's output to its end */
+
+/* Guarded by the turn, except atomics, semaphores and what the child's thread writes before it posts them. */
+static struct {
+    struct channel *channel; /* NULL before the first start */
+    char **arguments;        /* of the running child */
+    atomic_bool used;
+    atomic_bool alive;
+    atomic_bool stopping;   /* the end of the child is expected */
+    prim_semaphore started; /* posted when the child has started, or cannot start */
+    prim_semaphore ended;   /* posted when the child has ended */
+    prim_once once;
+    prim_mutex killing; /* guards `killable` */
+    bool killable;      /* started, and not yet reaped */
+    bool launched;      /* the child's program runs, or has run */
+    prim_child process;
+    _Atomic int32_t id;
+    char reason[ERROR_CAPACITY]; /* why it did not start, or how it ended */
+    _Atomic uint64_t wrapped;
+} child = {.once = PRIM_ONCE_INIT, .killing = PRIM_MUTEX_INIT};
+
+static void init(void) {
+    prim_semaphore_init(&child.started, 0);
+    prim_semaphore_init(&child.ended, 0);
+}
+
+bool child_is_used(void) { return atomic_load_explicit(&child.used, memory_order_relaxed); }
+
+void child_use(bool used) { atomic_store(&child.used, used); }
+
+int32_t child_process(void) { return child_is_used() ? atomic_load(&child.id) : 0; }
+
+bool child_is_alive(void) { return atomic_load(&child.alive); }
+
+uint64_t child_wrapped(void) { return atomic_load_explicit(&child.wrapped, memory_order_relaxed); }
+
+/* ---- The child's thread ---------------------------------------------------------------------------------------------- */
+
+/* HotSpot prints "# An error report file with more information is saved as:", and its path after "# " in the next line. */
+static void describe_end(int status) {
+    static const char announcement[] = "is saved as:; # ";
+    char what[64], last[LOG_LAST_CAPACITY];
+    log_jvm_last(last, sizeof last);
+    snprintf(what, sizeof what, status < 0 ? "was ended by signal %d" : "ended with exit code %d", status < 0 ? -status : status);
+    const char *path = strstr(last, announcement);
+    if (path != NULL) {
+        path += sizeof announcement - 1;
+        snprintf(child.reason, sizeof child.reason, "its process crashed; see %.*s", (int)strcspn(path, ";"), path);
+        return;
+    }
+    size_t length = strlen(last);
+    const char *shown = length > OUTPUT_SHOWN ? text_next_character(last + length - OUTPUT_SHOWN) : last;
+    snprintf(child.reason, sizeof child.reason, "its process %s; it printed last: %s", what, shown[0] != '\0' ? shown : "nothing");
+}
+
+/* Waits for the end of a child that has closed its connection, which only its end should do. */
+static int reap(void) {
+    int status = 0;
+    int64_t limit = prim_now() + REAP_LIMIT_MS * PRIM_MILLI;
+    while (child.killable) {
+        prim_lock(&child.killing);
+        child.killable = !prim_child_reap(&child.process, prim_now() + PRIM_MILLI, &status);
+        if (child.killable && prim_now() > limit) prim_child_kill(&child.process);
+        prim_unlock(&child.killing);
+    }
+    return status;
+}
+
+/* The loss is announced before `alive` changes, so that a call that finds the child dead finds the reason. */
+static void child_main(void) {
+    char output[4096];
+    int stream;
+    child.killable = prim_child_start(child.arguments, &child.process, child.reason, sizeof child.reason);
+    child.launched = child.killable;
+    if (child.launched) child.id = prim_child_id(&child.process);
+    atomic_store(&child.alive, child.launched);
+    prim_semaphore_post(&child.started);
+    if (!child.launched) return;
+    while ((stream = prim_child_read(&child.process, output, sizeof output)) != 0) {
+        log_jvm_text(stream == 2 ? CLK_LOG_WARNING : CLK_LOG_INFO, output);
+    }
+    describe_end(reap());
+    if (engine_state() == CLK_STATE_RUNNING && !atomic_load(&child.stopping)) engine_lose("%s", child.reason);
+    atomic_store(&child.alive, false);
+    prim_shared_post(&child.channel->done);
+    prim_semaphore_post(&child.ended);
+}
+
+/* ---- Start and end --------------------------------------------------------------------------------------------------- */
+
+static void kill_child(void) {
+    prim_lock(&child.killing);
+    if (child.killable) prim_child_kill(&child.process);
+    prim_unlock(&child.killing);
+}
+
+static void free_arguments(void) {
+    free(child.arguments);
+    child.arguments = NULL;
+}
+
+void child_end(void) {
+    if (child.arguments == NULL) return;
+    kill_child();
+    prim_semaphore_wait(&child.ended);
+    free_arguments();
+}
+
+/* The child's own options come first: a crash leaves a report but no dump, and Main may load the shim. */
+static int32_t fill_arguments(const struct launch *launch) {
+    static char java[4096], library[4096], token[64];
+    static char main_class[] = MAIN_CLASS, no_core[] = "-XX:-CreateCoredumpOnCrash";
+    static char native[] = "--enable-native-access=ALL-UNNAMED";
+    snprintf(java, sizeof java, "%s/" PRIM_JAVA, launch->home);
+    if (!prim_executable(java))
+        return error_set(CLK_JVM_NOT_FOUND, "%s is missing or not executable; the JVM's own process needs it: reinstall the JVM", java);
+    if (!prim_library_path(library, sizeof library) || !prim_jvm_can_decode(library))
+        return error_set(CLK_HOST, "the JVM cannot decode the path of the shim's library, or it is too long; move the package");
+    prim_child_token(token, sizeof token);
+    child.arguments = calloc((size_t)launch->option_count + 7, sizeof *child.arguments);
+    if (child.arguments == NULL) return error_set(CLK_MEMORY, "out of memory for %d JVM options", launch->option_count);
+    char **next = child.arguments;
+    *next++ = java;
+    *next++ = no_core;
+    *next++ = native;
+    for (int32_t i = 0; i < launch->option_count; i++) *next++ = launch->options[i];
+    *next++ = main_class;
+    *next++ = library;
+    *next = token;
+    return CLK_OK;
+}
+
+static void reset_channel(void) {
+    struct channel *channel = child.channel;
+    log_jvm_forget();
+    prim_shared_reset(&channel->request);
+    prim_shared_reset(&channel->done);
+    channel->version = CLK_VERSION;
+    channel->size = sizeof *channel;
+    channel->wrapped = 0;
+    channel->result = CHANNEL_SILENT;
+    atomic_store(&child.stopping, false);
+}
+
+static int32_t share_memory(void) {
+    if (child.channel != NULL) return CLK_OK;
+    child.channel = (struct channel *)(void *)slots_share(CHANNEL_BYTES);
+    if (child.channel == NULL) return CLK_MEMORY;
+    log_share(&child.channel->log, false);
+    return CLK_OK;
+}
+
+/* Copies the child's text, which it may have left without an end. */
+static int32_t channel_error(int32_t code) {
+    child.channel->text[ERROR_CAPACITY - 1] = '\0';
+    return error_set(code, "%s", child.channel->text);
+}
+
+/* The first answer reports the start. */
+static int32_t await_start(int64_t deadline) {
+    if (!prim_shared_sleep_until(&child.channel->done, deadline)) {
+        char last[LOG_LAST_CAPACITY];
+        log_jvm_last(last, sizeof last);
+        return error_set(CLK_TIMEOUT, "the JVM's process did not start within the time limit; it printed: %s",
+                         last[0] != '\0' ? last : "nothing");
+    }
+    int32_t result = child.channel->result;
+    if (result != CHANNEL_SILENT) return result == CLK_OK ? CLK_OK : channel_error(result);
+    if (strstr(child.reason, MAIN_CLASS) != NULL)
+        return error_set(CLK_HOST, "the class path lacks " MAIN_CLASS " of the version of this shim: %s", child.reason);
+    return error_set(CLK_JVM_START, "the JVM did not start: %s; correct the JVM options, or reinstall the JVM", child.reason);
+}
+
+int32_t child_start(const struct launch *launch, int64_t deadline, char *version, int32_t capacity) {
+    prim_run_once(&child.once, init);
+    int32_t result = share_memory();
+    if (result == CLK_OK) result = fill_arguments(launch);
+    if (result != CLK_OK) return result;
+    reset_channel();
+    if (!prim_thread_start(child_main, "collektive-jvm", STACK_BYTES)) {
+        result = error_set(CLK_MEMORY, "cannot create a thread; free memory or raise the limit of threads");
+    } else {
+        prim_semaphore_wait(&child.started);
+        if (!child.launched) {
+            result = error_set(CLK_JVM_START, "cannot run %s: %s", child.arguments[0], child.reason);
+        } else {
+            result = await_start(deadline);
+            if (result != CLK_OK) child_end();
+        }
+    }
+    if (result == CLK_OK) {
+        child.channel->text[ERROR_CAPACITY - 1] = '\0';
+        text_export(child.channel->text, version, capacity);
+    } else {
+        free_arguments();
+    }
+    return result;
+}
+
+/* ---- Calls ----------------------------------------------------------------------------------------------------------- */
+
+static struct channel_block place_of(const struct block *block) {
+    return (struct channel_block){.offset = block->offset, .number = block->number, .capacity = block->capacity};
+}
+
+/* Hands the call to the child and waits for its answer. */
+static int32_t exchange(int64_t deadline) {
+    prim_shared_post(&child.channel->request);
+    if (!prim_shared_wait_until(&child.channel->done, deadline))
+        return error_set(CLK_TIMEOUT, "the JVM's process did not answer within the time limit");
+    return child_is_alive() ? CLK_OK : engine_check_running();
+}
+
+static int32_t finish(struct host_call *call) {
+    struct channel *channel = child.channel;
+    int32_t result = channel->result, offset = channel->answer_offset, length = channel->answer_length;
+    atomic_fetch_add_explicit(&child.wrapped, channel->wrapped, memory_order_relaxed);
+    if (result > 0) return error_set(CLK_HOST, "the JVM's process returned an unknown result, %d; restart the JVM", result);
+    if (result != CLK_OK) return channel_error(result);
+    if (call->entry == HOST_CLOSE) return CLK_OK;
+    if (offset < 0 || length < 0 || (int64_t)offset + length > call->answer->capacity)
+        return error_set(CLK_HOST, "the JVM's process returned an answer outside of its slot; restart the JVM");
+    call->answer_offset = offset;
+    call->answer_length = length;
+    return CLK_OK;
+}
+
+int32_t child_run(struct host_call *call, int64_t deadline) {
+    struct channel *channel = child.channel;
+    bool has_frames = call->entry < HOST_CALLS;
+    if (has_frames && (call->request->offset == 0 || call->answer->offset == 0)) {
+        return error_set(CLK_ARGUMENT,
+                         "the slot was acquired before the first JVM in a process of its own; release it and acquire another");
+    }
+    channel->call.entry = (int32_t)call->entry;
+    channel->call.session = call->session;
+    if (has_frames) {
+        channel->call.slot = call->slot;
+        channel->call.offset = call->offset;
+        channel->call.length = call->length;
+        channel->call.limit_ms = call->limit_ms;
+        channel->call.request = place_of(call->request);
+        channel->call.answer = place_of(call->answer);
+    }
+    for (;;) {
+        int32_t result = exchange(deadline);
+        if (result != CLK_OK) return result;
+        if (channel->result != CHANNEL_GROW || !has_frames) return finish(call);
+        bool grown = call->grow(call, channel->capacity);
+        if (grown) channel->call.answer = place_of(call->answer);
+        if (!grown) text_export(error_last(), channel->text, ERROR_CAPACITY);
+        channel->result = grown ? CLK_OK : CLK_MEMORY;
+    }
+}
+
+int32_t child_stop(int32_t limit_ms, int64_t deadline) {
+    int32_t result = CLK_OK;
+    atomic_store(&child.stopping, true);
+    child.channel->call.entry = HOST_STOP;
+    child.channel->call.limit_ms = limit_ms;
+    prim_shared_post(&child.channel->request);
+    if (!prim_semaphore_wait_until(&child.ended, deadline)) {
+        result = error_set(CLK_TIMEOUT, "the JVM did not end within %d ms; its process was killed, and flight recordings may be missing",
+                           limit_ms);
+        kill_child();
+        prim_semaphore_wait(&child.ended);
+    }
+    free_arguments();
+    return result;
+}

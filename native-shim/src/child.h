@@ -1,0 +1,39 @@
+/*
+ * The JVM in a process of its own, seen from the caller's process: start, calls and end of the child. A thread for each child starts it, reads
+ * its output and learns of its end. All functions need the turn, unless stated otherwise.
+ */
+#ifndef COLLEKTIVE_CHILD_H
+#define COLLEKTIVE_CHILD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "host.h"
+#include "launch.h"
+
+/* Returns whether the last start was one in a process of its own. Any thread. */
+bool child_is_used(void);
+void child_use(bool used);
+
+/* Starts the child and copies the host's version. After an error there is no child. */
+int32_t child_start(const struct launch *launch, int64_t deadline, char *version, int32_t capacity);
+
+/* Returns whether the child still runs. Any thread. */
+bool child_is_alive(void);
+
+/* Runs a call like host_run and host_close. Returns CLK_JVM_LOST if the child has ended, and CLK_TIMEOUT if the deadline passed first; the child
+ * then goes on. */
+int32_t child_run(struct host_call *call, int64_t deadline);
+
+/* Ends the child in order. If it has not ended by the deadline, kills it and returns CLK_TIMEOUT. */
+int32_t child_stop(int32_t limit_ms, int64_t deadline);
+
+/* Kills the child if it still runs, and waits for its end. */
+void child_end(void);
+
+/* Returns the process id of the last start's child, or 0 if it was one in this process. Any thread. */
+int32_t child_process(void);
+
+/* Returns the number of direct ByteBuffers that the children created. Any thread. */
+uint64_t child_wrapped(void);
+
+#endif

@@ -1,0 +1,131 @@
+/* The JVM's own process: serves the calls that arrive through the shared memory. On one thread, as its engine thread. */
+#include <jni.h>
+#include <stdlib.h>
+#include "channel.h"
+#include "collektive_shim.h"
+#include "engine.h"
+#include "error.h"
+#include "host.h"
+#include "log.h"
+#include "prim.h"
+#include "slots.h"
+#include "text.h"
+
+static struct {
+    uint8_t *memory;
+    struct channel *channel;
+    struct block **blocks; /* by number, created at their first use */
+    uint32_t block_count;
+    uint64_t reported; /* of host_wrapped() */
+} serve;
+
+/* Returns this process's view of a block, whose ByteBuffer is created once. NULL if out of memory, with the last error set. */
+static struct block *block_at(const struct channel_block *place) {
+    if (place->number >= serve.block_count) {
+        uint32_t count = place->number * 2 + 64;
+        struct block **blocks = realloc(serve.blocks, count * sizeof(struct block *));
+        if (blocks == NULL) goto out_of_memory;
+        for (uint32_t i = serve.block_count; i < count; i++) blocks[i] = NULL;
+        serve.blocks = blocks;
+        serve.block_count = count;
+    }
+    struct block **block = &serve.blocks[place->number];
+    if (*block == NULL) {
+        *block = malloc(sizeof **block);
+        if (*block == NULL) goto out_of_memory;
+        **block = (struct block){.address = serve.memory + place->offset, .capacity = place->capacity};
+    }
+    return *block;
+out_of_memory:
+    error_set(CLK_MEMORY, "out of memory in the JVM's process for %u slots", place->number);
+    return NULL;
+}
+
+/* The parent must never see a result of the past, so the fields are set before each `done`. */
+static void answer(int32_t result) {
+    uint64_t wrapped = host_wrapped();
+    serve.channel->result = result;
+    serve.channel->wrapped = wrapped - serve.reported;
+    serve.reported = wrapped;
+    if (result < 0) text_export(error_last(), serve.channel->text, ERROR_CAPACITY);
+    prim_shared_post(&serve.channel->done);
+}
+
+static void await_request(void) {
+    while (!prim_shared_wait_until(&serve.channel->request, INT64_MAX)) {
+    }
+}
+
+static bool grow(struct host_call *call, int32_t capacity) {
+    serve.channel->capacity = capacity;
+    answer(CHANNEL_GROW);
+    await_request();
+    if (serve.channel->result != CLK_OK) {
+        error_set(CLK_MEMORY, "%s", serve.channel->text);
+        return false;
+    }
+    struct block *block = block_at(&serve.channel->call.answer);
+    if (block != NULL) call->answer = block;
+    return block != NULL;
+}
+
+static int32_t run(void) {
+    const struct channel *channel = serve.channel;
+    struct host_call call = {.entry = (enum host_entry)channel->call.entry,
+                             .session = channel->call.session,
+                             .request = block_at(&channel->call.request),
+                             .answer = block_at(&channel->call.answer),
+                             .offset = channel->call.offset,
+                             .length = channel->call.length,
+                             .slot = channel->call.slot,
+                             .limit_ms = channel->call.limit_ms,
+                             .grow = grow};
+    if (call.request == NULL || call.answer == NULL) return CLK_MEMORY;
+    int32_t result = host_run(&call);
+    serve.channel->answer_offset = call.answer_offset;
+    serve.channel->answer_length = call.answer_length;
+    return result;
+}
+
+/* When it returns, DestroyJavaVM waits for the other threads. If some of a program's do not end, this ends the process after the hooks. */
+static void stop(int32_t limit_ms) {
+    bool idle = true;
+    if (host_stop(limit_ms / 2, &idle) != CLK_OK)
+        log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
+    if (!idle && host_run_exit_hooks()) _Exit(0);
+}
+
+static int32_t start(JNIEnv *env) {
+    engine_adopt();
+    if (!host_refuse_exit(env))
+        log_format(CLK_LOG_WARNING, "this JVM does not allow the shim to block System.exit: a program that calls it ends the JVM");
+    int32_t result = host_bind(env);
+    return result == CLK_OK ? host_start(serve.channel->text, ERROR_CAPACITY) : result;
+}
+
+/* org.collektive.host.Main.serve(token): returns when the JVM shall end. JNIEXPORT is that of another platform (CMakeLists.txt). */
+CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass class, jstring token);
+
+CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass class, jstring token) {
+    char text[64];
+    (void)class;
+    host_text(env, token, text, sizeof text);
+    serve.memory = prim_child_attach(text);
+    serve.channel = (struct channel *)(void *)serve.memory;
+    if (serve.memory == NULL || serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel) {
+        jclass error = (*env)->FindClass(env, "java/lang/IllegalStateException");
+        (*env)->ThrowNew(env, error, "only the shim of the same version starts this class, for the JVM in a process of its own");
+        return;
+    }
+    log_share(&serve.channel->log, true);
+    int32_t result = start(env);
+    answer(result);
+    while (result == CLK_OK) {
+        await_request();
+        switch (serve.channel->call.entry) {
+            case HOST_STOP: stop(serve.channel->call.limit_ms); return;
+            case HOST_CLOSE: answer(host_close(serve.channel->call.session)); break;
+            default: answer(run()); break;
+        }
+    }
+}

@@ -1,0 +1,270 @@
+/* The JVM in its own process: deaths of child and parent, and what a start can meet. Only with `own`. */
+#define _GNU_SOURCE
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include "test.h"
+#if defined(_WIN32)
+void own_survives_kills(void) { skip("uses signals"); }
+void own_ends_with_its_parent(void) { skip("uses signals"); }
+void own_with_a_bad_launcher(void) { skip("uses shell scripts"); }
+void own_without_resources(void) { skip("uses limits of POSIX"); }
+void own_reports_its_death_at_once(void) { skip("uses signals"); }
+void parent(void) { skip("uses signals"); }
+#else
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include "prim.h"
+
+extern char **environ;
+
+/* Returns the process id of the JVM, the only child of this process; 0 if there is none. */
+static pid_t jvm_process(void) {
+    char path[300], line[64];
+    pid_t found = 0;
+    DIR *tasks = opendir("/proc/self/task");
+    CHECK(tasks != NULL);
+    for (struct dirent *task; (task = readdir(tasks)) != NULL;) {
+        snprintf(path, sizeof path, "/proc/self/task/%s/children", task->d_name);
+        FILE *children = task->d_name[0] != '.' ? fopen(path, "r") : NULL;
+        if (children == NULL) continue;
+        if (fgets(line, sizeof line, children) != NULL && line[0] != '\0') found = (pid_t)strtol(line, NULL, 10);
+        fclose(children);
+    }
+    closedir(tasks);
+    return found;
+}
+
+static int descriptors(void) {
+    int count = 0;
+    for (int i = 0; i < 64; i++) count += fcntl(i, F_GETFD) >= 0;
+    return count;
+}
+
+/* Returns whether the process ends within the limit. A zombie that nobody reaps has ended. */
+static bool ends_within(pid_t process, int limit_ms) {
+    char path[64], line[256];
+    for (int64_t end = now_ns() + limit_ms * 1000000L;;) {
+        snprintf(path, sizeof path, "/proc/%d/stat", (int)process);
+        FILE *status = fopen(path, "r");
+        if (status == NULL) return true;
+        bool zombie = fgets(line, sizeof line, status) == NULL || strstr(line, ") Z ") != NULL;
+        fclose(status);
+        if (zombie) return true;
+        if (now_ns() > end) return false;
+        sleep_ms(1);
+    }
+}
+
+static void start_own(void) { CHECK_OK(start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:ErrorFile=/dev/null"), false, 60000)); }
+
+/* ---- Deaths of the child --------------------------------------------------------------------------------------------- */
+
+static void *kill_later(void *signal) {
+    int wait = (int)(random_next() % 30);
+    sleep_ms(wait);
+    CHECK(kill(jvm_process(), (int)(intptr_t)signal) == 0);
+    return NULL;
+}
+
+/* Steps until the JVM is lost in one of several ways. */
+static void lose(clk_session session, int way) {
+    static const int signals[] = {SIGKILL, SIGSEGV, SIGABRT, SIGTERM};
+    pthread_t killer;
+    int32_t result = CLK_OK;
+    if (way < 4) {
+        CHECK(pthread_create(&killer, NULL, kill_later, (void *)(intptr_t)signals[way]) == 0);
+        for (uint64_t i = 0; result == CLK_OK; i++)
+            result = i % 3 == 0 ? step(session, GROW, 1 << 12, 60000) : step(session, LOG, 3, 60000);
+        CHECK(pthread_join(killer, NULL) == 0);
+    } else if (way == 4) {
+        result = step(session, CRASH, 0, 60000);
+    } else {
+        CHECK(kill(jvm_process(), SIGSTOP) == 0);
+        result = step(session, EMPTY, 0, 1);
+    }
+    CHECK(result == CLK_JVM_LOST && clk_jvm_state() == CLK_STATE_LOST);
+    CHECK_CODE(CLK_JVM_LOST, "start it again", step(session, EMPTY, 0, 1000));
+}
+
+/* CLK_TEST_KILLS sets the number. A suspended child costs the grace period of 10 s, so only every fiftieth is. */
+void own_survives_kills(void) {
+    const char *count = getenv("CLK_TEST_KILLS");
+    int before = 0, kills = count != NULL ? atoi(count) : 12;
+    uint64_t bytes = 0;
+    for (int i = 0; i < kills; i++) {
+        clk_session session;
+        start_own();
+        if (i == 0) CHECK_OK(clk_slot_acquire(1 << 20, &request, &request_memory));
+        CHECK_OK(open_session(&session));
+        lose(session, i % 50 == 49 ? 5 : i % 5);
+        while (clk_log_read(NULL, NULL, 0) >= 0) {
+        }
+        if (i == 5) before = descriptors();
+        if (i == 5) bytes = stats().slot_bytes;
+        CHECK(i <= 5 || (stats().slot_bytes == bytes && descriptors() == before));
+    }
+    start_own();
+    CHECK_OK(clk_jvm_stop(60000));
+    CHECK(jvm_process() == 0 && waitpid(-1, NULL, WNOHANG) == -1 && errno == ECHILD);
+    CHECK(stats().slots == 1 && stats().sessions == 0);
+}
+
+void own_reports_its_death_at_once(void) {
+    clk_session session;
+    pthread_t killer;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK(pthread_create(&killer, NULL, kill_later, (void *)(intptr_t)SIGKILL) == 0);
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_JVM_LOST, "signal 9", step(session, SLEEP, 30000, 60000));
+    CHECK(now_ns() - begin < 2000000000 && pthread_join(killer, NULL) == 0);
+    /* Between two calls. */
+    CHECK_OK(start(NULL));
+    CHECK(kill(jvm_process(), SIGTERM) == 0);
+    while (clk_jvm_state() == CLK_STATE_RUNNING) sleep_ms(1);
+    CHECK_CODE(CLK_JVM_LOST, "signal 15", open_session(&session));
+}
+
+/* ---- Death of the parent --------------------------------------------------------------------------------------------- */
+
+void parent(void) {
+    placement = CLK_OWN_PROCESS;
+    start_own();
+    printf("%d\n", (int)jvm_process());
+    fflush(stdout);
+    for (;;) sleep_ms(900);
+}
+
+/* CLK_TEST_KILLS sets the number. Every second child is suspended. */
+void own_ends_with_its_parent(void) {
+    const char *count = getenv("CLK_TEST_KILLS");
+    static char self[4096];
+    char line[32];
+    CHECK(readlink("/proc/self/exe", self, sizeof self - 1) > 0);
+    for (int i = 0, kills = count != NULL ? atoi(count) : 6; i < kills; i++) {
+        int ends[2];
+        pid_t process;
+        posix_spawn_file_actions_t actions;
+        CHECK(pipe2(ends, O_CLOEXEC) == 0 && posix_spawn_file_actions_init(&actions) == 0);
+        CHECK(posix_spawn_file_actions_adddup2(&actions, ends[1], 1) == 0);
+        static char name[] = "parent";
+        CHECK(posix_spawn(&process, self, &actions, NULL, (char *[]){self, name, NULL}, environ) == 0);
+        close(ends[1]);
+        FILE *output = fdopen(ends[0], "r");
+        CHECK(output != NULL && fgets(line, sizeof line, output) != NULL);
+        pid_t jvm = (pid_t)strtol(line, NULL, 10);
+        if (i % 2 == 1) CHECK(kill(jvm, SIGSTOP) == 0);
+        CHECK(kill(process, i % 4 < 2 ? SIGKILL : SIGTERM) == 0);
+        CHECK(ends_within(jvm, 1000));
+        CHECK(waitpid(process, NULL, 0) == process && fclose(output) == 0);
+        posix_spawn_file_actions_destroy(&actions);
+    }
+}
+
+/* ---- Starts that fail ------------------------------------------------------------------------------------------------ */
+
+static void write_java(const char *home, const char *text) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/" PRIM_JAVA, home);
+    FILE *file = fopen(path, "w");
+    CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0 && chmod(path, 0755) == 0);
+}
+
+void own_with_a_bad_launcher(void) {
+    static const struct {
+        const char *java;
+        int32_t code;
+        const char *mention;
+    } bad[] = {{"\x7F"
+                "ELF of another architecture",
+                CLK_JVM_START, "Exec format error"},
+               {"#!/bin/sh\necho not a JVM\n", CLK_JVM_START, "exit code 0; it printed last: not a JVM"},
+               {"#!/bin/sh\nexit 9\n", CLK_JVM_START, "exit code 9; it printed last: nothing"},
+               {"#!/bin/sh\nhead -c 100000 /dev/urandom\n", CLK_JVM_START, "exit code 0"},
+               {"#!/bin/sh\nkill -SEGV $$\n", CLK_JVM_START, "signal 11"},
+               {"#!/bin/sh\necho still at it\nsleep 60\n", CLK_TIMEOUT, "it printed: still at it"},
+               {"#!/bin/sh\nexec 3>&- 4>&-\nsleep 60\n", CLK_JVM_START, "signal 9"}};
+    char lib[4096], link[128];
+    const char *home = scratch_folder();
+    make_folder(home, "bin");
+    snprintf(lib, sizeof lib, "%s/lib", java_home());
+    snprintf(link, sizeof link, "%s/lib", home);
+    CHECK(symlink(lib, link) == 0);
+    int before = 0;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        write_java(home, bad[i].java);
+        CHECK_CODE(bad[i].code, bad[i].mention, start_at(home, host_classes, NULL, false, 3000));
+        CHECK(clk_jvm_state() == CLK_STATE_NONE && jvm_process() == 0);
+        if (i == 0) before = descriptors();
+        CHECK(descriptors() == before);
+    }
+    CHECK_OK(start(NULL));
+}
+
+void own_without_resources(void) {
+    struct rlimit limit, less;
+    CHECK(getrlimit(RLIMIT_FSIZE, &limit) == 0);
+    less = (struct rlimit){.rlim_cur = 1 << 30, .rlim_max = limit.rlim_max};
+    CHECK(setrlimit(RLIMIT_FSIZE, &less) == 0);
+    CHECK_CODE(CLK_MEMORY, "File too large", start_at(java_home(), host_classes, NULL, false, 60000));
+    CHECK(setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    CHECK(getrlimit(RLIMIT_NOFILE, &limit) == 0);
+    less = (struct rlimit){.rlim_cur = 64, .rlim_max = limit.rlim_max};
+    CHECK(setrlimit(RLIMIT_NOFILE, &less) == 0);
+    while (open("/dev/null", O_RDONLY | O_CLOEXEC) >= 0) {
+    }
+    CHECK_CODE(CLK_MEMORY, "Too many open files", start_at(java_home(), host_classes, NULL, false, 60000));
+    for (int i = 60; i < 63; i++) close(i); /* room for the memory and one pipe */
+    CHECK_CODE(CLK_JVM_START, "Too many open files", start_at(java_home(), host_classes, NULL, false, 60000));
+    int before = descriptors();
+    CHECK_CODE(CLK_JVM_START, "Too many open files", start_at(java_home(), host_classes, NULL, false, 60000));
+    CHECK(descriptors() == before && setrlimit(RLIMIT_NOFILE, &limit) == 0);
+    CHECK_OK(start(NULL));
+}
+#endif
+
+/* ---- Starts after starts --------------------------------------------------------------------------------------------- */
+
+void own_with_older_slots(void) {
+    clk_slot older;
+    clk_memory memory = {.size = sizeof memory};
+    clk_session session;
+    CHECK_OK(clk_slot_acquire(100, &older, &memory));
+    memset(memory.address, 0, 8);
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK_CODE(CLK_ARGUMENT, "acquire another", clk_step(session, older, 0, 8, 1000, &answer));
+    CHECK_OK(step(session, EMPTY, 0, 1000));
+    CHECK_OK(clk_slot_release(older));
+    CHECK(stats().slots == 2);
+}
+
+void own_changes_options(void) {
+    clk_session session;
+    char description[4096];
+    start_plain();
+    CHECK_OK(start(OPTIONS("-Xmx99m")));
+    CHECK(clk_jvm_description(description, sizeof description) > 0 && strstr(description, "\n-Xmx99m") != NULL);
+    CHECK_OK(open_session(&session));
+    CHECK_OK(step(session, ECHO, 0, 1000));
+    CHECK_CODE(CLK_JVM_RUNNING, "close them first", start(NULL));
+    CHECK_OK(clk_session_close(session, 1000));
+    CHECK_OK(clk_jvm_stop(60000));
+    CHECK_OK(start(NULL));
+    /* Then in this process, once. */
+    placement = CLK_IN_PROCESS;
+    CHECK_OK(start(NULL));
+    CHECK_OK(open_session(&session));
+    CHECK_OK(step(session, GROW, 1 << 20, 60000));
+    placement = CLK_OWN_PROCESS;
+    CHECK_CODE(CLK_JVM_RUNNING, "restart the process", start(NULL));
+}
