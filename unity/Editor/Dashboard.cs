@@ -27,9 +27,13 @@ namespace Collektive.Unity.Editor
             Add("Physics", Milliseconds(times.Physics));
             Add("Whole tick", Milliseconds(times.Total));
             Add("Digest", manager.Digest.ToString("x16", CultureInfo.InvariantCulture));
-            Add("JVM", Jvm.State.ToString().ToLowerInvariant());
+            Add("JVM", Jvm.State.ToString().ToLowerInvariant() + (Jvm.Process == 0 ? "" : ", process " + Jvm.Process));
             return lines;
         }
+
+        /// <summary>Which JVM has a process for itself, since when, and its memory.</summary>
+        internal static string OfProcess(JvmStatus status) => FormattableString.Invariant(
+            $"process {status.Process}, since {DateTime.Now - status.Uptime:HH:mm:ss}, heap {status.HeapUsed >> 20} of {status.HeapMaximum >> 20} MB");
 
         internal static string State(SimulationManager manager)
         {

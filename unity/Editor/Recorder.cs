@@ -57,7 +57,7 @@ namespace Collektive.Unity.Editor
         private void Refresh()
         {
             lastQuery = EditorApplication.timeSinceStartup;
-            status = Jvm.State == JvmState.Running ? Jvm.GetStatus() : null;
+            status = Jvm.TryGetStatus();
         }
 
         private static string Mebibytes(long bytes) => (bytes >> 20).ToString(CultureInfo.InvariantCulture) + " MB";

@@ -9,6 +9,8 @@ namespace Collektive.Unity.Editor
     [CustomEditor(typeof(JvmSettingsAsset))]
     internal sealed class JvmSettingsEditor : UnityEditor.Editor
     {
+        private const int StopLimitMs = 5000;
+
         private JvmReport report;
         private string reported;
 
@@ -19,6 +21,7 @@ namespace Collektive.Unity.Editor
             Check(settings);
             serializedObject.Update();
             if (report.Notice.Length > 0) EditorGUILayout.HelpBox(report.Notice, MessageType.Info);
+            DrawProcess();
             var fields = serializedObject.FindProperty("settings");
             foreach (var setting in JvmSetting.All)
             {
@@ -26,6 +29,17 @@ namespace Collektive.Unity.Editor
                 Draw(setting, fields.FindPropertyRelative(setting.Key));
             }
             serializedObject.ApplyModifiedProperties();
+        }
+
+        /// <summary>A JVM in its own process can end between plays; the next Play starts another.</summary>
+        private void DrawProcess()
+        {
+            if (Jvm.Process == 0 || Jvm.State != JvmState.Running) return;
+            if (report.Status != null) EditorGUILayout.LabelField("JVM", Dashboard.OfProcess(report.Status));
+            using (new EditorGUI.DisabledScope(Application.isPlaying))
+            {
+                if (GUILayout.Button("Restart JVM")) Jvm.Stop(StopLimitMs);
+            }
         }
 
         private void Draw(JvmSetting setting, SerializedProperty field)

@@ -301,7 +301,7 @@ namespace Collektive.Headless.Tests.Editor
             inspector.OnInspectorGUI();
             Assert.That(Gui.Lines, Has.Some.EqualTo("property Maximum heap (MB): 0"));
             Assert.That(Gui.Lines, Has.Some.EqualTo("label  : in effect: 256 MB"));
-            Assert.That(Gui.Lines, Has.Some.Contains("Changes take effect after a restart of the editor"));
+            Assert.That(Gui.Lines, Has.Some.Contains("Changes take effect " + TestJvm.WhenChangesTakeEffect));
             Assert.That(Gui.Lines, Has.None.Contains("help Error"));
             Gui.Act("Maximum heap (MB)", 3);
             inspector.OnInspectorGUI();

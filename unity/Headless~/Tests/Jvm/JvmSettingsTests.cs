@@ -213,6 +213,7 @@ namespace Collektive.Headless.Tests
             Assert.That(effective("repeatableMaths"), Is.EqualTo("off"));
             Assert.That(effective("location"), Is.EqualTo(TestJvm.Home));
             Assert.That(effective("initialHeapMb"), Is.StringEnding(" MB"));
+            Assert.That(effective("placement"), Is.StringStarting(TestJvm.Placement.ToString()));
             Assert.That(effective("flags"), Is.EqualTo("-Xmx256m -XX:+UseSerialGC"));
         }
 
@@ -223,7 +224,7 @@ namespace Collektive.Headless.Tests
             settings.maximumHeapMb = 512;
             var report = JvmReport.Of(settings, TestJvm.Launch);
             Assert.That(report.IsGood, Is.True);
-            Assert.That(report.Notice, Is.StringContaining("after a restart of the editor"));
+            Assert.That(report.Notice, Is.StringContaining(TestJvm.WhenChangesTakeEffect));
             Assert.That(report.Notice, Is.StringContaining("-Xmx256m"));
             Assert.That(report.Effective(JvmSetting.Find("maximumHeapMb")), Is.EqualTo("256 MB"));
         }

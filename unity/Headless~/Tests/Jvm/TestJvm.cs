@@ -21,7 +21,17 @@ namespace Collektive.Headless.Tests
         internal static string HostJar => Variable("COLLEKTIVE_HOST_JAR");
 
         /// <summary>Its settings; a new object each time.</summary>
-        internal static JvmSettings Settings => new JvmSettings { maximumHeapMb = 256, collector = JvmCollector.Serial, cdsArchive = false };
+        internal static JvmSettings Settings => new JvmSettings
+        {
+            placement = Placement, maximumHeapMb = 256, collector = JvmCollector.Serial, cdsArchive = false,
+        };
+
+        /// <summary>Each test runs in both.</summary>
+        internal static JvmPlacement Placement { get; } = (JvmPlacement)Enum.Parse(
+            typeof(JvmPlacement), Environment.GetEnvironmentVariable("COLLEKTIVE_TEST_PLACEMENT") ?? nameof(JvmPlacement.InProcess));
+
+        /// <summary>When the inspector says that changed settings take effect.</summary>
+        internal static string WhenChangesTakeEffect => Placement == JvmPlacement.OwnProcess ? "at the next Play" : "after an editor restart";
 
         internal static JvmLaunch Launch(JvmSettings settings) => settings.ToLaunch(Home, HostJar, "unused");
 

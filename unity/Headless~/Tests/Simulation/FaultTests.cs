@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
@@ -467,7 +468,9 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Configure("double", settings => settings.jvm.settings.compileThreshold = 50);
             Play(2);
-            Assert.That(Log, Has.Some.StringContaining("The running JVM is used; the new settings take effect after a restart of the editor."));
+            const string told = "The running JVM is used; the new settings take effect after a restart of the editor.";
+            Assert.That(Log.Any(line => line.Contains(told)), Is.EqualTo(TestJvm.Placement == JvmPlacement.InProcess));
+            Assert.That(Jvm.GetStatus().Options.Contains("-XX:CompileThresholdScaling=0.5"), Is.EqualTo(TestJvm.Placement == JvmPlacement.OwnProcess));
             Assert.That(Manager.Tick, Is.EqualTo(2));
             Assert.That(Errors, Is.Empty);
         }

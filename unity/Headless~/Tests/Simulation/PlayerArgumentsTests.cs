@@ -17,6 +17,7 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 "Game.x86_64", "-batchmode", "-collektive-seed", "18446744073709551615", "-nographics", "-collektive-record", "out/run 1.clkrec",
                 "-collektive-stopAfter", "2.5", "-collektive-threads", "4", "-collektive-schedule", "Sequential", "-collektive-program", "-7",
+                "-collektive-jvm.placement", "OwnProcess", "-collektive-jvm.maximumHeapMb", "99",
             });
             Assert.That(problem, Is.Null);
             Assert.That(settings.seed, Is.EqualTo(ulong.MaxValue));
@@ -25,10 +26,14 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(settings.threads, Is.EqualTo(4));
             Assert.That(settings.schedule, Is.EqualTo(Schedule.Sequential));
             Assert.That(settings.program, Is.EqualTo("-7"));
+            Assert.That(settings.jvm.settings.placement, Is.EqualTo(JvmPlacement.OwnProcess));
+            Assert.That(settings.jvm.settings.maximumHeapMb, Is.EqualTo(99));
         }
 
         [TestCase("-collektive-sead 7", "-collektive-sead is not an option; the options are: ")]
         [TestCase("-collektive-jars a.jar", "-collektive-jars is not an option")]
+        [TestCase("-collektive-jvm.flags -Xint", "-collektive-jvm.flags is not an option")]
+        [TestCase("-collektive-jvm.placement Elsewhere", "it must be one of InProcess, OwnProcess")]
         [TestCase("-collektive-seed", "-collektive-seed needs a value")]
         [TestCase("-collektive-seed -1", "-collektive-seed is '-1': it must be a whole number from 0 to 18446744073709551615")]
         [TestCase("-collektive-seed 1e3", "-collektive-seed is '1e3'")]

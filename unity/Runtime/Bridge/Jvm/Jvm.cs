@@ -11,15 +11,15 @@ namespace Collektive.Bridge
         None = 0,
         /// <summary>Running.</summary>
         Running = 1,
-        /// <summary>Exited, aborted or not responding. Only a new process can start another.</summary>
+        /// <summary>Exited, aborted or not responding. Only a JVM in a separate process can be replaced.</summary>
         Lost = 2,
-        /// <summary>Shut down.</summary>
+        /// <summary>Shut down. Only a JVM in a separate process can be replaced.</summary>
         Stopped = 3,
     }
 
     /// <summary>
-    /// The JVM of this process. It is started once and outlives sessions, play modes and C# domains; a fresh domain finds it
-    /// running. All members may be called from any thread.
+    /// The JVM of this process. It is started once, or again if it runs in its own process, and outlives sessions, play modes and C# domains; a
+    /// fresh domain finds it running. All members may be called from any thread.
     /// </summary>
     public static unsafe class Jvm
     {
@@ -31,14 +31,18 @@ namespace Collektive.Bridge
             State == JvmState.None ? "" : Shim.Text((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
 
         /// <summary>Steps that reached the JVM since the process began, over all sessions.</summary>
-        internal static ulong StepCalls
+        internal static ulong StepCalls => Stats.Steps;
+
+        /// <summary>Number of the process that the JVM has for itself, or had until its end; 0 if it is in this process, or none was started.</summary>
+        internal static int Process => Stats.Process;
+
+        private static Shim.Stats Stats
         {
             get
             {
-                if (State == JvmState.None) return 0;
                 var stats = new Shim.Stats { Size = (uint)sizeof(Shim.Stats) };
-                Shim.Check(Shim.clk_get_stats(&stats));
-                return stats.Steps;
+                if (State != JvmState.None) Shim.Check(Shim.clk_get_stats(&stats));
+                return stats;
             }
         }
 
@@ -48,7 +52,9 @@ namespace Collektive.Bridge
         /// </summary>
         internal static string FindProblem() => ShimLibrary.Problem;
 
-        /// <summary>Starts the JVM, or does nothing if it already runs with the same options.</summary>
+        /// <summary>
+        /// Starts the JVM, or does nothing if it already runs with the same options. Replaces a JVM in a separate process that has no session.
+        /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         internal static void Start(JvmLaunch launch)
         {
@@ -72,6 +78,19 @@ namespace Collektive.Bridge
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
 
+        /// <summary>The same as <see cref="GetStatus"/>, or null when no JVM runs or it has just ended.</summary>
+        internal static JvmStatus TryGetStatus()
+        {
+            try
+            {
+                return State == JvmState.Running ? GetStatus() : null;
+            }
+            catch (BridgeException error) when (error.Error == BridgeError.JvmLost || error.Error == BridgeError.JvmNotRunning)
+            {
+                return null;
+            }
+        }
+
         private static void Configured(JvmLaunch launch, Func<IntPtr, int> call)
         {
             var strings = new List<IntPtr>();
@@ -89,6 +108,7 @@ namespace Collektive.Bridge
                     Options = pointers,
                     StartLimitMs = launch.StartLimitMs,
                     CheckOptions = 1,
+                    Placement = (int)launch.Placement,
                 };
                 Shim.Check(call((IntPtr)(&config)));
             }
@@ -98,7 +118,7 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Shuts the JVM down, if one was started. Only for the end of the process, which cannot start another.</summary>
+        /// <summary>Shuts the JVM down, if one was started. Only a JVM in a separate process can be followed by another.</summary>
         /// <exception cref="BridgeException">It did not end within <paramref name="limitMs"/> milliseconds.</exception>
         internal static void Stop(int limitMs)
         {

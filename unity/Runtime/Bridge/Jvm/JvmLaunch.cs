@@ -23,6 +23,9 @@ namespace Collektive.Bridge
         /// <summary>JVM options, each one word, in order.</summary>
         public IReadOnlyList<string> Options { get; }
 
+        /// <summary>Where the JVM runs.</summary>
+        public JvmPlacement Placement { get; set; }
+
         /// <summary>A warning about a setting that is ignored, with the reason; otherwise empty. The JVM starts anyway.</summary>
         public string Note { get; internal set; } = "";
 

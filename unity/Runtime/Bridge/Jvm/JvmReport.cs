@@ -12,6 +12,9 @@ namespace Collektive.Bridge
         private readonly Dictionary<string, string> problems = new Dictionary<string, string>();
         private readonly JvmStatus status;
 
+        /// <summary>The JVM that runs; null when none does.</summary>
+        internal JvmStatus Status => status;
+
         private JvmReport(JvmStatus status)
         {
             this.status = status;
@@ -28,7 +31,7 @@ namespace Collektive.Bridge
         /// <param name="toLaunch">Returns the JVM's command line; throws <see cref="BridgeException"/> if no JVM is found.</param>
         internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
         {
-            var report = new JvmReport(Jvm.State == JvmState.Running ? Jvm.GetStatus() : null);
+            var report = new JvmReport(Jvm.TryGetStatus());
             if (Jvm.FindProblem() != null) report.Add(nameof(JvmSettings.location), Jvm.FindProblem());
             foreach (var problem in settings.FindProblems()) report.Add(problem.Key, problem.Message);
             if (report.IsGood) report.Try(settings, toLaunch);
@@ -63,12 +66,14 @@ namespace Collektive.Bridge
         {
             if (status == null)
             {
+                if (Jvm.Process != 0) return;
                 if (Jvm.State == JvmState.Lost) Notice = "The JVM has crashed or stopped responding. Restart the editor to start a new one.";
                 else if (Jvm.State == JvmState.Stopped) Notice = "The JVM has exited. Restart the editor to start a new one.";
                 return;
             }
-            if (launch.Home == status.Home && Same(launch.Options, status.Options)) return;
-            Notice = "Changes take effect after a restart of the editor. The running JVM has: " +
+            var isSeparate = status.Process != 0;
+            if (launch.Home == status.Home && Same(launch.Options, status.Options) && isSeparate == (launch.Placement == JvmPlacement.OwnProcess)) return;
+            Notice = "Changes take effect " + (isSeparate ? "at the next Play" : "after a restart of the editor") + ". The running JVM has: " +
                 (status.Options.Count == 0 ? "no options" : string.Join(" ", status.Options)) + " (" + status.Home + ").";
         }
 

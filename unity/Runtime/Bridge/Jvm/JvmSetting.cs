@@ -37,6 +37,13 @@ namespace Collektive.Bridge
                 nameof(JvmSettings.home), "Folder",
                 "Root folder of a JRE or JDK 17 or newer, for the location Folder.", status => status.Home),
             new JvmSetting(
+                nameof(JvmSettings.placement), "Placement",
+                "In Process: on a thread of this process. Own Process: a crash of the JVM ends only the session, and changed settings take effect at " +
+                "the next Play.", status => status.Process == 0 ? nameof(JvmPlacement.InProcess) : "OwnProcess, process " + status.Process),
+            new JvmSetting(
+                nameof(JvmSettings.keepWarm), "Keep warm",
+                "Keep the JVM in its own process between plays. Off: it ends with each Play, and the next one starts a new JVM.", status => ""),
+            new JvmSetting(
                 nameof(JvmSettings.initialHeapMb), "Initial heap",
                 "Heap size at the start. Set it to the maximum heap to avoid growth. 0: the JVM's default.",
                 status => status.Megabytes("InitialHeapSize"), "MB", 8, 1 << 20, marks: "Xms Initial"),

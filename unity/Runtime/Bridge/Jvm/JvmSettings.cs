@@ -18,6 +18,15 @@ namespace Collektive.Bridge
         Folder,
     }
 
+    /// <summary>Where the JVM runs. Programs, frames and digests are the same.</summary>
+    public enum JvmPlacement
+    {
+        /// <summary>On a thread of this process: the least to start and to watch over, and one JVM until the process ends.</summary>
+        InProcess,
+        /// <summary>In a process of its own, over shared memory: a crash ends only the session, and the next one may have other settings.</summary>
+        OwnProcess,
+    }
+
     /// <summary>The garbage collector.</summary>
     public enum JvmCollector
     {
@@ -47,8 +56,8 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// The settings of the JVM. Read once per process, when the JVM starts. <see cref="JvmSetting.All"/> describes each
-    /// field; scenario files have the same names as keys.
+    /// The settings of the JVM. Read when the JVM starts: with <see cref="JvmPlacement.InProcess"/> once per process. <see cref="JvmSetting.All"/>
+    /// describes each field; scenario files have the same names as keys.
     /// </summary>
     [Serializable]
     public sealed class JvmSettings
@@ -58,6 +67,12 @@ namespace Collektive.Bridge
 
         /// <summary>Root of a JRE or JDK, for <see cref="JvmLocation.Folder"/>.</summary>
         public string home = "";
+
+        /// <summary>Where the JVM runs.</summary>
+        public JvmPlacement placement = JvmPlacement.InProcess;
+
+        /// <summary>Whether a JVM in a separate process keeps running between two plays. The next Play then starts faster.</summary>
+        public bool keepWarm = true;
 
         /// <summary>Heap at the start in MiB; 0: the JVM's default.</summary>
         public int initialHeapMb;
@@ -141,7 +156,7 @@ namespace Collektive.Bridge
                 options.Add("-XX:-UseLibmIntrinsic");
             }
             options.AddRange(flags);
-            return new JvmLaunch(javaHome, hostJar, options) { Note = note };
+            return new JvmLaunch(javaHome, hostJar, options) { Note = note, Placement = placement };
         }
 
         /// <summary>Whether the JVM loads a native agent, such as the debugger's. It aborts if it must also write a class archive.</summary>

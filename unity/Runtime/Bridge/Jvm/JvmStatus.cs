@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Globalization;
 using org.collektive.frame;
@@ -24,6 +25,8 @@ namespace Collektive.Bridge
             var options = new List<string>();
             for (var i = 2; i < words.Length; i++) options.Add(words[i]);
             Options = options;
+            Process = Jvm.Process;
+            Uptime = TimeSpan.FromMilliseconds(response.UptimeMillis);
             HeapUsed = response.HeapUsed;
             HeapCommitted = response.HeapCommitted;
             HeapMaximum = response.HeapMaximum;
@@ -46,6 +49,12 @@ namespace Collektive.Bridge
 
         /// <summary>The options it was started with.</summary>
         public IReadOnlyList<string> Options { get; }
+
+        /// <summary>Number of the process that it has for itself; 0 if it runs in this process.</summary>
+        public int Process { get; }
+
+        /// <summary>Time since its start.</summary>
+        public TimeSpan Uptime { get; }
 
         /// <summary>Bytes of the heap in use.</summary>
         public long HeapUsed { get; }

@@ -1,17 +1,20 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using System.Reflection;
+using Collektive.Bridge;
 using UnityEngine;
 
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Settings from the command line of a player, for batch runs: <c>-collektive-seed 7 -collektive-record run.clkrec</c>. Each setting that is a number,
-    /// a text or a choice can be given, under its name in scenario files. The editor has the inspector instead.
+    /// Settings from the command line of a player, for batch runs: <c>-collektive-seed 7 -collektive-jvm.placement OwnProcess</c>. Each setting that is
+    /// a number, a text or a choice can be given, under its name in scenario files. The editor has the inspector instead.
     /// </summary>
     internal static class PlayerArguments
     {
         private const string Prefix = "-collektive-";
+        private const string JvmPrefix = "jvm.";
 
         /// <summary>
         /// Applies the command line to the settings. <see cref="SimulationSettings.FindProblem"/> checks their ranges.
@@ -30,20 +33,37 @@ namespace Collektive.Unity
                 if (!words[i].StartsWith(Prefix, StringComparison.Ordinal)) continue;
                 var name = words[i].Substring(Prefix.Length);
                 var field = Array.Find(Fields(), known => known.Name == name);
-                if (field == null) return words[i] + " is not an option; the options are: " + Prefix + string.Join(", " + Prefix, Names());
+                var setting = name.StartsWith(JvmPrefix, StringComparison.Ordinal) ? JvmSetting.Find(name.Substring(JvmPrefix.Length)) : null;
+                var type = field != null ? field.FieldType : setting?.Type;
+                if (!IsSimple(type)) return words[i] + " is not an option; the options are: " + Prefix + string.Join(", " + Prefix, Names());
                 if (++i == words.Length) return Prefix + name + " needs a value";
-                if (!TryParse(field.FieldType, words[i], out var value))
-                    return Prefix + name + " is '" + words[i] + "': it must be " + Kind(field.FieldType);
-                field.SetValue(settings, value);
+                if (!TryParse(type, words[i], out var value)) return Prefix + name + " is '" + words[i] + "': it must be " + Kind(type);
+                if (field != null) field.SetValue(settings, value);
+                else setting.Set(JvmOf(settings), value);
             }
             return null;
         }
 
-        private static FieldInfo[] Fields() => Array.FindAll(
-            typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance),
-            field => field.FieldType.IsPrimitive || field.FieldType.IsEnum || field.FieldType == typeof(string));
+        private static JvmSettings JvmOf(SimulationSettings settings)
+        {
+            if (settings.jvm == null) settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
+            return settings.jvm.settings;
+        }
 
-        private static string[] Names() => Array.ConvertAll(Fields(), field => field.Name);
+        private static FieldInfo[] Fields() =>
+            Array.FindAll(typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance), field => IsSimple(field.FieldType));
+
+        private static bool IsSimple(Type type) => type != null && (type.IsPrimitive || type.IsEnum || type == typeof(string));
+
+        private static List<string> Names()
+        {
+            var names = new List<string>(Array.ConvertAll(Fields(), field => field.Name));
+            foreach (var setting in JvmSetting.All)
+            {
+                if (IsSimple(setting.Type)) names.Add(JvmPrefix + setting.Key);
+            }
+            return names;
+        }
 
         private static bool TryParse(Type type, string text, out object value)
         {

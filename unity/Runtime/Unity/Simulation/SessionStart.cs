@@ -6,6 +6,8 @@ namespace Collektive.Unity
     /// <summary>Opens the session of a simulation.</summary>
     internal static class SessionStart
     {
+        private const int StopLimitMs = 5000;
+
         /// <summary>Checks the settings, starts the JVM if none runs, and opens a session on it.</summary>
         /// <param name="context">What a click on a message selects.</param>
         /// <exception cref="BridgeException">The settings are wrong, or the JVM or the session did not start.</exception>
@@ -16,6 +18,13 @@ namespace Collektive.Unity
             var schema = Schemas.Find(settings.schema);
             StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);
             return Session.Open(settings.ToSession(schema), schema);
+        }
+
+        /// <summary>Ends a JVM in its own process after its last session, unless the settings keep it.</summary>
+        /// <exception cref="BridgeException">It did not end in time and was killed.</exception>
+        internal static void Close(SimulationSettings settings)
+        {
+            if (settings.jvm != null && !settings.jvm.settings.keepWarm && Jvm.Process != 0 && Jvm.State == JvmState.Running) Jvm.Stop(StopLimitMs);
         }
 
         private static void StartJvm(JvmSettings settings, Object context)

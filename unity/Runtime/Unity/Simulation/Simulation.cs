@@ -225,6 +225,7 @@ namespace Collektive.Unity
             try
             {
                 session?.Dispose();
+                if (session != null) Opening.Close(Settings);
             }
             catch (BridgeException error)
             {

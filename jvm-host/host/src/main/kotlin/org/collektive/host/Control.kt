@@ -67,6 +67,7 @@ internal class Control(shim: ShimCalls) {
             recordingError = recorder.error,
             recordingMillis = recorder.millis,
             recordingsWritten = recorder.written,
+            uptimeMillis = ManagementFactory.getRuntimeMXBean().uptime,
         )
     }
 

@@ -33,6 +33,7 @@ public fun controlRequest(frame: ByteBuffer): ControlRequest =
  * @property recordingError why the last action on a recording failed; `null` if it succeeded.
  * @property recordingMillis duration of that action.
  * @property recordingsWritten recordings and dumps written so far.
+ * @property uptimeMillis milliseconds since the start of the JVM.
  */
 public class JvmState(
     public val flags: Map<String, String>,
@@ -48,6 +49,7 @@ public class JvmState(
     public val recordingError: String?,
     public val recordingMillis: Int,
     public val recordingsWritten: Int,
+    public val uptimeMillis: Long,
 )
 
 /** Writes a `ControlResponse` with [state]. Returns its position, see [AnswerBuffer.finish]. */
@@ -70,5 +72,6 @@ public fun AnswerBuffer.writeControlResponse(state: JvmState): Long {
     if (error != 0) ControlResponse.addRecordingError(builder, error)
     ControlResponse.addRecordingMillis(builder, state.recordingMillis)
     ControlResponse.addRecordingsWritten(builder, state.recordingsWritten)
+    ControlResponse.addUptimeMillis(builder, state.uptimeMillis)
     return finish(ControlResponse.endControlResponse(builder))
 }
