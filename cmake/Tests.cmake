@@ -54,6 +54,8 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(sanitized-on-${name} sanitized LABELS extra NEEDS build:sanitized TIMEOUT 1800 ${java_home}
     COMMAND ctest --test-dir "${COLLEKTIVE_BUILD}/sanitized" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
   suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
+  suite(csharp-own-process-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
+    SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()
 # On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
@@ -71,7 +73,7 @@ suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT SCRIPT faults/faults.py --results RESULTS/faults.xml)
-suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
+suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT faults/exits.py 8 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED SCRIPT pages.py page RESULTS)

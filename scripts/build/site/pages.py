@@ -15,7 +15,7 @@ SECTIONS = {
     "Concepts": ["aggregate-computing", "unity-for-researchers", "way-of-a-tick", "schedules-and-network", "reproducibility"],
     "Tutorials": ["tutorial-first-swarm", "tutorial-own-parts", "tutorial-own-rule", "tutorial-scene-builder", "tutorial-debugging", "tutorial-profiling",
                   "tutorial-experiment", "tutorial-from-collektive"],
-    "How-to": ["programs", "sensors-and-actuators", "neighbourhoods", "headless", "jvm-and-jfr", "samples", "from-collektive", "trust", "troubleshooting"],
+    "How-to": ["programs", "sensors-and-actuators", "neighbourhoods", "headless", "jvm-and-jfr", "where-the-jvm-runs", "samples", "from-collektive", "trust", "troubleshooting"],
     "Reference": [*(f"reference/{name}" for name in reference.PAGES)],
     "Explanation": ["repository/architecture", "repository/boundary", "repository/determinism", "repository/record-format", "repository/performance",
                     "repository/disturbances", "repository/decisions", "repository/requirements", "platforms", "limits", "verification"],

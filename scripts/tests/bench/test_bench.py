@@ -35,7 +35,8 @@ class BenchTick(unittest.TestCase):
     def test_all_variants_are_there(self) -> None:
         found = {(row["name"], row["variant"], row["nodes"]) for row in self.rows}
         for nodes in [12, 500]:
-            for variant in ["in-process", "per-node-call", "socket", "engine-only", "hand-written", "in-process, every 8 ms", "socket, every 8 ms"]:
+            for variant in ["in-process", "own-process", "per-node-call", "socket", "engine-only", "hand-written", "in-process, every 8 ms",
+                            "socket, every 8 ms"]:
                 self.assertIn(("tick", variant, nodes), found)
         self.assertIn(("crossing", "in-process", 0), found)
         self.assertIn(("spawn", "in-process", 500), found)
@@ -48,7 +49,7 @@ class BenchTick(unittest.TestCase):
 
     def test_a_tick_allocates_no_managed_memory(self) -> None:
         for row in self.rows:
-            if row["name"] in ("tick", "crossing") and row["variant"] in ("in-process", "per-node-call", "in-process, every 8 ms"):
+            if row["name"] in ("tick", "crossing") and row["variant"] in ("in-process", "own-process", "per-node-call", "in-process, every 8 ms"):
                 self.assertEqual(row["managed_bytes_per_tick"], 0, row)
 
     def test_the_jvm_allocates_for_rounds_only(self) -> None:

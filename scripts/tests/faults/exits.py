@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Ends runs in different ways, repeatedly, and checks exit code, order and flight recording. The last line is "N passed, N failed".
 
-exits.py RUNS [KIND]... [--results FILE.xml]; without a KIND all of them, on every runtime and JVM; FILE gets the results as JUnit XML.
+exits.py RUNS [KIND]... [--results FILE.xml]; without a KIND all of them, in both placements, on every runtime and JVM; FILE gets the results as JUnit XML.
 """
 import argparse
 import collections
@@ -30,25 +30,27 @@ KINDS = {"leave": 0, "quit": 3, "ctrl-c": 130, "termination": 143, "exception": 
 CORECLR_CODES = {"thread-exception": -signal.SIGABRT}
 SIGNALS = {"ctrl-c": signal.SIGINT, "termination": signal.SIGTERM}
 LIMIT_S = 180
+PLACEMENTS = ["InProcess", "OwnProcess"]
 
 
-def command(places: dict[str, Any], kind: str, runtime: str, jdk: str, folder: str) -> list[str]:
+def command(places: dict[str, Any], kind: str, runtime: str, jdk: str, placement: str, folder: str) -> list[str]:
     """Returns the command line of the player, or on CoreCLR of a program that runs the same scene."""
     flag = "-XX:StartFlightRecording=filename=" + os.path.join(folder, "record.jfr")
     if runtime == "coreclr":
-        return [runtime, "--debug", places["program"], "act=exit", "how=" + kind, "home=" + jdk, "host=" + places["host"], "jar=" + places["jar"],
+        return [runtime, "--debug", places["program"], "act=exit", "how=" + kind, "placement=" + placement, "home=" + jdk,
+                "host=" + places["host"], "jar=" + places["jar"],
                 "option=-Xmx128m", "option=-XX:+UseSerialGC", "option=" + flag]
     path = os.path.join(folder, "exits.json")
     with open(path, "w") as file:
-        json.dump(scenario(places, folder, 1000 if kind in SIGNALS else 2, flag), file)
+        json.dump(scenario(places, folder, 1000 if kind in SIGNALS else 2, placement, flag), file)
     return [runtime, "--debug", places["player"], "run", path, "--scripts", places["program"], "--jar", places["jar"], "--host-jar",
             places["host"], "--java-home", jdk, "--out", os.path.join(folder, "out"), "--set", "how=" + kind, "--trust-jvm"]
 
 
-def scenario(places: dict[str, Any], folder: str, seconds: int, flag: str) -> dict[str, Any]:
+def scenario(places: dict[str, Any], folder: str, seconds: int, placement: str, flag: str) -> dict[str, Any]:
     return {"version": 1, "scene": "Collektive.Headless.Faults.Ending", "scripts": folder, "schema": places["schema"],
             "programs": places["jar"], "program": "fault", "seconds": seconds, "threads": 2,
-            "jvm": {"maximumHeapMb": 128, "collector": "Serial", "flags": [flag]},
+            "jvm": {"placement": placement, "maximumHeapMb": 128, "collector": "Serial", "flags": [flag]},
             "outputs": {"metrics": True}}
 
 
@@ -71,12 +73,15 @@ def recording_problem(path: str) -> str:
 
 def run(places: dict[str, Any], kind: str, index: int) -> str:
     """Returns the error, or an empty text."""
+    placement = PLACEMENTS[index % 2]
+    index //= 2
     runtime = places["runtimes"][index % len(places["runtimes"])]
     jdk = places["jdks"][index // len(places["runtimes"]) % len(places["jdks"])]
     folder = tempfile.mkdtemp(prefix="collektive-exit-")
     try:
         environment = managed.environment(runtime)
-        process = subprocess.Popen(command(places, kind, runtime, jdk, folder), cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        words = command(places, kind, runtime, jdk, placement, folder)
+        process = subprocess.Popen(words, cwd=folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         watchdog = threading.Timer(LIMIT_S, process.kill)
         watchdog.start()
         text = b""
@@ -103,7 +108,8 @@ def run(places: dict[str, Any], kind: str, index: int) -> str:
                 wrong.append("jfr summary does not read the flight recording")
         if not wrong:
             return ""
-        return f"{kind} on {runtime}, {os.path.basename(jdk)}: {'; '.join(wrong)}\n    " + text.decode(errors="replace")[-2000:].replace("\n", "\n    ")
+        where = f"{kind} on {runtime}, {os.path.basename(jdk)}, {placement}"
+        return f"{where}: {'; '.join(wrong)}\n    " + text.decode(errors="replace")[-2000:].replace("\n", "\n    ")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 

@@ -2,10 +2,11 @@
 """Causes each fault of faults.json in a separate process, and prints a table and "N passed, N failed".
 
 faults.py [--all] [WORDS]... [--results FILE.xml]; --all: on every runtime and JVM, else on Mono and the newest JVM alone. With WORDS only faults with
-these words in their name; FILE gets the results as JUnit XML.
+these words in their name; each has a column for each placement of the JVM. FILE gets the results as JUnit XML.
 """
 import argparse
 import concurrent.futures
+import itertools
 import json
 import os
 import re
@@ -25,14 +26,19 @@ from tests import junit  # noqa: E402
 from tests.faults import places as files  # noqa: E402
 
 LIMIT_S = 180
+PLACEMENTS = ["InProcess", "OwnProcess"]
 ORDER = ["next tick", "next session", "next start", "restart"]
 
 
 class Trial:
     """The files of one fault in a separate folder."""
 
-    def __init__(self, fault: dict[str, Any], places: dict[str, Any], runtime: str, jdk: str, folder: str) -> None:
+    def __init__(self, fault: dict[str, Any], places: dict[str, Any], runtime: str, jdk: str, placement: str, folder: str) -> None:
         self.fault, self.places, self.runtime, self.jdk, self.folder = fault, places, runtime, jdk, folder
+        self.own = placement == "OwnProcess"
+        if self.own:
+            # A new process replaces a lost JVM.
+            self.fault = {**fault, "works": "next start" if fault["works"] == "restart" else fault["works"], **fault.get("own", {})}
 
     def path(self, *parts: str) -> str:
         return os.path.join(self.folder, *parts)
@@ -101,6 +107,7 @@ class Trial:
         words += [f"bad-{what}=" + getattr(self, what)(fault[what]) for what in ("home", "host", "jar") if what in fault]
         # Faults that end a session are ticks that do not end, so they take the step limit.
         words += ["limit=" + str(fault.get("limit", 1500 if fault["works"] == "next session" else 30000))]
+        words += ["placement=OwnProcess"] if self.own else []
         words += ["fault=" + fault.get("program", "none"), "act=" + fault.get("act", "none")]
         return words + ["option=" + option for option in fault.get("options", [])]
 
@@ -131,15 +138,15 @@ class Trial:
             wrong.append("no next play")
         if not last.endswith("C#"):
             wrong.append("C# does not work afterwards")
-        if state != ("Lost" if best == "restart" else "Stopped"):
+        if state != ("Stopped" if best != "restart" else "None" if self.own else "Lost"):
             wrong.append(f"the JVM is {state} at the end")
         return "; ".join(wrong), read, text
 
 
-def attempt(places: dict[str, Any], fault: dict[str, Any], runtime: str, jdk: str) -> tuple[str, str, str]:
+def attempt(places: dict[str, Any], fault: dict[str, Any], runtime: str, jdk: str, placement: str) -> tuple[str, str, str]:
     folder = tempfile.mkdtemp(prefix="collektive-fault-")
     try:
-        return Trial(fault, places, runtime, jdk, folder).run()
+        return Trial(fault, places, runtime, jdk, placement, folder).run()
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -162,24 +169,27 @@ def main() -> None:
     if not faults:
         sys.stderr.write(f"collektive: no fault of faults.json has '{words}' in its name\n")
         sys.exit(2)
-    kinds = [(runtime, jdk) for jdk in places["jdks"] for runtime in places["runtimes"]]
-    print("Columns: " + ", ".join(f"{index + 1} = {runtime} with {os.path.basename(jdk)}" for index, (runtime, jdk) in enumerate(kinds)) +
+    kinds = [(*kind, placement) for placement in PLACEMENTS for kind in itertools.product(places["runtimes"], places["jdks"])]
+    print("Columns: " + ", ".join(f"{index + 1} = {runtime} with {os.path.basename(jdk)}, {placement}"
+                                  for index, (runtime, jdk, placement) in enumerate(kinds)) +
           '. "ok": the process survived, and what is said here came true.\n')
     head = f"{'fault':52} " + " ".join(f"{index + 1:>2}" for index in range(len(kinds))) + f" {'works afterwards':16}  the user reads"
     print(head + "\n" + "-" * len(head))
     cases = []
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
-        rows = [(fault, [pool.submit(attempt, places, fault, *kind) for kind in kinds]) for fault in faults]
+        rows = [(fault, [pool.submit(attempt, places, fault, *kind) for kind in kinds if kind[2] in fault.get("placements", PLACEMENTS)])
+                for fault in faults]
         for fault, futures in rows:
             results = [future.result() for future in futures]
-            marks = " ".join(" !" if wrong else "ok" for wrong, _, _ in results)
+            marks = " ".join(" !" if wrong else "ok" for wrong, _, _ in results).rjust(3 * len(kinds) - 1)
             read = next((read for _, read, _ in results if read), "")
             print(f"{short(fault['fault'], 52):52} {marks} {fault['works']:16}  {short(read, 150)}", flush=True)
-            for (wrong, _, text), (runtime, jdk) in zip(results, kinds):
-                cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}", wrong))
+            for (wrong, _, text), (runtime, jdk, placement) in zip(results, kinds[-len(results):]):
+                cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}, {placement}", wrong))
                 if wrong:
                     lines = [short(line, 300) for line in text.splitlines()]
-                    print(f"    ! {runtime}, {os.path.basename(jdk)}: {wrong}\n        " + "\n        ".join(lines[:15] + ["..."] + lines[15:][-15:]))
+                    lines = lines[:15] + ["..."] + lines[15:][-15:]
+                    print(f"    ! {runtime}, {os.path.basename(jdk)}, {placement}: {wrong}\n        " + "\n        ".join(lines))
     sys.exit(junit.report(arguments.results, "faults", cases))
 
 

@@ -26,7 +26,8 @@ namespace Collektive.Headless.Bench
 
         internal void Run()
         {
-            Jvm.Start(new JvmLaunch(settings.JavaHome, settings.HostJar, BenchSettings.JvmOptions));
+            RunOwnProcess();
+            Start(JvmPlacement.InProcess);
             using (var probe = new AllocationProbe(settings.Jars))
             using (var host = new Peer(settings))
             using (var engine = new Peer(settings))
@@ -41,6 +42,21 @@ namespace Collektive.Headless.Bench
             Table.Print(rows, Console.Out);
             Gates.Print(rows, Console.Out);
         }
+
+        /// <summary>First, as a JVM in this process stays until the end.</summary>
+        private void RunOwnProcess()
+        {
+            Start(JvmPlacement.OwnProcess);
+            using (var probe = new AllocationProbe(settings.Jars))
+            {
+                foreach (var nodes in settings.Nodes)
+                    Measure(nodes, () => new List<Variant> { new InProcess(settings, probe, "tick", "own-process", nodes, Threads) });
+                Measure(0, () => new List<Variant> { new InProcess(settings, probe, "crossing", "own-process", 0, 1) });
+            }
+        }
+
+        private void Start(JvmPlacement placement) =>
+            Jvm.Start(new JvmLaunch(settings.JavaHome, settings.HostJar, BenchSettings.JvmOptions) { Placement = placement });
 
         private List<Variant> Ticks(AllocationProbe probe, Peer host, Peer engine, int nodes)
         {

@@ -24,6 +24,10 @@ namespace Collektive.Headless.Bench
                 AtMost(output, "tick at 500 nodes, us", at500.Median, 250);
             }
             if (crossing != null) AtMost(output, "crossing, us", crossing.Median, 15);
+            var ownCrossing = Find(rows, "crossing", "own-process", 0, 1);
+            var own10000 = Find(rows, "tick", "own-process", 10000, 2);
+            if (crossing != null && ownCrossing != null) AtMost(output, "crossing to its own process, us more", ownCrossing.Median - crossing.Median, 3);
+            if (at10000 != null && own10000 != null) AtMost(output, "own process to this one at 10,000", own10000.Median / at10000.Median, 1.05);
             if (at10000 != null) AtMost(output, "tick at 10,000 nodes, us", at10000.Median, 3500);
             if (at50000 != null) AtMost(output, "tick at 50,000 nodes, us", at50000.Median, 20000);
             if (at10000 != null && loops != null) AtMost(output, "times hand-written at 10,000", at10000.Median / loops.Median, 15);
@@ -36,7 +40,8 @@ namespace Collektive.Headless.Bench
             }
             foreach (var row in rows)
             {
-                if (row.Name == "tick" && row.Variant == "in-process") AtMost(output, "managed bytes per tick, " + row.Nodes + " nodes", row.ManagedBytes, 0);
+                if (row.Name == "tick" && (row.Variant == "in-process" || row.Variant == "own-process"))
+                    AtMost(output, "managed bytes per tick, " + row.Nodes + " nodes, " + row.Variant, row.ManagedBytes, 0);
             }
             if (soak == null) return;
             AtMost(output, "soak: RSS after tick 5000, %", 100.0 * ((double)soak.More["rss_kb_end"] / (double)soak.More["rss_kb_tick_5000"] - 1), 2);

@@ -10,6 +10,7 @@ namespace Collektive.Headless.Faults
     internal static class Acts
     {
         private const int SegmentationFault = 11;
+        private const int KillSignal = 9;
 
         internal static void Run(string act, SimulationManager manager, Component node)
         {
@@ -21,6 +22,7 @@ namespace Collektive.Headless.Faults
                 case "sensor-divides": node.gameObject.AddComponent<DividingSensor>(); break;
                 case "unknown-node": SendUnknownNode(manager); break;
                 case "other-options": StartOtherwise(); break;
+                case "kill-jvm": kill(Jvm.Process, KillSignal); break;
                 case "record-nowhere": JvmRecording.Start("/proc/nowhere/record.jfr"); break;
                 default: throw new ArgumentException("unknown act '" + act + "'");
             }
@@ -72,13 +74,16 @@ namespace Collektive.Headless.Faults
         {
             try
             {
-                Jvm.Start(new JvmLaunch(Installation.JavaHome, Installation.HostJar, new[] { "-Xmx99m" }));
+                Jvm.Start(new JvmLaunch(Installation.JavaHome, Installation.HostJar, new[] { "-Xmx99m" }) { Placement = Scene.Placement });
             }
             catch (BridgeException error)
             {
                 Debug.LogError(error.Message);
             }
         }
+
+        [DllImport("libc", ExactSpelling = true)]
+        private static extern int kill(int process, int number);
 
         [DllImport("libc", ExactSpelling = true)]
         private static extern IntPtr signal(int number, IntPtr handler);

@@ -7,7 +7,7 @@ namespace Collektive.Headless.Faults
 {
     /// <summary>
     /// Tests one fault in its own process: plays a scene, causes the fault in the fourth tick or at the start, and prints what still
-    /// works. Arguments are key=value: home, host and jar of the trial, <c>good-*</c> of what it recovers with, limit (of a tick, in milliseconds), fault (of
+    /// works. Arguments are key=value: home, host and jar of the trial, <c>good-*</c> of what it recovers with, placement, limit (of a tick, in milliseconds), fault (of
     /// the program), act (in C#), and any number of option. Ends with a line "still works: ..., JVM ...", and code 0. With act=exit it ends in the way that
     /// <c>how</c> selects.
     /// </summary>
@@ -30,6 +30,7 @@ namespace Collektive.Headless.Faults
             }
             string Value(string key, string other) => values.TryGetValue(key, out var value) ? value : other;
             var act = Value("act", "none");
+            Scene.Placement = (JvmPlacement)Enum.Parse(typeof(JvmPlacement), Value("placement", nameof(JvmPlacement.InProcess)));
             limitMs = int.Parse(Value("limit", "30000"));
             var good = new Setting(values["home"], values["host"], values["jar"], new[] { "-Xmx128m", "-XX:+UseSerialGC" });
             var faulty = new Setting(Value("bad-home", good.Home), Value("bad-host", good.Host), Value("bad-jar", good.Jar),

@@ -1,3 +1,4 @@
+using Collektive.Bridge;
 using Collektive.Headless.Tests.Simulation;
 using Collektive.Unity;
 using UnityEngine;
@@ -8,6 +9,9 @@ namespace Collektive.Headless.Faults
     /// <summary>Two nodes that count their rounds; the second one causes the fault.</summary>
     internal sealed class Scene
     {
+        /// <summary>Where the JVMs of all scenes run.</summary>
+        internal static JvmPlacement Placement;
+
         private readonly SimulationManager manager;
         private readonly ProbeActuator good;
         private readonly ProbeActuator bad;
@@ -31,6 +35,7 @@ namespace Collektive.Headless.Faults
             manager.Settings.program = "fault";
             manager.Settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             manager.Settings.jvm.settings.cdsArchive = false;
+            manager.Settings.jvm.settings.placement = Placement;
             manager.Settings.jvm.settings.flags.AddRange(setting.Options);
             return manager;
         }
