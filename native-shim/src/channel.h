@@ -20,17 +20,18 @@
 #define CHANNEL_GROW 1
 #define CHANNEL_SILENT 2 /* before the child's first answer */
 
+#define CHANNEL_ALIGNMENT 4096
+
 /* A block of a slot. */
 struct channel_block {
-    uint64_t offset; /* in the shared memory */
-    uint32_t number;
+    uint64_t offset; /* in the shared memory, a multiple of CHANNEL_ALIGNMENT */
     int32_t capacity;
 };
 
 struct channel {
     uint32_t version; /* CLK_VERSION; checked by the child, with the size */
     uint32_t size;
-    prim_shared_semaphore request, done;
+    prim_semaphore request, done;
     struct {
         int32_t entry; /* of enum host_entry; HOST_STOP uses only limit_ms */
         int32_t offset, length, limit_ms;
@@ -45,6 +46,6 @@ struct channel {
     struct log_ring log;       /* written by the child, read by the parent at any time */
 };
 
-#define CHANNEL_BYTES ((sizeof(struct channel) + 4095) / 4096 * 4096)
+#define CHANNEL_BYTES ((sizeof(struct channel) + CHANNEL_ALIGNMENT - 1) / CHANNEL_ALIGNMENT * CHANNEL_ALIGNMENT)
 
 #endif

@@ -15,23 +15,22 @@
 #define STACK_BYTES ((size_t)256 * 1024)
 #define MAIN_CLASS "org.collektive.host.Main"
 #define OUTPUT_SHOWN 600
-#define REAP_LIMIT_MS 1000 /* from the end of the child's output to its end */
+#define REAP_LIMIT_MS 1000 /* from the end of the connection to the end of the child */
+#define KILL_LIMIT_MS 10000
 
 /* Guarded by the turn, except atomics, semaphores and what the child's thread writes before it posts them. */
 static struct {
     struct channel *channel; /* NULL before the first start */
-    char **arguments;        /* of the running child */
+    char **arguments;        /* of the child; NULL without one */
     atomic_bool used;
     atomic_bool alive;
     atomic_bool stopping;   /* the end of the child is expected */
     prim_semaphore started; /* posted when the child has started, or cannot start */
     prim_semaphore ended;   /* posted when the child has ended */
     prim_once once;
-    prim_mutex killing; /* guards `killable` */
-    bool killable;      /* started, and not yet reaped */
-    bool launched;      /* the child's program runs, or has run */
+    prim_mutex killing; /* held to kill or reap `process` */
     prim_child process;
-    _Atomic int32_t id;
+    _Atomic int32_t id;          /* 0 if the child could not start */
     char reason[ERROR_CAPACITY]; /* why it did not start, or how it ended */
     _Atomic uint64_t wrapped;
 } child = {.once = PRIM_ONCE_INIT, .killing = PRIM_MUTEX_INIT};
@@ -56,9 +55,8 @@ uint64_t child_wrapped(void) { return atomic_load_explicit(&child.wrapped, memor
 /* HotSpot prints "# An error report file with more information is saved as:", and its path after "# " in the next line. */
 static void describe_end(int status) {
     static const char announcement[] = "is saved as:; # ";
-    char what[64], last[LOG_LAST_CAPACITY];
+    char last[LOG_LAST_CAPACITY];
     log_jvm_last(last, sizeof last);
-    snprintf(what, sizeof what, status < 0 ? "was ended by signal %d" : "ended with exit code %d", status < 0 ? -status : status);
     const char *path = strstr(last, announcement);
     if (path != NULL) {
         path += sizeof announcement - 1;
@@ -67,60 +65,63 @@ static void describe_end(int status) {
     }
     size_t length = strlen(last);
     const char *shown = length > OUTPUT_SHOWN ? text_next_character(last + length - OUTPUT_SHOWN) : last;
-    snprintf(child.reason, sizeof child.reason, "its process %s; it printed last: %s", what, shown[0] != '\0' ? shown : "nothing");
+    snprintf(child.reason, sizeof child.reason, "its process %s %d; it printed last: %s",
+             status < 0 ? "was ended by signal" : "ended with exit code", status < 0 ? -status : status,
+             shown[0] != '\0' ? shown : "nothing");
 }
 
 /* Waits for the end of a child that has closed its connection, which only its end should do. */
 static int reap(void) {
     int status = 0;
     int64_t limit = prim_now() + REAP_LIMIT_MS * PRIM_MILLI;
-    while (child.killable) {
+    for (bool ended = false; !ended;) {
         prim_lock(&child.killing);
-        child.killable = !prim_child_reap(&child.process, prim_now() + PRIM_MILLI, &status);
-        if (child.killable && prim_now() > limit) prim_child_kill(&child.process);
+        ended = prim_child_reap(&child.process, prim_now() + PRIM_MILLI, &status);
+        if (!ended && prim_now() > limit) prim_child_kill(&child.process);
         prim_unlock(&child.killing);
     }
     return status;
 }
 
-/* The loss is announced before `alive` changes, so that a call that finds the child dead finds the reason. */
+void child_announce(void) {
+    if (engine_state() == CLK_STATE_RUNNING && !atomic_load(&child.stopping)) engine_lose("%s", child.reason);
+}
+
+/* Announces the loss before `alive` changes, so that a call that finds the child dead finds the reason, and again after that, because the start
+ * may set the state meanwhile. */
 static void child_main(void) {
     char output[4096];
-    int stream;
-    child.killable = prim_child_start(child.arguments, &child.process, child.reason, sizeof child.reason);
-    child.launched = child.killable;
-    if (child.launched) child.id = prim_child_id(&child.process);
-    atomic_store(&child.alive, child.launched);
+    bool launched = prim_child_start(child.arguments, true, &child.process, child.reason, sizeof child.reason);
+    atomic_store(&child.id, launched ? prim_child_id(&child.process) : 0);
+    atomic_store(&child.alive, launched);
     prim_semaphore_post(&child.started);
-    if (!child.launched) return;
-    while ((stream = prim_child_read(&child.process, output, sizeof output)) != 0) {
-        log_jvm_text(stream == 2 ? CLK_LOG_WARNING : CLK_LOG_INFO, output);
-    }
+    if (!launched) return;
+    while (prim_child_read(&child.process, INT64_MAX, output, sizeof output)) log_jvm_text(CLK_LOG_INFO, output);
     describe_end(reap());
-    if (engine_state() == CLK_STATE_RUNNING && !atomic_load(&child.stopping)) engine_lose("%s", child.reason);
+    child_announce();
     atomic_store(&child.alive, false);
-    prim_shared_post(&child.channel->done);
+    child_announce();
+    prim_semaphore_post(&child.channel->done);
     prim_semaphore_post(&child.ended);
 }
 
 /* ---- Start and end --------------------------------------------------------------------------------------------------- */
-
-static void kill_child(void) {
-    prim_lock(&child.killing);
-    if (child.killable) prim_child_kill(&child.process);
-    prim_unlock(&child.killing);
-}
 
 static void free_arguments(void) {
     free(child.arguments);
     child.arguments = NULL;
 }
 
-void child_end(void) {
-    if (child.arguments == NULL) return;
-    kill_child();
-    prim_semaphore_wait(&child.ended);
+int32_t child_end(void) {
+    if (child.arguments == NULL) return CLK_OK;
+    prim_lock(&child.killing);
+    prim_child_kill(&child.process);
+    prim_unlock(&child.killing);
+    if (!prim_semaphore_wait_until(&child.ended, prim_now() + KILL_LIMIT_MS * PRIM_MILLI))
+        return error_set(CLK_TIMEOUT, "the JVM's process %d was killed but does not end; try again later, or restart this process",
+                         child_process());
     free_arguments();
+    return CLK_OK;
 }
 
 /* The child's own options come first: a crash leaves a report but no dump, and Main may load the shim. */
@@ -136,22 +137,17 @@ static int32_t fill_arguments(const struct launch *launch) {
     prim_child_token(token, sizeof token);
     child.arguments = calloc((size_t)launch->option_count + 7, sizeof *child.arguments);
     if (child.arguments == NULL) return error_set(CLK_MEMORY, "out of memory for %d JVM options", launch->option_count);
-    char **next = child.arguments;
-    *next++ = java;
-    *next++ = no_core;
-    *next++ = native;
-    for (int32_t i = 0; i < launch->option_count; i++) *next++ = launch->options[i];
-    *next++ = main_class;
-    *next++ = library;
-    *next = token;
+    memcpy(child.arguments, (char *[]){java, no_core, native}, 3 * sizeof(char *));
+    memcpy(child.arguments + 3, launch->options, (size_t)launch->option_count * sizeof(char *));
+    memcpy(child.arguments + 3 + launch->option_count, (char *[]){main_class, library, token}, 3 * sizeof(char *));
     return CLK_OK;
 }
 
 static void reset_channel(void) {
     struct channel *channel = child.channel;
     log_jvm_forget();
-    prim_shared_reset(&channel->request);
-    prim_shared_reset(&channel->done);
+    prim_semaphore_share(&channel->request);
+    prim_semaphore_share(&channel->done);
     channel->version = CLK_VERSION;
     channel->size = sizeof *channel;
     channel->wrapped = 0;
@@ -175,7 +171,7 @@ static int32_t channel_error(int32_t code) {
 
 /* The first answer reports the start. */
 static int32_t await_start(int64_t deadline) {
-    if (!prim_shared_sleep_until(&child.channel->done, deadline)) {
+    if (!prim_semaphore_sleep_until(&child.channel->done, deadline)) {
         char last[LOG_LAST_CAPACITY];
         log_jvm_last(last, sizeof last);
         return error_set(CLK_TIMEOUT, "the JVM's process did not start within the time limit; it printed: %s",
@@ -195,37 +191,35 @@ int32_t child_start(const struct launch *launch, int64_t deadline, char *version
     if (result != CLK_OK) return result;
     reset_channel();
     if (!prim_thread_start(child_main, "collektive-jvm", STACK_BYTES)) {
-        result = error_set(CLK_MEMORY, "cannot create a thread; free memory or raise the limit of threads");
-    } else {
-        prim_semaphore_wait(&child.started);
-        if (!child.launched) {
-            result = error_set(CLK_JVM_START, "cannot run %s: %s", child.arguments[0], child.reason);
-        } else {
-            result = await_start(deadline);
-            if (result != CLK_OK) child_end();
-        }
-    }
-    if (result == CLK_OK) {
-        child.channel->text[ERROR_CAPACITY - 1] = '\0';
-        text_export(child.channel->text, version, capacity);
-    } else {
         free_arguments();
+        return error_set(CLK_MEMORY, "cannot create a thread; free memory or raise the limit of threads");
     }
+    prim_semaphore_wait(&child.started);
+    if (child.id == 0) {
+        result = error_set(CLK_JVM_START, "cannot run %s: %s", child.arguments[0], child.reason);
+        free_arguments();
+        return result;
+    }
+    result = await_start(deadline);
+    child.channel->text[ERROR_CAPACITY - 1] = '\0';
+    text_export(child.channel->text, version, capacity);
     return result;
 }
 
 /* ---- Calls ----------------------------------------------------------------------------------------------------------- */
 
 static struct channel_block place_of(const struct block *block) {
-    return (struct channel_block){.offset = block->offset, .number = block->number, .capacity = block->capacity};
+    return (struct channel_block){.offset = block->offset, .capacity = block->capacity};
 }
 
 /* Hands the call to the child and waits for its answer. */
 static int32_t exchange(int64_t deadline) {
-    prim_shared_post(&child.channel->request);
-    if (!prim_shared_wait_until(&child.channel->done, deadline))
+    prim_semaphore_post(&child.channel->request);
+    if (!prim_semaphore_wait_until(&child.channel->done, deadline))
         return error_set(CLK_TIMEOUT, "the JVM's process did not answer within the time limit");
-    return child_is_alive() ? CLK_OK : engine_check_running();
+    if (child_is_alive()) return CLK_OK;
+    child_announce();
+    return engine_check_running();
 }
 
 static int32_t finish(struct host_call *call) {
@@ -271,17 +265,13 @@ int32_t child_run(struct host_call *call, int64_t deadline) {
 }
 
 int32_t child_stop(int32_t limit_ms, int64_t deadline) {
-    int32_t result = CLK_OK;
     atomic_store(&child.stopping, true);
     child.channel->call.entry = HOST_STOP;
     child.channel->call.limit_ms = limit_ms;
-    prim_shared_post(&child.channel->request);
-    if (!prim_semaphore_wait_until(&child.ended, deadline)) {
-        result = error_set(CLK_TIMEOUT, "the JVM did not end within %d ms; its process was killed, and flight recordings may be missing",
-                           limit_ms);
-        kill_child();
-        prim_semaphore_wait(&child.ended);
-    }
-    free_arguments();
-    return result;
+    prim_semaphore_post(&child.channel->request);
+    if (!prim_semaphore_wait_until(&child.ended, deadline))
+        return error_set(CLK_TIMEOUT, "the JVM did not end within %d ms; its process was killed, and flight recordings may be missing",
+                         limit_ms);
+    prim_semaphore_post(&child.ended); /* for child_end */
+    return CLK_OK;
 }

@@ -14,21 +14,24 @@
 bool child_is_used(void);
 void child_use(bool used);
 
-/* Starts the child and copies the host's version. After an error there is no child. */
+/* Starts the child and copies the host's version. Call child_end after an error. */
 int32_t child_start(const struct launch *launch, int64_t deadline, char *version, int32_t capacity);
 
 /* Returns whether the child still runs. Any thread. */
 bool child_is_alive(void);
 
+/* Sets the state from running to lost if the child has ended unexpectedly. Only for a child that is not alive. */
+void child_announce(void);
+
 /* Runs a call like host_run and host_close. Returns CLK_JVM_LOST if the child has ended, and CLK_TIMEOUT if the deadline passed first; the child
  * then goes on. */
 int32_t child_run(struct host_call *call, int64_t deadline);
 
-/* Ends the child in order. If it has not ended by the deadline, kills it and returns CLK_TIMEOUT. */
+/* Lets the child end in order. Returns CLK_TIMEOUT if it has not ended by the deadline. Call child_end afterwards. */
 int32_t child_stop(int32_t limit_ms, int64_t deadline);
 
-/* Kills the child if it still runs, and waits for its end. */
-void child_end(void);
+/* Kills the child if it still runs, waits for its end and frees its resources. Returns CLK_TIMEOUT if the system does not end it. */
+int32_t child_end(void);
 
 /* Returns the process id of the last start's child, or 0 if it was one in this process. Any thread. */
 int32_t child_process(void);

@@ -188,11 +188,17 @@ static void describe(char *description) {
 static int32_t start_child(const clk_jvm_config *config, int64_t deadline) {
     launch_free(&jvm.launch);
     int32_t result = launch_prepare(&jvm.launch, config, deadline);
-    if (result == CLK_OK) result = child_start(&jvm.launch, deadline, jvm.version, sizeof jvm.version);
     if (result != CLK_OK) return result;
+    result = child_start(&jvm.launch, deadline, jvm.version, sizeof jvm.version);
+    if (result != CLK_OK) {
+        char why[ERROR_CAPACITY];
+        text_export(error_last(), why, sizeof why);
+        child_end(); /* a start that finds this child still there reports it */
+        return error_set(result, "%s", why);
+    }
     describe(launch_description(&jvm.launch, jvm.version));
     engine_set_state(CLK_STATE_RUNNING);
-    if (!child_is_alive()) engine_lose("its process ended right after its start");
+    if (!child_is_alive()) child_announce();
     return CLK_OK;
 }
 
@@ -242,7 +248,7 @@ static bool is_equal(const clk_jvm_config *config) {
     char *configuration = launch_configuration(config);
     bool equal = configuration != NULL && strcmp(configuration, jvm.launch.configuration) == 0;
     free(configuration);
-    return equal;
+    return equal && child_is_used() == (config->placement == CLK_OWN_PROCESS);
 }
 
 static int32_t refuse_other(void) {
@@ -258,21 +264,23 @@ static int lock_archive(int32_t limit_ms) {
     return archive == NULL ? -1 : prim_folder_lock(archive, prim_now() + limit_ms / 4 * PRIM_MILLI);
 }
 
-/* Needs the turn, and a running child. */
-static int32_t stop_child(int32_t limit_ms) {
-    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
-    int lock = lock_archive(limit_ms);
-    int32_t result = child_stop(limit_ms, deadline);
-    if (lock >= 0) prim_folder_unlock(lock);
-    return result;
-}
-
-/* Removes what a child left behind, alive or not, so that another JVM can start. Needs the turn. */
-static void end_child(void) {
-    child_end();
+/* Ends the child, if there is one, and removes what it left behind, so that another JVM can start. Needs the turn. */
+static int32_t end_child(void) {
+    int32_t result = child_end();
+    if (result != CLK_OK) return result;
     session_forget_all();
     slots_unpin_shared();
     engine_reset();
+    return CLK_OK;
+}
+
+/* Needs the turn, and a running child. After an error the child was killed. */
+static int32_t stop_child(int32_t limit_ms) {
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int lock = lock_archive(limit_ms);
+    int32_t result = child_stop(limit_ms, deadline), ended = end_child();
+    if (lock >= 0) prim_folder_unlock(lock);
+    return ended != CLK_OK ? ended : result;
 }
 
 static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) {
@@ -281,8 +289,10 @@ static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) 
     if (state != CLK_STATE_NONE && (!child_is_used() || engine_is_forked()))
         return state == CLK_STATE_RUNNING ? refuse_other() : engine_check_running();
     if (state == CLK_STATE_RUNNING && session_count() > 0) return refuse_other();
-    if (state == CLK_STATE_RUNNING) stop_child((int32_t)((deadline - prim_now()) / PRIM_MILLI / 2) + 1);
-    if (child_is_used()) end_child();
+    if (state == CLK_STATE_RUNNING && stop_child((int32_t)((deadline - prim_now()) / PRIM_MILLI / 2) + 1) != CLK_OK)
+        log_format(CLK_LOG_WARNING, "%s", error_last());
+    int32_t result = end_child();
+    if (result != CLK_OK) return result;
     child_use(config->placement == CLK_OWN_PROCESS);
     return without_option_variables(child_is_used() ? start_child : start, config, deadline);
 }
@@ -357,7 +367,6 @@ int32_t clk_jvm_stop(int32_t limit_ms) {
     if (result != CLK_OK) return result;
     if (child_is_used() && engine_state() == CLK_STATE_RUNNING) {
         result = stop_child(limit_ms);
-        end_child();
         engine_set_state(CLK_STATE_STOPPED);
     } else if (engine_state() == CLK_STATE_RUNNING) {
         jvm.stop_limit_ms = limit_ms;

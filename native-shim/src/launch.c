@@ -38,13 +38,6 @@ int32_t launch_check_config(const clk_jvm_config *config) {
     return CLK_OK;
 }
 
-static char *concatenate(const char *first, const char *second) {
-    size_t size = strlen(first) + strlen(second) + 1;
-    char *text = malloc(size);
-    if (text != NULL) snprintf(text, size, "%s%s", first, second);
-    return text;
-}
-
 /* Joins all texts, one per line. */
 static char *join(const char *first, const char *second, const char *const *others, int32_t count) {
     size_t size = strlen(first) + strlen(second) + 2;
@@ -57,10 +50,7 @@ static char *join(const char *first, const char *second, const char *const *othe
 }
 
 char *launch_configuration(const clk_jvm_config *config) {
-    char *text = join(config->home, config->class_path, config->options, config->option_count);
-    char *whole = text != NULL ? concatenate(text, config->placement == CLK_OWN_PROCESS ? "\nown process" : "") : NULL;
-    free(text);
-    return whole;
+    return join(config->home, config->class_path, config->options, config->option_count);
 }
 
 char *launch_description(const struct launch *launch, const char *version) {
@@ -69,6 +59,13 @@ char *launch_description(const struct launch *launch, const char *version) {
 }
 
 /* ---- The JVM's options ----------------------------------------------------------------------------------------------- */
+
+static char *concatenate(const char *first, const char *second) {
+    size_t size = strlen(first) + strlen(second) + 1;
+    char *text = malloc(size);
+    if (text != NULL) snprintf(text, size, "%s%s", first, second);
+    return text;
+}
 
 static bool add_option(struct launch *launch, const char *prefix, const char *rest) {
     char *option = concatenate(prefix, rest);

@@ -117,6 +117,28 @@ const char *options_archive(char *const options[], int32_t count) {
     return writes ? file : NULL;
 }
 
+#define KILL_LIMIT_MS 1000
+
+enum run { EXITED, NOT_STARTED, TIMED_OUT };
+
+/* Runs a program and kills it at the deadline. `output` receives its output; if it does not fit, at least the last quarter of `size`. */
+static enum run run(char *const argv[], int64_t deadline, char *output, size_t size, int *status) {
+    prim_child child;
+    size_t used = 0;
+    output[0] = '\0';
+    if (!prim_child_start(argv, false, &child, output, size)) return NOT_STARTED;
+    while (prim_child_read(&child, deadline, output + used, size - used)) {
+        used += strlen(output + used);
+        if (used <= size / 2) continue;
+        memmove(output, output + used - size / 4, size / 4 + 1);
+        used = size / 4;
+    }
+    if (prim_child_reap(&child, deadline, status)) return EXITED;
+    prim_child_kill(&child);
+    prim_child_reap(&child, prim_now() + KILL_LIMIT_MS * PRIM_MILLI, status);
+    return TIMED_OUT;
+}
+
 #define OUTPUT_SHOWN 1000
 
 int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline) {
@@ -141,29 +163,29 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[used++] = no_report;
     arguments[used++] = version;
     arguments[used] = NULL;
-    enum prim_run run = prim_process_run(arguments, deadline, output, sizeof output, &status);
+    enum run end = run(arguments, deadline, output, sizeof output, &status);
     free(arguments);
     /* Some options end the JVM with exit code 0 during its start, before it prints its version. */
     bool has_started = strstr(output, " version \"") != NULL;
     size_t length = strlen(output);
-    char *end = length > OUTPUT_SHOWN ? text_next_character(output + length - OUTPUT_SHOWN) : output;
-    join_lines(end);
-    const char *printed = end[0] != '\0' ? end : "nothing";
-    switch (run) {
-        case PRIM_NOT_STARTED:
+    char *last = length > OUTPUT_SHOWN ? text_next_character(output + length - OUTPUT_SHOWN) : output;
+    join_lines(last);
+    const char *printed = last[0] != '\0' ? last : "nothing";
+    switch (end) {
+        case NOT_STARTED:
             log_format(CLK_LOG_WARNING, "the JVM options are not checked before the start: cannot run %s", java);
             return CLK_OK;
-        case PRIM_TIMED_OUT:
+        case TIMED_OUT:
             return error_set(CLK_TIMEOUT, "the check of the JVM options took longer than the time limit; %s printed: %s", java, printed);
         default: break;
     }
     if (status == 0 && has_started) return CLK_OK;
     if (status == 0) return error_set(CLK_JVM_OPTIONS, "one of the JVM options ends the JVM in %s during its start; remove it", home);
-    if (status > 128) {
+    if (status < 0) {
         return error_set(CLK_JVM_OPTIONS,
                          "the JVM in %s crashes with these options (signal %d); correct them, or reinstall the JVM if its files are "
                          "corrupt; it printed: %s",
-                         home, status - 128, printed);
+                         home, -status, printed);
     }
     return error_set(CLK_JVM_OPTIONS, "the JVM in %s rejects its options (exit code %d): %s; correct the JVM options", home, status,
                      printed);

@@ -25,9 +25,8 @@ typedef struct {
 } prim_mutex;
 #define PRIM_MUTEX_INIT {0}
 typedef void *prim_semaphore;
-typedef prim_semaphore prim_shared_semaphore;
 typedef struct {
-    void *process, *job, *output[2];
+    void *process, *job, *output;
 } prim_child;
 typedef union {
     void *once;
@@ -40,7 +39,7 @@ typedef union {
 #define PRIM_NULL_FILE "/dev/null"
 #define PRIM_READ_ADVICE "check its permissions"
 typedef struct {
-    int process, life, output[2];
+    int process, life, output;
 } prim_child;
 #define PRIM_FOREIGN_TEXT "the locale of the process cannot encode %s; set LC_ALL=C.UTF-8 or use an ASCII path"
 typedef pthread_mutex_t prim_mutex;
@@ -50,17 +49,17 @@ typedef pthread_once_t prim_once;
 #if defined(__APPLE__)
 #define PRIM_LIBJVM "lib/server/libjvm.dylib"
 #define PRIM_SYSTEM "Darwin"
-typedef void *prim_semaphore;
 typedef struct {
-    _Atomic uint32_t count, waiting;
-} prim_shared_semaphore;
+    void *own;                       /* of libdispatch; NULL in shared memory */
+    _Atomic uint32_t count, waiting; /* in shared memory */
+} prim_semaphore;
 #else
 #define PRIM_LIBJVM "lib/server/libjvm.so"
 #define PRIM_SYSTEM "Linux"
 typedef struct {
     _Atomic uint32_t count, waiting;
+    int scope;
 } prim_semaphore;
-typedef prim_semaphore prim_shared_semaphore;
 #endif
 #endif
 
@@ -83,6 +82,8 @@ void prim_lock(prim_mutex *mutex);
 void prim_unlock(prim_mutex *mutex);
 
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
+/* The same with count 0 for a semaphore in shared memory, zeroed at first, which a child uses too. Call it again while there is no child. */
+void prim_semaphore_share(prim_semaphore *semaphore);
 void prim_semaphore_post(prim_semaphore *semaphore);
 bool prim_semaphore_try(prim_semaphore *semaphore);
 /* Sleeps without spinning. False if the deadline passed first; INT64_MAX means no deadline. */
@@ -91,14 +92,6 @@ bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline);
 void prim_semaphore_wait(prim_semaphore *semaphore);
 /* False if the deadline passed first. */
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline);
-
-/* Semaphores in shared memory, which this process and its child use alike; zeroed at first. Reset them while there is no child. */
-void prim_shared_reset(prim_shared_semaphore *semaphore);
-void prim_shared_post(prim_shared_semaphore *semaphore);
-bool prim_shared_try(prim_shared_semaphore *semaphore);
-bool prim_shared_sleep_until(prim_shared_semaphore *semaphore, int64_t deadline);
-/* Spins before it sleeps. False if the deadline passed first. */
-bool prim_shared_wait_until(prim_shared_semaphore *semaphore, int64_t deadline);
 
 /* Runs `init` once per process. */
 void prim_run_once(prim_once *once, void (*init)(void));
@@ -189,22 +182,17 @@ bool prim_library_path(char *path, size_t size);
 bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);
 
-/* Runs a program without input. `output` receives its standard output and error, NUL-terminated; if they do not fit, at least the last half of
- * output_size. PRIM_EXITED sets `status` to the exit code, or 128 + signal. The program is killed at the deadline. */
-enum prim_run { PRIM_EXITED, PRIM_NOT_STARTED, PRIM_TIMED_OUT };
-enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status);
+/* A child process without input. It may share the memory of prim_shared_reserve, and then ends with this process; it inherits nothing else, and
+ * nothing by name. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and prim_child_reap. */
 
-/* A child that shares the memory of prim_shared_reserve and ends with this process. It inherits that memory and nothing else, without names.
- * The thread that starts a child must not end before it; only this thread calls prim_child_read and prim_child_reap. */
-
-/* Starts a program without input. False on failure, with the reason in `why`. */
-bool prim_child_start(char *const argv[], prim_child *child, char *why, size_t why_size);
+/* Starts a program. False on failure, with the reason in `why`. */
+bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size);
 int32_t prim_child_id(const prim_child *child);
-/* Waits for output and reads it, NUL-terminated. Returns 1 for standard output, 2 for standard error, 0 if the child ended and all was read. */
-int prim_child_read(prim_child *child, char *buffer, size_t size);
+/* Waits for output or errors and reads them, NUL-terminated. False if the child ended and all was read, or if the deadline passed first. */
+bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size);
 /* Frees the child's resources if it ends by the deadline, and sets `status` to its exit code, or to -signal. False otherwise. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status);
-/* Kills a child that prim_child_reap has not freed, with its own children. */
+/* Kills a child with its own children; nothing if prim_child_reap has freed it. Not during prim_child_reap. */
 void prim_child_kill(prim_child *child);
 
 /* The argument by which the child finds the memory. */

@@ -26,11 +26,13 @@
 #if defined(__APPLE__)
 #include <crt_externs.h>
 #include <xlocale.h>
+#define CLOSE_ON_EXEC 0 /* until move_up */
 #define environ (*_NSGetEnviron())
 #else
 #include <linux/memfd.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
+#define CLOSE_ON_EXEC SOCK_CLOEXEC
 extern char **environ;
 #endif
 
@@ -295,47 +297,6 @@ static int poll_limit(int64_t deadline) {
     return left < 0 ? 0 : left > INT32_MAX ? INT32_MAX : (int)left;
 }
 
-/* Reads until all writers have closed the pipe; drops the older half of a full output. False if the deadline passed first. */
-static bool read_all(int descriptor, int64_t deadline, char *output, size_t output_size) {
-    size_t used = 0;
-    output[0] = '\0';
-    for (;;) {
-        struct pollfd wait = {.fd = descriptor, .events = POLLIN};
-        int ready = poll(&wait, 1, poll_limit(deadline));
-        if (ready < 0 && errno == EINTR) continue;
-        if (ready <= 0) return false;
-        if (used + 1 == output_size) {
-            used = output_size / 2;
-            memmove(output, output + output_size - 1 - used, used);
-            output[used] = '\0';
-        }
-        ssize_t count = read(descriptor, output + used, output_size - 1 - used);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return true;
-        used += (size_t)count;
-        output[used] = '\0';
-    }
-}
-
-/* Waits for a child. False if the deadline passed first. In a process that ignores SIGCHLD or reaps every child, the status is unknown and set
- * to 0; the caller must check the output. */
-static bool reap(pid_t child, int64_t deadline, int *status) {
-    for (;;) {
-        int state = 0;
-        pid_t reaped = waitpid(child, &state, WNOHANG);
-        if (reaped == child) {
-            *status = WIFEXITED(state) ? WEXITSTATUS(state) : 128 + WTERMSIG(state);
-            return true;
-        }
-        if (reaped < 0 && errno != EINTR) {
-            *status = 0;
-            return true;
-        }
-        if (prim_now() >= deadline) return false;
-        nanosleep(&(struct timespec){.tv_nsec = 500000}, NULL);
-    }
-}
-
 #if defined(__APPLE__)
 #define ONLY_LISTED POSIX_SPAWN_CLOEXEC_DEFAULT
 static bool close_others(posix_spawn_file_actions_t *actions, int first) {
@@ -389,31 +350,12 @@ static bool make_pipe(int ends[2]) {
 #endif
 }
 
-enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status) {
-    int ends[2];
-    pid_t child;
-    output[0] = '\0';
-    if (!make_pipe(ends)) return PRIM_NOT_STARTED;
-    bool spawned = spawn(argv, (const int[]){ends[1], ends[1]}, 2, &child) == 0;
-    close(ends[1]);
-    bool done = spawned && read_all(ends[0], deadline, output, output_size) && reap(child, deadline, status);
-    close(ends[0]);
-    if (!spawned) return PRIM_NOT_STARTED;
-    if (!done) {
-        kill(-child, SIGKILL);
-        reap(child, prim_now() + NANOS_PER_SECOND, status);
-        return PRIM_TIMED_OUT;
-    }
-    return PRIM_EXITED;
-}
-
-/* ---- The child that shares memory ------------------------------------------------------------------------------------ */
-
 /* The descriptors of the child after its two outputs. Its end of the connection `life` closes when it ends, and the parent's when that ends. */
-enum { CHILD_MEMORY = 3, CHILD_LIFE = 4 };
+enum { CHILD_LIFE = 3, CHILD_MEMORY = 4 };
 
-static bool make_life(int ends[2]) {
-    if (socketpair(AF_UNIX, SOCK_STREAM, 0, ends) != 0) return false;
+/* Like make_pipe, or with two ends that see each other close. No end is one of the child's descriptors. */
+static bool make_ends(int ends[2], bool is_pipe) {
+    if (is_pipe ? !make_pipe(ends) : socketpair(AF_UNIX, SOCK_STREAM | CLOSE_ON_EXEC, 0, ends) != 0) return false;
     ends[0] = move_up(ends[0]);
     ends[1] = move_up(ends[1]);
     return ends[0] >= 0 && ends[1] >= 0;
@@ -425,54 +367,59 @@ static void close_all(const int descriptors[], int count) {
     }
 }
 
-bool prim_child_start(char *const argv[], prim_child *child, char *why, size_t why_size) {
-    int life[2] = {-1, -1}, output[2] = {-1, -1}, error[2] = {-1, -1};
+bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
+    int life[2] = {-1, -1}, output[2] = {-1, -1};
     pid_t process = 0;
-    int failure = 0;
-    if (!make_pipe(output) || !make_pipe(error) || !make_life(life)) failure = errno;
-    if (failure == 0) failure = spawn(argv, (const int[]){output[1], error[1], shared, life[1]}, CHILD_LIFE, &process);
-    close_all((const int[]){output[1], error[1], life[1]}, 3);
-    *child = (prim_child){.process = process, .life = life[0], .output = {output[0], error[0]}};
+    int failure = make_ends(output, true) && make_ends(life, false) ? 0 : errno;
+    if (failure == 0) failure = spawn(argv, (const int[]){output[1], output[1], life[1], shared}, shares ? CHILD_MEMORY : CHILD_LIFE, &process);
+    close_all((const int[]){output[1], life[1]}, 2);
+    *child = (prim_child){.process = process, .life = life[0], .output = output[0]};
     if (failure == 0) return true;
-    close_all((const int[]){output[0], error[0], life[0]}, 3);
+    close_all((const int[]){output[0], life[0]}, 2);
     snprintf(why, why_size, "%s", strerror(failure));
     return false;
 }
 
 int32_t prim_child_id(const prim_child *child) { return child->process; }
 
-int prim_child_read(prim_child *child, char *buffer, size_t size) {
+bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size) {
     for (bool ended = false;;) {
-        struct pollfd waits[] = {{.fd = child->output[0], .events = POLLIN},
-                                 {.fd = child->output[1], .events = POLLIN},
-                                 {.fd = ended ? -1 : child->life, .events = POLLIN}};
-        /* After the end, a process that the child started may hold its outputs open: reads only what is there. */
-        int ready = poll(waits, 3, ended ? 0 : -1);
+        struct pollfd waits[] = {{.fd = child->output, .events = POLLIN}, {.fd = ended ? -1 : child->life, .events = POLLIN}};
+        /* After the end, a process that the child started may hold its output open: reads only what is there. */
+        int ready = poll(waits, 2, ended ? 0 : poll_limit(deadline));
         if (ready < 0 && errno == EINTR) continue;
-        if (ready <= 0) return 0;
-        for (int i = 0; i < 2; i++) {
-            if (waits[i].revents == 0) continue;
-            ssize_t count = read(child->output[i], buffer, size - 1);
-            if (count > 0) {
-                buffer[count] = '\0';
-                return i + 1;
-            }
-            if (count < 0 && errno == EINTR) continue;
-            close(child->output[i]);
-            child->output[i] = -1;
+        if (ready == 0 && !ended && prim_now() < deadline) continue; /* poll has a lower limit */
+        if (ready <= 0) return false;
+        ssize_t count = waits[0].revents != 0 ? read(child->output, buffer, size - 1) : -1;
+        if (count > 0) {
+            buffer[count] = '\0';
+            return true;
         }
-        ended = ended || waits[2].revents != 0;
+        if (count == 0) { /* closed before the end of the child */
+            close(child->output);
+            child->output = -1;
+        }
+        ended = ended || waits[1].revents != 0;
     }
 }
 
+/* In a process that ignores SIGCHLD or reaps every child, the status is unknown and set to 0. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
-    if (!reap(child->process, deadline, status)) return false;
-    if (*status > 128 && *status < 128 + 64) *status = 128 - *status;
-    close_all((const int[]){child->output[0], child->output[1], child->life}, 3);
+    int state = 0;
+    for (pid_t reaped; (reaped = waitpid(child->process, &state, WNOHANG)) != child->process;) {
+        if (reaped < 0 && errno != EINTR) break;
+        if (prim_now() >= deadline) return false;
+        nanosleep(&(struct timespec){.tv_nsec = 500000}, NULL);
+    }
+    *status = WIFEXITED(state) ? WEXITSTATUS(state) : -WTERMSIG(state);
+    close_all((const int[]){child->output, child->life}, 2);
+    child->process = 0;
     return true;
 }
 
-void prim_child_kill(prim_child *child) { kill(-child->process, SIGKILL); }
+void prim_child_kill(prim_child *child) {
+    if (child->process > 0) kill(-child->process, SIGKILL);
+}
 
 void prim_child_token(char *text, size_t size) { snprintf(text, size, "inherited"); }
 
@@ -493,5 +440,5 @@ uint8_t *prim_child_attach(const char *token) {
 #if !defined(__APPLE__)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
-    return prim_thread_start(end_with_parent, "collektive-life", (size_t)64 * 1024) ? address : NULL;
+    return prim_thread_start(end_with_parent, "collektive-life", (size_t)256 * 1024) ? address : NULL;
 }

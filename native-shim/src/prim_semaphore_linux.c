@@ -12,17 +12,18 @@
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) {
     atomic_init(&semaphore->count, count);
     atomic_init(&semaphore->waiting, 0);
+    semaphore->scope = FUTEX_PRIVATE_FLAG;
 }
 
-/* `scope` is FUTEX_PRIVATE_FLAG, or 0 between processes. */
-static void post(prim_semaphore *semaphore, int scope) {
+void prim_semaphore_share(prim_semaphore *semaphore) {
+    prim_semaphore_init(semaphore, 0);
+    semaphore->scope = 0;
+}
+
+void prim_semaphore_post(prim_semaphore *semaphore) {
     atomic_fetch_add(&semaphore->count, 1);
-    if (atomic_load(&semaphore->waiting) != 0) syscall(SYS_futex, &semaphore->count, FUTEX_WAKE | scope, 1, NULL, NULL, 0);
+    if (atomic_load(&semaphore->waiting) != 0) syscall(SYS_futex, &semaphore->count, FUTEX_WAKE | semaphore->scope, 1, NULL, NULL, 0);
 }
-
-void prim_semaphore_post(prim_semaphore *semaphore) { post(semaphore, FUTEX_PRIVATE_FLAG); }
-
-void prim_shared_post(prim_shared_semaphore *semaphore) { post(semaphore, 0); }
 
 bool prim_semaphore_try(prim_semaphore *semaphore) {
     uint32_t count = atomic_load(&semaphore->count);
@@ -33,24 +34,14 @@ bool prim_semaphore_try(prim_semaphore *semaphore) {
 }
 
 /* The system call returns at once when the count is no longer 0, so no post is missed. Its time is absolute and monotonic. */
-static bool sleep_until(prim_semaphore *semaphore, int64_t deadline, int scope) {
+bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline) {
     struct timespec until = {.tv_sec = (time_t)(deadline / NANOS_PER_SECOND), .tv_nsec = (long)(deadline % NANOS_PER_SECOND)};
     struct timespec *limit = deadline == INT64_MAX ? NULL : &until;
     bool taken;
     atomic_fetch_add(&semaphore->waiting, 1);
     while (!(taken = prim_semaphore_try(semaphore)) && prim_now() < deadline) {
-        syscall(SYS_futex, &semaphore->count, FUTEX_WAIT_BITSET | scope, 0, limit, NULL, FUTEX_BITSET_MATCH_ANY);
+        syscall(SYS_futex, &semaphore->count, FUTEX_WAIT_BITSET | semaphore->scope, 0, limit, NULL, FUTEX_BITSET_MATCH_ANY);
     }
     atomic_fetch_sub(&semaphore->waiting, 1);
     return taken;
 }
-
-bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline) {
-    return sleep_until(semaphore, deadline, FUTEX_PRIVATE_FLAG);
-}
-
-bool prim_shared_sleep_until(prim_shared_semaphore *semaphore, int64_t deadline) { return sleep_until(semaphore, deadline, 0); }
-
-void prim_shared_reset(prim_shared_semaphore *semaphore) { prim_semaphore_init(semaphore, 0); }
-
-bool prim_shared_try(prim_shared_semaphore *semaphore) { return prim_semaphore_try(semaphore); }

@@ -98,23 +98,18 @@ void prim_semaphore_post(prim_semaphore *semaphore) { ReleaseSemaphore(*semaphor
 
 /* Created for this process and its child, in which inherited handles have the same values. */
 static SECURITY_ATTRIBUTES inheritable = {.nLength = sizeof inheritable, .bInheritHandle = TRUE};
-static HANDLE shared_handles[8];
+enum { SHARED_HANDLES = 3 }; /* the memory and two semaphores */
+static HANDLE shared_handles[SHARED_HANDLES];
 static DWORD shared_count;
 
-void prim_shared_reset(prim_shared_semaphore *semaphore) {
-    if (*semaphore == NULL && shared_count < sizeof shared_handles / sizeof *shared_handles) {
+void prim_semaphore_share(prim_semaphore *semaphore) {
+    if (*semaphore == NULL && shared_count < SHARED_HANDLES) {
         *semaphore = CreateSemaphoreW(&inheritable, 0, LONG_MAX, NULL);
         shared_handles[shared_count++] = *semaphore;
     }
     while (prim_semaphore_try(semaphore)) {
     }
 }
-
-void prim_shared_post(prim_shared_semaphore *semaphore) { prim_semaphore_post(semaphore); }
-
-bool prim_shared_try(prim_shared_semaphore *semaphore) { return prim_semaphore_try(semaphore); }
-
-bool prim_shared_sleep_until(prim_shared_semaphore *semaphore, int64_t deadline) { return prim_semaphore_sleep_until(semaphore, deadline); }
 
 bool prim_semaphore_try(prim_semaphore *semaphore) { return WaitForSingleObject(*semaphore, 0) == WAIT_OBJECT_0; }
 
@@ -394,12 +389,12 @@ static wchar_t *command_line(char *const argv[]) {
     return line;
 }
 
-/* Starts a program in a job, which includes its children, and lets it inherit only these handles: its input, output and error, which may be
- * its output, and others. NULL if it does not start. */
-static HANDLE spawn(wchar_t *line, HANDLE handles[], DWORD count, HANDLE error, HANDLE job) {
+/* Starts a program in a job, which includes its children, and lets it inherit only these handles: its input, its output and others. NULL if it
+ * does not start. */
+static HANDLE spawn(wchar_t *line, HANDLE handles[], DWORD count, HANDLE job) {
     STARTUPINFOEXW startup = {
         .StartupInfo = {
-            .cb = sizeof startup, .dwFlags = STARTF_USESTDHANDLES, .hStdInput = handles[0], .hStdOutput = handles[1], .hStdError = error}};
+            .cb = sizeof startup, .dwFlags = STARTF_USESTDHANDLES, .hStdInput = handles[0], .hStdOutput = handles[1], .hStdError = handles[1]}};
     PROCESS_INFORMATION child = {0};
     SIZE_T size = 0;
     InitializeProcThreadAttributeList(NULL, 1, 0, &size);
@@ -421,35 +416,6 @@ static HANDLE spawn(wchar_t *line, HANDLE handles[], DWORD count, HANDLE error, 
     return child.hProcess;
 }
 
-/* Reads until all writers have closed the pipe; drops the older half of a full output. False if the deadline passed first. */
-static bool read_all(HANDLE pipe, int64_t deadline, char *output, size_t output_size) {
-    size_t used = 0;
-    for (;;) {
-        DWORD ready = 0, count = 0;
-        if (!PeekNamedPipe(pipe, NULL, 0, NULL, &ready, NULL)) return true;
-        if (ready == 0) {
-            if (prim_now() >= deadline) return false;
-            Sleep(1);
-            continue;
-        }
-        if (used + 1 == output_size) {
-            used = output_size / 2;
-            memmove(output, output + output_size - 1 - used, used);
-        }
-        if (!ReadFile(pipe, output + used, (DWORD)(output_size - 1 - used), &count, NULL)) return true;
-        used += count;
-        output[used] = '\0';
-    }
-}
-
-/* Waits for a child. False if it did not end before the deadline. */
-static bool reap(HANDLE child, int64_t deadline, int *status) {
-    DWORD code;
-    if (WaitForSingleObject(child, limit_of(deadline)) != WAIT_OBJECT_0 || !GetExitCodeProcess(child, &code)) return false;
-    *status = (int)code;
-    return true;
-}
-
 /* Creates an unnamed job that ends its processes when its handle is closed. NULL on failure. */
 static HANDLE make_job(void) {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits = {.BasicLimitInformation = {.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE}};
@@ -458,34 +424,7 @@ static HANDLE make_job(void) {
     return job;
 }
 
-enum prim_run prim_process_run(char *const argv[], int64_t deadline, char *output, size_t output_size, int *status) {
-    HANDLE from = NULL, to = NULL, child = NULL;
-    HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inheritable, OPEN_EXISTING, 0, NULL);
-    HANDLE job = make_job();
-    wchar_t *line = command_line(argv);
-    output[0] = '\0';
-    if (line != NULL && input != INVALID_HANDLE_VALUE && CreatePipe(&from, &to, &inheritable, 0)) {
-        child = spawn(line, (HANDLE[]){input, to}, 2, to, job);
-        CloseHandle(to);
-    }
-    free(line);
-    bool done = child != NULL && read_all(from, deadline, output, output_size) && reap(child, deadline, status);
-    if (child != NULL && !done) {
-        TerminateJobObject(job, 1);
-        reap(child, prim_now() + NANOS_PER_SECOND, status);
-    }
-    if (input != INVALID_HANDLE_VALUE) CloseHandle(input);
-    if (from != NULL) CloseHandle(from);
-    if (job != NULL) CloseHandle(job);
-    if (child == NULL) return PRIM_NOT_STARTED;
-    CloseHandle(child);
-    to_utf8_in_place(jvm_code_page(), output, output_size);
-    return done ? PRIM_EXITED : PRIM_TIMED_OUT;
-}
-
-/* ---- The child that shares memory ------------------------------------------------------------------------------------ */
-
-#define OUTPUT_POLL_MS 20
+#define OUTPUT_POLL_MS 5
 
 static void close_all(const HANDLE handles[], int count) {
     for (int i = 0; i < count; i++) {
@@ -494,47 +433,46 @@ static void close_all(const HANDLE handles[], int count) {
 }
 
 /* The job ends the child when this process ends, which closes its only handle. */
-bool prim_child_start(char *const argv[], prim_child *child, char *why, size_t why_size) {
-    HANDLE from[2] = {NULL}, to[2] = {NULL};
+bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
+    HANDLE to = NULL;
     HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inheritable, OPEN_EXISTING, 0, NULL);
     HANDLE job = make_job();
     wchar_t *line = command_line(argv);
     *child = (prim_child){.job = job};
-    if (line != NULL && job != NULL && CreatePipe(&from[0], &to[0], &inheritable, 0) && CreatePipe(&from[1], &to[1], &inheritable, 0)) {
-        HANDLE handles[3 + sizeof shared_handles / sizeof *shared_handles] = {input, to[0], to[1]};
-        memcpy(handles + 3, shared_handles, shared_count * sizeof *shared_handles);
-        child->process = spawn(line, handles, 3 + shared_count, to[1], job);
+    if (line != NULL && job != NULL && CreatePipe(&child->output, &to, &inheritable, 0)) {
+        HANDLE handles[2 + SHARED_HANDLES] = {input, to};
+        memcpy(handles + 2, shared_handles, shared_count * sizeof *shared_handles);
+        child->process = spawn(line, handles, 2 + (shares ? shared_count : 0), job);
     }
     if (child->process == NULL) describe(GetLastError(), why, why_size);
     free(line);
-    close_all((const HANDLE[]){input, to[0], to[1]}, 3);
-    child->output[0] = from[0];
-    child->output[1] = from[1];
-    if (child->process == NULL) close_all((const HANDLE[]){job, from[0], from[1]}, 3);
+    close_all((const HANDLE[]){input, to}, 2);
+    if (child->process == NULL) close_all((const HANDLE[]){job, child->output}, 2);
     return child->process != NULL;
 }
 
 int32_t prim_child_id(const prim_child *child) { return (int32_t)GetProcessId(child->process); }
 
-int prim_child_read(prim_child *child, char *buffer, size_t size) {
+bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size) {
     for (bool ended = false;; ended = WaitForSingleObject(child->process, OUTPUT_POLL_MS) == WAIT_OBJECT_0) {
-        for (int i = 0; i < 2; i++) {
-            DWORD ready = 0, count = 0;
-            if (!PeekNamedPipe(child->output[i], NULL, 0, NULL, &ready, NULL) || ready == 0) continue;
-            if (!ReadFile(child->output[i], buffer, (DWORD)size / 4, &count, NULL) || count == 0) continue; /* UTF-8 may be longer */
+        DWORD ready = 0, count = 0;
+        if (PeekNamedPipe(child->output, NULL, 0, NULL, &ready, NULL) && ready > 0 &&
+            ReadFile(child->output, buffer, (DWORD)size / 4, &count, NULL) && count > 0) { /* UTF-8 may be longer */
             buffer[count] = '\0';
             to_utf8_in_place(jvm_code_page(), buffer, size);
-            return i + 1;
+            return true;
         }
-        if (ended) return 0;
+        if (ended || prim_now() >= deadline) return false;
     }
 }
 
-/* Crashes have codes beyond those of signed numbers. */
+/* The codes of crashes exceed INT_MAX. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
-    if (!reap(child->process, deadline, status)) return false;
-    *status &= INT_MAX;
-    close_all((const HANDLE[]){child->process, child->job, child->output[0], child->output[1]}, 4);
+    DWORD code;
+    if (WaitForSingleObject(child->process, limit_of(deadline)) != WAIT_OBJECT_0 || !GetExitCodeProcess(child->process, &code)) return false;
+    *status = (int)(code & INT_MAX);
+    close_all((const HANDLE[]){child->process, child->job, child->output}, 3);
+    *child = (prim_child){0};
     return true;
 }
 

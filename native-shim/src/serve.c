@@ -14,31 +14,21 @@
 static struct {
     uint8_t *memory;
     struct channel *channel;
-    struct block **blocks; /* by number, created at their first use */
-    uint32_t block_count;
+    struct block **blocks; /* by offset / CHANNEL_ALIGNMENT, created at their first use */
     uint64_t reported; /* of host_wrapped() */
 } serve;
 
 /* Returns this process's view of a block, whose ByteBuffer is created once. NULL if out of memory, with the last error set. */
 static struct block *block_at(const struct channel_block *place) {
-    if (place->number >= serve.block_count) {
-        uint32_t count = place->number * 2 + 64;
-        struct block **blocks = realloc(serve.blocks, count * sizeof(struct block *));
-        if (blocks == NULL) goto out_of_memory;
-        for (uint32_t i = serve.block_count; i < count; i++) blocks[i] = NULL;
-        serve.blocks = blocks;
-        serve.block_count = count;
-    }
-    struct block **block = &serve.blocks[place->number];
+    struct block **block = &serve.blocks[place->offset / CHANNEL_ALIGNMENT];
+    if (*block != NULL) return *block;
+    *block = malloc(sizeof **block);
     if (*block == NULL) {
-        *block = malloc(sizeof **block);
-        if (*block == NULL) goto out_of_memory;
+        error_set(CLK_MEMORY, "out of memory in the JVM's process for a slot of %d bytes", place->capacity);
+    } else {
         **block = (struct block){.address = serve.memory + place->offset, .capacity = place->capacity};
     }
     return *block;
-out_of_memory:
-    error_set(CLK_MEMORY, "out of memory in the JVM's process for %u slots", place->number);
-    return NULL;
 }
 
 /* The parent must never see a result of the past, so the fields are set before each `done`. */
@@ -48,12 +38,11 @@ static void answer(int32_t result) {
     serve.channel->wrapped = wrapped - serve.reported;
     serve.reported = wrapped;
     if (result < 0) text_export(error_last(), serve.channel->text, ERROR_CAPACITY);
-    prim_shared_post(&serve.channel->done);
+    prim_semaphore_post(&serve.channel->done);
 }
 
 static void await_request(void) {
-    while (!prim_shared_wait_until(&serve.channel->request, INT64_MAX)) {
-    }
+    prim_semaphore_wait(&serve.channel->request);
 }
 
 static bool grow(struct host_call *call, int32_t capacity) {
@@ -112,7 +101,8 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     host_text(env, token, text, sizeof text);
     serve.memory = prim_child_attach(text);
     serve.channel = (struct channel *)(void *)serve.memory;
-    if (serve.memory == NULL || serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel) {
+    serve.blocks = calloc(PRIM_SHARED_BYTES / CHANNEL_ALIGNMENT, sizeof(struct block *)); /* only used pages need memory */
+    if (serve.memory == NULL || serve.blocks == NULL || serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel) {
         jclass error = (*env)->FindClass(env, "java/lang/IllegalStateException");
         (*env)->ThrowNew(env, error, "only the shim of the same version starts this class, for the JVM in a process of its own");
         return;

@@ -32,8 +32,7 @@ static struct {
 
     uint8_t *shared; /* NULL until slots_share; then all blocks come from there, and their ranges are never split */
     uint64_t shared_end;
-    struct block *newest;                   /* of the shared blocks, which are never freed */
-    struct block *discarded[MAX_CLASS + 1]; /* shared blocks without memory, by class */
+    struct block *newest; /* of the shared blocks, which are never freed */
 } pool = {.mutex = PRIM_MUTEX_INIT};
 
 /* ---- Blocks (under the mutex) ---------------------------------------------------------------------------------------- */
@@ -44,30 +43,7 @@ static int class_of(int32_t capacity) {
     return class;
 }
 
-/* A block without memory; NULL if the address space is used up. */
-static struct block *shared_reserve(int class) {
-    struct block *block = pool.discarded[class];
-    if (block != NULL) {
-        pool.discarded[class] = block->next;
-        return block;
-    }
-    if (PRIM_SHARED_BYTES - pool.shared_end < (uint64_t)1 << class || (block = malloc(sizeof *block)) == NULL) return NULL;
-    *block =
-        (struct block){.address = pool.shared + pool.shared_end, .offset = pool.shared_end, .capacity = 1 << class, .older = pool.newest};
-    block->number = pool.newest == NULL ? 0 : pool.newest->number + 1;
-    pool.newest = block;
-    pool.shared_end += (uint64_t)1 << class;
-    return block;
-}
-
-static struct block *shared_create(int class) {
-    struct block *block = shared_reserve(class);
-    if (block == NULL || prim_shared_commit(block->offset, (uint64_t)block->capacity)) return block;
-    block->next = pool.discarded[class];
-    pool.discarded[class] = block;
-    return NULL;
-}
-
+/* Both return a new block, NULL if out of memory; a shared one has only its address. */
 static struct block *private_create(int class) {
     struct block *block = malloc(sizeof *block);
     uint8_t *address = prim_allocate((size_t)1 << class);
@@ -80,39 +56,54 @@ static struct block *private_create(int class) {
     return NULL;
 }
 
+static struct block *shared_create(int class) {
+    struct block *block = PRIM_SHARED_BYTES - pool.shared_end < (uint64_t)1 << class ? NULL : malloc(sizeof *block);
+    if (block == NULL) return NULL;
+    *block = (struct block){.address = pool.shared + pool.shared_end, .offset = pool.shared_end, .capacity = 1 << class, .older = pool.newest};
+    pool.newest = block;
+    pool.shared_end += (uint64_t)1 << class;
+    return block;
+}
+
+static void block_keep(struct block *block) {
+    int class = class_of(block->capacity);
+    block->next = pool.unused[class];
+    pool.unused[class] = block;
+    if (block->counted) pool.unused_bytes += (uint64_t)block->capacity;
+}
+
 static struct block *block_take(int32_t capacity) {
     int class = class_of(capacity);
     struct block *block = pool.unused[class];
     if (block != NULL) {
         pool.unused[class] = block->next;
-        pool.unused_bytes -= (uint64_t)block->capacity;
+        if (block->counted) pool.unused_bytes -= (uint64_t)block->capacity;
     } else {
         block = pool.shared != NULL ? shared_create(class) : private_create(class);
-        if (block == NULL) {
-            error_set(CLK_MEMORY, "out of native memory for a slot of %d bytes", 1 << class);
-            return NULL;
-        }
-        pool.bytes += (uint64_t)block->capacity;
     }
+    if (block != NULL && !block->counted && block->offset != 0 && !prim_shared_commit(block->offset, (uint64_t)block->capacity)) {
+        block_keep(block);
+        block = NULL;
+    }
+    if (block == NULL) {
+        error_set(CLK_MEMORY, "out of native memory for a slot of %d bytes", 1 << class);
+        return NULL;
+    }
+    if (!block->counted) pool.bytes += (uint64_t)block->capacity;
+    block->counted = true;
     block->next = NULL;
     return block;
 }
 
+/* Keeps the block, or returns its memory to the system. A shared block keeps its address. */
 static void block_release(struct block *block) {
-    int class = class_of(block->capacity);
-    bool usable = pool.shared == NULL || block->offset != 0;
-    bool fits = pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES;
+    bool is_shared = block->offset != 0;
+    bool fits = pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES && is_shared == (pool.shared != NULL);
     block->abandoned = false;
-    if (usable && (fits || (block->offset != 0 && !prim_shared_discard(block->offset, (uint64_t)block->capacity)))) {
-        block->next = pool.unused[class];
-        pool.unused[class] = block;
-        pool.unused_bytes += (uint64_t)block->capacity;
-        return;
-    }
-    pool.bytes -= (uint64_t)block->capacity;
-    if (block->offset != 0) {
-        block->next = pool.discarded[class];
-        pool.discarded[class] = block;
+    block->counted = fits || (is_shared && !prim_shared_discard(block->offset, (uint64_t)block->capacity));
+    if (!block->counted) pool.bytes -= (uint64_t)block->capacity;
+    if (is_shared || fits) {
+        block_keep(block);
     } else if (block->wrapper == NULL) {
         slots_free(block);
     } else {

@@ -12,9 +12,9 @@
 struct block {
     uint8_t *address;
     uint64_t offset;  /* in the memory shared with the JVM's own process, where no block begins at 0; 0: in memory of this process only */
-    uint32_t number;  /* of the shared block, from 0 on; its place and size never change */
     int32_t capacity; /* a power of two */
     int32_t pins;     /* calls of the host that use it now */
+    bool counted;     /* in the pool's bytes: it has memory */
     bool abandoned;   /* no slot owns it: the last unpin returns it to the pool */
     void *wrapper;    /* global reference to its direct ByteBuffer, or NULL; engine thread only, while pinned */
     struct block *older; /* the shared block created before */

@@ -31,7 +31,7 @@ namespace Collektive.Unity.Editor
             return lines;
         }
 
-        /// <summary>Which JVM has a process for itself, since when, and its memory.</summary>
+        /// <summary>Describes a JVM in a separate process: id, start time and heap.</summary>
         internal static string OfProcess(JvmStatus status) => FormattableString.Invariant(
             $"process {status.Process}, since {DateTime.Now - status.Uptime:HH:mm:ss}, heap {status.HeapUsed >> 20} of {status.HeapMaximum >> 20} MB");
 

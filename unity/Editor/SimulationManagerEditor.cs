@@ -1,3 +1,4 @@
+using Collektive.Bridge;
 using UnityEditor;
 using UnityEngine;
 
@@ -21,7 +22,7 @@ namespace Collektive.Unity.Editor
             DrawDefaultInspector();
             if (EditorApplication.isPlaying && manager.Programs.Count > 0)
                 EditorGUILayout.HelpBox(
-                    "Settings take effect at the next Play. Changed JVM settings require a restart of the editor.", MessageType.Info);
+                    "Settings take effect at the next Play, changed JVM settings " + Jvm.WhenChangesTakeEffect + ".", MessageType.Info);
             else DrawPrograms(manager.Settings);
             DrawJvm(manager.Settings.jvm);
             if (EditorApplication.isPlaying) DrawDashboard(manager);

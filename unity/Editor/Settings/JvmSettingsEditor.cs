@@ -31,14 +31,27 @@ namespace Collektive.Unity.Editor
             serializedObject.ApplyModifiedProperties();
         }
 
-        /// <summary>A JVM in its own process can end between plays; the next Play starts another.</summary>
+        /// <summary>Draws the state of a JVM in a separate process, which can be restarted between plays.</summary>
         private void DrawProcess()
         {
             if (Jvm.Process == 0 || Jvm.State != JvmState.Running) return;
             if (report.Status != null) EditorGUILayout.LabelField("JVM", Dashboard.OfProcess(report.Status));
             using (new EditorGUI.DisabledScope(Application.isPlaying))
             {
-                if (GUILayout.Button("Restart JVM")) Jvm.Stop(StopLimitMs);
+                if (GUILayout.Button("Restart JVM")) Stop();
+            }
+        }
+
+        /// <summary>The next Play starts a new JVM.</summary>
+        private void Stop()
+        {
+            try
+            {
+                Jvm.Stop(StopLimitMs);
+            }
+            catch (BridgeException error)
+            {
+                Debug.LogWarning(error.Message, target);
             }
         }
 
@@ -55,7 +68,7 @@ namespace Collektive.Unity.Editor
         /// <summary>Checks the settings again if they or the JVM's state changed.</summary>
         private void Check(JvmSettings settings)
         {
-            var now = Jvm.State + TextOf(settings);
+            var now = Jvm.State + " " + Jvm.Process + TextOf(settings);
             if (now == reported) return;
             reported = now;
             report = JvmReport.Of(settings, Installation.ToLaunch);

@@ -232,7 +232,7 @@ namespace Collektive.Headless.Tests.Editor
             inspector.OnInspectorGUI();
             Assert.That(inspector.RequiresConstantRepaint(), Is.True);
             foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Messages: 3 sent, 0 dropped, 0 delayed, 0 expired",
-                "label Tick: 1 (0.05 s)", "label JVM: running", "label Errors: 0" })
+                "label Tick: 1 (0.05 s)", "label JVM: " + TestJvm.Running, "label Errors: 0" })
             {
                 Assert.That(Gui.Lines, Has.Some.EqualTo(line));
             }

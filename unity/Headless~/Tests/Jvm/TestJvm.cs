@@ -26,12 +26,15 @@ namespace Collektive.Headless.Tests
             placement = Placement, maximumHeapMb = 256, collector = JvmCollector.Serial, cdsArchive = false,
         };
 
-        /// <summary>Each test runs in both.</summary>
+        /// <summary>The placement of this run of the tests.</summary>
         internal static JvmPlacement Placement { get; } = (JvmPlacement)Enum.Parse(
             typeof(JvmPlacement), Environment.GetEnvironmentVariable("COLLEKTIVE_TEST_PLACEMENT") ?? nameof(JvmPlacement.InProcess));
 
         /// <summary>When the inspector says that changed settings take effect.</summary>
-        internal static string WhenChangesTakeEffect => Placement == JvmPlacement.OwnProcess ? "at the next Play" : "after an editor restart";
+        internal static string WhenChangesTakeEffect => Placement == JvmPlacement.OwnProcess ? "at the next Play" : "after a restart of the editor";
+
+        /// <summary>The state of a running JVM in the dashboard.</summary>
+        internal static string Running => Placement == JvmPlacement.OwnProcess ? "running, process " + Jvm.Process : "running";
 
         internal static JvmLaunch Launch(JvmSettings settings) => settings.ToLaunch(Home, HostJar, "unused");
 

@@ -18,8 +18,8 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// The JVM of this process. It is started once, or again if it runs in its own process, and outlives sessions, play modes and C# domains; a
-    /// fresh domain finds it running. All members may be called from any thread.
+    /// The JVM of this process. It outlives sessions, play modes and C# domains: a fresh domain finds it running. Only a JVM in a separate process
+    /// can be started again. All members may be called from any thread.
     /// </summary>
     public static unsafe class Jvm
     {
@@ -33,8 +33,11 @@ namespace Collektive.Bridge
         /// <summary>Steps that reached the JVM since the process began, over all sessions.</summary>
         internal static ulong StepCalls => Stats.Steps;
 
-        /// <summary>Number of the process that the JVM has for itself, or had until its end; 0 if it is in this process, or none was started.</summary>
+        /// <summary>Process id of the last JVM in a separate process, running or not; 0 if it ran in this process or none was started.</summary>
         internal static int Process => Stats.Process;
+
+        /// <summary>For messages: when changed settings take effect.</summary>
+        internal static string WhenChangesTakeEffect => Process != 0 ? "at the next Play" : "after a restart of the editor";
 
         private static Shim.Stats Stats
         {
@@ -78,7 +81,7 @@ namespace Collektive.Bridge
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
 
-        /// <summary>The same as <see cref="GetStatus"/>, or null when no JVM runs or it has just ended.</summary>
+        /// <summary>Returns the same as <see cref="GetStatus"/>, or null if no JVM runs.</summary>
         internal static JvmStatus TryGetStatus()
         {
             try

@@ -12,7 +12,7 @@ namespace Collektive.Bridge
         private readonly Dictionary<string, string> problems = new Dictionary<string, string>();
         private readonly JvmStatus status;
 
-        /// <summary>The JVM that runs; null when none does.</summary>
+        /// <summary>The running JVM; null if none runs.</summary>
         internal JvmStatus Status => status;
 
         private JvmReport(JvmStatus status)
@@ -73,7 +73,7 @@ namespace Collektive.Bridge
             }
             var isSeparate = status.Process != 0;
             if (launch.Home == status.Home && Same(launch.Options, status.Options) && isSeparate == (launch.Placement == JvmPlacement.OwnProcess)) return;
-            Notice = "Changes take effect " + (isSeparate ? "at the next Play" : "after a restart of the editor") + ". The running JVM has: " +
+            Notice = "Changes take effect " + Jvm.WhenChangesTakeEffect + ". The running JVM has: " +
                 (status.Options.Count == 0 ? "no options" : string.Join(" ", status.Options)) + " (" + status.Home + ").";
         }
 

@@ -38,11 +38,11 @@ namespace Collektive.Bridge
                 "Root folder of a JRE or JDK 17 or newer, for the location Folder.", status => status.Home),
             new JvmSetting(
                 nameof(JvmSettings.placement), "Placement",
-                "In Process: on a thread of this process. Own Process: a crash of the JVM ends only the session, and changed settings take effect at " +
-                "the next Play.", status => status.Process == 0 ? nameof(JvmPlacement.InProcess) : "OwnProcess, process " + status.Process),
+                "In Process: on a thread of the editor. Own Process: in a child process. A crash of the JVM then ends only the session, and changed " +
+                "settings take effect at the next Play.", status => status.Process == 0 ? nameof(JvmPlacement.InProcess) : "OwnProcess, process " + status.Process),
             new JvmSetting(
                 nameof(JvmSettings.keepWarm), "Keep warm",
-                "Keep the JVM in its own process between plays. Off: it ends with each Play, and the next one starts a new JVM.", status => ""),
+                "For Own Process: keep the JVM running between plays. Off: each Play starts a new JVM.", status => ""),
             new JvmSetting(
                 nameof(JvmSettings.initialHeapMb), "Initial heap",
                 "Heap size at the start. Set it to the maximum heap to avoid growth. 0: the JVM's default.",

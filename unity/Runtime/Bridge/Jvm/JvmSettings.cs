@@ -18,12 +18,12 @@ namespace Collektive.Bridge
         Folder,
     }
 
-    /// <summary>Where the JVM runs. Programs, frames and digests are the same.</summary>
+    /// <summary>The process that the JVM runs in. Results are the same.</summary>
     public enum JvmPlacement
     {
-        /// <summary>On a thread of this process: the least to start and to watch over, and one JVM until the process ends.</summary>
+        /// <summary>On a thread of this process, which can start only one JVM.</summary>
         InProcess,
-        /// <summary>In a process of its own, over shared memory: a crash ends only the session, and the next one may have other settings.</summary>
+        /// <summary>In a child process over shared memory. A crash ends only the session, and the next one can have other settings.</summary>
         OwnProcess,
     }
 

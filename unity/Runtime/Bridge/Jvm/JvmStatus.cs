@@ -50,10 +50,10 @@ namespace Collektive.Bridge
         /// <summary>The options it was started with.</summary>
         public IReadOnlyList<string> Options { get; }
 
-        /// <summary>Number of the process that it has for itself; 0 if it runs in this process.</summary>
+        /// <summary>Process id of a JVM in a separate process; 0 if it runs in this process.</summary>
         public int Process { get; }
 
-        /// <summary>Time since its start.</summary>
+        /// <summary>Time since the start of the JVM.</summary>
         public TimeSpan Uptime { get; }
 
         /// <summary>Bytes of the heap in use.</summary>

@@ -20,8 +20,8 @@ namespace Collektive.Unity
             return Session.Open(settings.ToSession(schema), schema);
         }
 
-        /// <summary>Ends a JVM in its own process after its last session, unless the settings keep it.</summary>
-        /// <exception cref="BridgeException">It did not end in time and was killed.</exception>
+        /// <summary>Stops a JVM in a separate process after its session, unless the settings keep it.</summary>
+        /// <exception cref="BridgeException">The JVM did not end within the time limit and was killed.</exception>
         internal static void Close(SimulationSettings settings)
         {
             if (settings.jvm != null && !settings.jvm.settings.keepWarm && Jvm.Process != 0 && Jvm.State == JvmState.Running) Jvm.Stop(StopLimitMs);
@@ -37,7 +37,7 @@ namespace Collektive.Unity
             }
             catch (BridgeException error) when (error.Error == BridgeError.JvmRunning)
             {
-                Debug.LogWarning(error.Message + " The running JVM is used; the new settings take effect after a restart of the editor.", context);
+                Debug.LogWarning(error.Message + " The running JVM is used; the new settings take effect " + Jvm.WhenChangesTakeEffect + ".", context);
             }
         }
     }

@@ -225,7 +225,7 @@ namespace Collektive.Unity
             try
             {
                 session?.Dispose();
-                if (session != null) Opening.Close(Settings);
+                if (session != null) SessionStart.Close(Settings);
             }
             catch (BridgeException error)
             {
