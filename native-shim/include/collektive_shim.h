@@ -141,7 +141,8 @@ CLK_API int32_t clk_jvm_description(char *buffer, int32_t capacity);
  * (which save flight recordings) and destroys it. Java threads that do not end are halted where they are.
  *   CLK_OK        the JVM has ended, or none was ever started
  *   CLK_TIMEOUT   the JVM did not end within the limit. If possible, its threads were halted so that the process can exit; the state is then
- *                 CLK_STATE_STOPPED. A process of its own is killed. Halting takes up to 10 s more because it waits for a garbage collection to end.
+ *                 CLK_STATE_STOPPED. Halting takes up to 10 s more because it waits for a garbage collection to end. A separate process is
+ *                 killed.
  *   CLK_JVM_LOST  the JVM was lost; if possible, its threads were halted */
 CLK_API int32_t clk_jvm_stop(int32_t limit_ms);
 

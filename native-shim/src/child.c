@@ -131,7 +131,8 @@ static int32_t fill_arguments(const struct launch *launch) {
     static char native[] = "--enable-native-access=ALL-UNNAMED";
     snprintf(java, sizeof java, "%s/" PRIM_JAVA, launch->home);
     if (!prim_executable(java))
-        return error_set(CLK_JVM_NOT_FOUND, "%s is missing or not executable; the JVM's own process needs it: reinstall the JVM", java);
+        return error_set(CLK_JVM_NOT_FOUND,
+                         "%s is missing or not executable; make it executable, reinstall the JVM, or run the JVM in this process", java);
     if (!prim_library_path(library, sizeof library) || !prim_jvm_can_decode(library))
         return error_set(CLK_HOST, "the JVM cannot decode the path of the shim's library, or it is too long; move the package");
     prim_child_token(token, sizeof token);
@@ -241,7 +242,7 @@ int32_t child_run(struct host_call *call, int64_t deadline) {
     bool has_frames = call->entry < HOST_CALLS;
     if (has_frames && (call->request->offset == 0 || call->answer->offset == 0)) {
         return error_set(CLK_ARGUMENT,
-                         "the slot was acquired before the first JVM in a process of its own; release it and acquire another");
+                         "the slot was acquired before the first JVM in a separate process started; release it and acquire another");
     }
     channel->call.entry = (int32_t)call->entry;
     channel->call.session = call->session;

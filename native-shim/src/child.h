@@ -1,5 +1,5 @@
 /*
- * The JVM in a process of its own, seen from the caller's process: start, calls and end of the child. A thread for each child starts it, reads
+ * The JVM in a separate process, seen from the caller's process: start, calls and end of the child. A thread for each child starts it, reads
  * its output and learns of its end. All functions need the turn, unless stated otherwise.
  */
 #ifndef COLLEKTIVE_CHILD_H
@@ -10,7 +10,7 @@
 #include "host.h"
 #include "launch.h"
 
-/* Returns whether the last start was one in a process of its own. Any thread. */
+/* Returns whether the last start was one in a separate process. Any thread. */
 bool child_is_used(void);
 void child_use(bool used);
 

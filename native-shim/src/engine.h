@@ -25,7 +25,7 @@ int32_t engine_check_running(void);
 /* Sets the state to lost and wakes all waiting callers. Only the first reason is kept. */
 __attribute__((format(printf, 1, 2))) void engine_lose(const char *format, ...);
 
-/* Sets the state to none, also after a loss: another JVM may follow in a process of its own. Needs the turn. */
+/* Sets the state to none, also after a loss: another JVM may follow in a separate process. Needs the turn. */
 void engine_reset(void);
 
 /* Sets the state to stopped and wakes all waiting callers; for a thread that does not return. */

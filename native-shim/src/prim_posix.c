@@ -371,7 +371,8 @@ bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *
     int life[2] = {-1, -1}, output[2] = {-1, -1};
     pid_t process = 0;
     int failure = make_ends(output, true) && make_ends(life, false) ? 0 : errno;
-    if (failure == 0) failure = spawn(argv, (const int[]){output[1], output[1], life[1], shared}, shares ? CHILD_MEMORY : CHILD_LIFE, &process);
+    if (failure == 0)
+        failure = spawn(argv, (const int[]){output[1], output[1], life[1], shared}, shares ? CHILD_MEMORY : CHILD_LIFE, &process);
     close_all((const int[]){output[1], life[1]}, 2);
     *child = (prim_child){.process = process, .life = life[0], .output = output[0]};
     if (failure == 0) return true;

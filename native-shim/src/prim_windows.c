@@ -392,9 +392,11 @@ static wchar_t *command_line(char *const argv[]) {
 /* Starts a program in a job, which includes its children, and lets it inherit only these handles: its input, its output and others. NULL if it
  * does not start. */
 static HANDLE spawn(wchar_t *line, HANDLE handles[], DWORD count, HANDLE job) {
-    STARTUPINFOEXW startup = {
-        .StartupInfo = {
-            .cb = sizeof startup, .dwFlags = STARTF_USESTDHANDLES, .hStdInput = handles[0], .hStdOutput = handles[1], .hStdError = handles[1]}};
+    STARTUPINFOEXW startup = {.StartupInfo = {.cb = sizeof startup,
+                                              .dwFlags = STARTF_USESTDHANDLES,
+                                              .hStdInput = handles[0],
+                                              .hStdOutput = handles[1],
+                                              .hStdError = handles[1]}};
     PROCESS_INFORMATION child = {0};
     SIZE_T size = 0;
     InitializeProcThreadAttributeList(NULL, 1, 0, &size);
@@ -469,7 +471,8 @@ bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t s
 /* The codes of crashes exceed INT_MAX. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
     DWORD code;
-    if (WaitForSingleObject(child->process, limit_of(deadline)) != WAIT_OBJECT_0 || !GetExitCodeProcess(child->process, &code)) return false;
+    if (WaitForSingleObject(child->process, limit_of(deadline)) != WAIT_OBJECT_0 || !GetExitCodeProcess(child->process, &code))
+        return false;
     *status = (int)(code & INT_MAX);
     close_all((const HANDLE[]){child->process, child->job, child->output}, 3);
     *child = (prim_child){0};

@@ -15,7 +15,7 @@ static struct {
     uint8_t *memory;
     struct channel *channel;
     struct block **blocks; /* by offset / CHANNEL_ALIGNMENT, created at their first use */
-    uint64_t reported; /* of host_wrapped() */
+    uint64_t reported;     /* of host_wrapped() */
 } serve;
 
 /* Returns this process's view of a block, whose ByteBuffer is created once. NULL if out of memory, with the last error set. */
@@ -41,9 +41,7 @@ static void answer(int32_t result) {
     prim_semaphore_post(&serve.channel->done);
 }
 
-static void await_request(void) {
-    prim_semaphore_wait(&serve.channel->request);
-}
+static void await_request(void) { prim_semaphore_wait(&serve.channel->request); }
 
 static bool grow(struct host_call *call, int32_t capacity) {
     serve.channel->capacity = capacity;
@@ -102,9 +100,10 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     serve.memory = prim_child_attach(text);
     serve.channel = (struct channel *)(void *)serve.memory;
     serve.blocks = calloc(PRIM_SHARED_BYTES / CHANNEL_ALIGNMENT, sizeof(struct block *)); /* only used pages need memory */
-    if (serve.memory == NULL || serve.blocks == NULL || serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel) {
+    if (serve.memory == NULL || serve.blocks == NULL || serve.channel->version != CLK_VERSION ||
+        serve.channel->size != sizeof *serve.channel) {
         jclass error = (*env)->FindClass(env, "java/lang/IllegalStateException");
-        (*env)->ThrowNew(env, error, "only the shim of the same version starts this class, for the JVM in a process of its own");
+        (*env)->ThrowNew(env, error, "only the shim of the same version starts this class, for a JVM in a separate process");
         return;
     }
     log_share(&serve.channel->log, true);

@@ -59,7 +59,8 @@ static struct block *private_create(int class) {
 static struct block *shared_create(int class) {
     struct block *block = PRIM_SHARED_BYTES - pool.shared_end < (uint64_t)1 << class ? NULL : malloc(sizeof *block);
     if (block == NULL) return NULL;
-    *block = (struct block){.address = pool.shared + pool.shared_end, .offset = pool.shared_end, .capacity = 1 << class, .older = pool.newest};
+    *block =
+        (struct block){.address = pool.shared + pool.shared_end, .offset = pool.shared_end, .capacity = 1 << class, .older = pool.newest};
     pool.newest = block;
     pool.shared_end += (uint64_t)1 << class;
     return block;

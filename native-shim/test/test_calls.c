@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
+#include "prim.h"
 #include "test.h"
 
 /* ---- Answers --------------------------------------------------------------------------------------------------------- */
@@ -66,8 +67,9 @@ void one_wrapper_for_each_memory(void) {
         CHECK_OK(clk_slot_release(large));
         CHECK_OK(step(session, EMPTY, 0, 60000));
     }
-    /* The memory of the same place keeps its wrapper in the JVM's own process. */
-    CHECK(stats().wrapped == (placement == CLK_OWN_PROCESS ? 3 : 5) && stats().slot_bytes < 1 << 27);
+    /* Memory at the same place keeps its wrapper in a separate process. Only Linux returns shared memory to the system. */
+    CHECK(stats().wrapped == (placement == CLK_OWN_PROCESS ? 3 : 5));
+    CHECK(stats().slot_bytes < 1 << 27 || (placement == CLK_OWN_PROCESS && strcmp(PRIM_SYSTEM, "Linux") != 0));
 }
 
 /* ---- Control --------------------------------------------------------------------------------------------------------- */

@@ -1,4 +1,8 @@
-"""Runs the C# tests on one runtime and one JVM: `csharp.py RESULTS JDK RUNTIME [OPTION OF THE TEST RUNNER]...`."""
+"""Runs the C# tests on one runtime and one JVM: `csharp.py RESULTS JDK RUNTIME [OPTION OF THE TEST RUNNER]...`.
+
+With COLLEKTIVE_TEST_PLACEMENT=OwnProcess the JVM runs in a separate process. Tests of the category OwnProcess need that.
+"""
+import os
 import re
 import subprocess
 import sys
@@ -17,6 +21,8 @@ def run(results: Path, jdk: str, runtime: str, options: list[str]) -> int:
     jar = projects.programs_jar(inputs.schema(PROBE / "probe.fbs"), inputs.programs(PROBE / "programs"))
     environment = {**managed.environment(runtime), "COLLEKTIVE_ROOT": str(ROOT), "COLLEKTIVE_HOST_JAR": str(HOST_JAR),
                    "COLLEKTIVE_TEST_JAVA_HOME": jdk, "COLLEKTIVE_PROBE_JAR": str(jar)}
+    if os.environ.get("COLLEKTIVE_TEST_PLACEMENT") != "OwnProcess":
+        options = [*options, "--without", "OwnProcess"]
     command = managed.command(runtime, CSHARP / "Collektive.TestRunner.exe", "--results", results / "csharp.xml", *options,
                               CSHARP / "Collektive.Headless.Tests.dll")
     process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True, errors="replace")
