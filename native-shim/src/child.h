@@ -1,6 +1,6 @@
 /*
  * The JVM in a separate process, seen from the caller's process: start, calls and end of the child. A thread for each child starts it, reads
- * its output and learns of its end. All functions need the turn, unless stated otherwise.
+ * its output and waits for its end. All functions need the turn, unless stated otherwise.
  */
 #ifndef COLLEKTIVE_CHILD_H
 #define COLLEKTIVE_CHILD_H

@@ -68,7 +68,7 @@ void log_format(int32_t level, const char *format, ...) {
     log_write(level, text, (size_t)length < sizeof text ? length : (int32_t)sizeof text - 1);
 }
 
-/* Removes the oldest record. False if there is none. Checks what it reads, because a child that crashes may have overwritten its ring. */
+/* Removes the oldest record. False if the ring is empty. Checks what it reads, because a child that crashes may have overwritten its ring. */
 static bool ring_take(struct log_ring *ring, struct record *record, char *text) {
     uint32_t head = atomic_load_explicit(&ring->head, memory_order_relaxed), used = atomic_load(&ring->tail) - head;
     if (used == 0) return false;

@@ -19,7 +19,7 @@ struct log_ring {
     char bytes[LOG_RING_BYTES];
 };
 
-/* Shares a zeroed ring in memory of both processes: the child writes to it instead of its own ring, and the parent also reads it. Once. */
+/* Shares a zeroed ring in memory of both processes: only the child writes to it, and the parent also reads it. Once. */
 void log_share(struct log_ring *ring, bool is_child);
 
 /* Adds a line. Any thread, including those of the JVM: does not call JNI, and holds one lock for the duration of a copy. */

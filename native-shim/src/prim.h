@@ -82,7 +82,7 @@ void prim_lock(prim_mutex *mutex);
 void prim_unlock(prim_mutex *mutex);
 
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
-/* The same with count 0 for a semaphore in shared memory, zeroed at first, which a child uses too. Call it again while there is no child. */
+/* The same with count 0 for a semaphore in shared memory, zeroed at first, which a child uses too. Call it again only after the end of the child. */
 void prim_semaphore_share(prim_semaphore *semaphore);
 void prim_semaphore_post(prim_semaphore *semaphore);
 bool prim_semaphore_try(prim_semaphore *semaphore);
@@ -182,8 +182,8 @@ bool prim_library_path(char *path, size_t size);
 bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);
 
-/* A child process without input. It may share the memory of prim_shared_reserve, and then ends with this process; it inherits nothing else, and
- * nothing by name. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and prim_child_reap. */
+/* A child process without input. It may share the memory of prim_shared_reserve, and then ends with this process; it inherits only
+ * that and its output, without names. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and prim_child_reap. */
 
 /* Starts a program. False on failure, with the reason in `why`. */
 bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size);

@@ -90,7 +90,7 @@ static int32_t start(JNIEnv *env) {
     return result == CLK_OK ? host_start(serve.channel->text, ERROR_CAPACITY) : result;
 }
 
-/* org.collektive.host.Main.serve(token): returns when the JVM shall end. JNIEXPORT is that of another platform (CMakeLists.txt). */
+/* org.collektive.host.Main.serve(token): returns when the JVM must end. CLK_API replaces JNIEXPORT, which belongs to another platform (CMakeLists.txt). */
 CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass class, jstring token);
 
 CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass class, jstring token) {
