@@ -102,3 +102,13 @@ class SamplesTest(Folder):
         self.assertLess(rows[-1]["bumps"], 100)
         self.assertGreater(max(row["warned"] for row in rows), 20, "it was dense where they met")
         self.assertEqual(rows[-1]["warned"], 0)
+
+    def test_each_sample_has_the_same_digest_in_both_placements_of_the_jvm(self) -> None:
+        for sample in ["Channel", "Crowd", "GradientAscent", "LeaderElection", "Rescue", "Swarm"]:
+            digests = set()
+            for placement in ["InProcess", "OwnProcess"]:
+                self.rows(sample, seconds=2, jvm={"placement": placement})
+                with open(self.path("out", "manifest.json")) as file:
+                    digests.add(json.load(file)["digest"])
+                shutil.rmtree(self.path("samples"))
+            self.assertEqual(len(digests), 1, sample)
