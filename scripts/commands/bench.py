@@ -46,8 +46,8 @@ def _rounds(arguments: argparse.Namespace) -> int:
 
 
 def _tick(arguments: argparse.Namespace) -> int:
-    """Measures a tick in five variants, interleaved in one run: in-process (this product), one call per node, frames over a TCP socket, rounds
-    without the boundary, and hand-written loops. Also measures an empty tick and the addition of nodes, and prints the targets.
+    """Measures a tick in six variants in one run: in-process (this product), the JVM in a separate process, one call per node, frames over a TCP
+    socket, rounds without the boundary, and hand-written loops. Also measures an empty tick and the addition of nodes, and prints the targets.
     --quick takes under two minutes on two idle cores. Without it, there are more ticks and a run of 20,000 ticks for pauses and memory."""
     graph.build("runtime", "jvm_modules", "Collektive.Headless.Bench.exe")
     words = ["--quick"] if arguments.quick else []
