@@ -182,8 +182,9 @@ bool prim_library_path(char *path, size_t size);
 bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);
 
-/* A child process without input. It may share the memory of prim_shared_reserve, and then ends with this process; it inherits only
- * that and its output, without names. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and prim_child_reap. */
+/* A child process without input. It may share the memory of prim_shared_reserve, and then ends with this process. It inherits only that and its
+ * output, without names. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and
+ * prim_child_reap. */
 
 /* Starts a program. False on failure, with the reason in `why`. */
 bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size);

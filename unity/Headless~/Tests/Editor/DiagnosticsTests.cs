@@ -302,6 +302,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Gui.Lines, Has.Some.EqualTo("property Maximum heap (MB): 0"));
             Assert.That(Gui.Lines, Has.Some.EqualTo("label  : in effect: 256 MB"));
             Assert.That(Gui.Lines, Has.Some.Contains("Changes take effect " + TestJvm.WhenChangesTakeEffect));
+            if (TestJvm.Placement == JvmPlacement.OwnProcess) Assert.That(Gui.Lines, Has.Some.StringStarting("label JVM: process "));
             Assert.That(Gui.Lines, Has.None.Contains("help Error"));
             Gui.Act("Maximum heap (MB)", 3);
             inspector.OnInspectorGUI();

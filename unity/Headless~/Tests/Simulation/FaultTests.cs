@@ -468,10 +468,25 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Configure("double", settings => settings.jvm.settings.compileThreshold = 50);
             Play(2);
-            const string told = "The running JVM is used; the new settings take effect after a restart of the editor.";
-            Assert.That(Log.Any(line => line.Contains(told)), Is.EqualTo(TestJvm.Placement == JvmPlacement.InProcess));
+            const string warning = "The running JVM is used; the new settings take effect after a restart of the editor.";
+            Assert.That(Log.Any(line => line.Contains(warning)), Is.EqualTo(TestJvm.Placement == JvmPlacement.InProcess));
             Assert.That(Jvm.GetStatus().Options.Contains("-XX:CompileThresholdScaling=0.5"), Is.EqualTo(TestJvm.Placement == JvmPlacement.OwnProcess));
             Assert.That(Manager.Tick, Is.EqualTo(2));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test, Category("OwnProcess")]
+        public void A_JVM_in_a_separate_process_stops_after_the_session_unless_it_is_kept_warm()
+        {
+            MakeNode(1);
+            Configure("double", settings => settings.jvm.settings.keepWarm = false);
+            Play(1);
+            Manager.enabled = false;
+            Assert.That(Jvm.State, Is.EqualTo(JvmState.Stopped));
+            Configure("double");
+            Play(1);
+            Manager.enabled = false;
+            Assert.That(Jvm.State, Is.EqualTo(JvmState.Running));
             Assert.That(Errors, Is.Empty);
         }
 

@@ -39,7 +39,8 @@ namespace Collektive.Bridge
             new JvmSetting(
                 nameof(JvmSettings.placement), "Placement",
                 "In Process: on a thread of the editor. Own Process: in a child process. A crash of the JVM then ends only the session, and changed " +
-                "settings take effect at the next Play.", status => status.Process == 0 ? nameof(JvmPlacement.InProcess) : "OwnProcess, process " + status.Process),
+                "settings take effect at the next Play.",
+                status => status.Process == 0 ? nameof(JvmPlacement.InProcess) : "OwnProcess, process " + status.Process),
             new JvmSetting(
                 nameof(JvmSettings.keepWarm), "Keep warm",
                 "For Own Process: keep the JVM running between plays. Off: each Play starts a new JVM.", status => ""),
