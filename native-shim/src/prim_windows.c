@@ -96,15 +96,15 @@ void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { *semaphore
 
 void prim_semaphore_post(prim_semaphore *semaphore) { ReleaseSemaphore(*semaphore, 1, NULL); }
 
-/* Created for this process and its child, in which inherited handles have the same values. */
 static SECURITY_ATTRIBUTES inheritable = {.nLength = sizeof inheritable, .bInheritHandle = TRUE};
-enum { SHARED_HANDLES = 3 }; /* the memory and two semaphores */
+/* The memory and two semaphores of this process and its child, in which they have the same values. Inherited only by that child. */
+enum { SHARED_HANDLES = 3 };
 static HANDLE shared_handles[SHARED_HANDLES];
 static DWORD shared_count;
 
 void prim_semaphore_share(prim_semaphore *semaphore) {
     if (*semaphore == NULL && shared_count < SHARED_HANDLES) {
-        *semaphore = CreateSemaphoreW(&inheritable, 0, LONG_MAX, NULL);
+        *semaphore = CreateSemaphoreW(NULL, 0, LONG_MAX, NULL);
         shared_handles[shared_count++] = *semaphore;
     }
     while (prim_semaphore_try(semaphore)) {
@@ -212,7 +212,7 @@ static uint8_t *section_view;
 
 uint8_t *prim_shared_reserve(char *why, size_t why_size) {
     if (section_view != NULL) return section_view;
-    section = CreateFileMappingW(INVALID_HANDLE_VALUE, &inheritable, PAGE_READWRITE | SEC_RESERVE, (DWORD)(PRIM_SHARED_BYTES >> 32),
+    section = CreateFileMappingW(INVALID_HANDLE_VALUE, NULL, PAGE_READWRITE | SEC_RESERVE, (DWORD)(PRIM_SHARED_BYTES >> 32),
                                  (DWORD)PRIM_SHARED_BYTES, NULL);
     if (section != NULL) section_view = MapViewOfFile(section, FILE_MAP_ALL_ACCESS, 0, 0, 0);
     if (section_view == NULL) {
@@ -434,6 +434,10 @@ static void close_all(const HANDLE handles[], int count) {
     }
 }
 
+static void inherit_shared(DWORD flag) {
+    for (DWORD i = 0; i < shared_count; i++) SetHandleInformation(shared_handles[i], HANDLE_FLAG_INHERIT, flag);
+}
+
 /* The job ends the child when this process ends, which closes its only handle. */
 bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
     HANDLE to = NULL;
@@ -444,7 +448,9 @@ bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *
     if (line != NULL && job != NULL && CreatePipe(&child->output, &to, &inheritable, 0)) {
         HANDLE handles[2 + SHARED_HANDLES] = {input, to};
         memcpy(handles + 2, shared_handles, shared_count * sizeof *shared_handles);
+        if (shares) inherit_shared(HANDLE_FLAG_INHERIT);
         child->process = spawn(line, handles, 2 + (shares ? shared_count : 0), job);
+        inherit_shared(0);
     }
     if (child->process == NULL) describe(GetLastError(), why, why_size);
     free(line);
