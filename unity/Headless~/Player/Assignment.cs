@@ -37,6 +37,12 @@ namespace Collektive.Headless
             var key = text.Substring(0, equals);
             if (key.StartsWith(Fields + ".", StringComparison.Ordinal)) field = text.Substring(Fields.Length + 1);
             else if (!Scenario.Keys.Contains(key.Split('.')[0])) field = text;
+            // A field of an object: its type is known when the scene is.
+            if (field != null && field.IndexOf('.') is var dot && dot >= 0 && dot < field.IndexOf('='))
+            {
+                key = Fields + "." + field.Substring(0, field.IndexOf('='));
+                field = null;
+            }
             return field == null ? new Assignment(key, Json(text.Substring(equals + 1))) : null;
         }
 

@@ -37,7 +37,7 @@ namespace Collektive.Headless
             return convergence;
         }
 
-        /// <summary>Finds the metrics among those of the scene.</summary>
+        /// <summary>Finds the metrics among those of the run.</summary>
         internal void Bind(IReadOnlyList<string> names)
         {
             foreach (var criterion in criteria)

@@ -148,10 +148,12 @@ namespace Collektive.Headless
             throw Error(token, NotOfType(token, key, type) + names);
         }
 
-        internal ScenarioException Error(JToken token, string message)
+        /// <param name="column">In the token's line, from 1; 0: not known.</param>
+        internal ScenarioException Error(JToken token, string message, int column = 0)
         {
             var line = (IJsonLineInfo)token;
-            return new ScenarioException(path + (line.HasLineInfo() ? ":" + line.LineNumber : "") + ": " + message);
+            var place = line.HasLineInfo() ? ":" + line.LineNumber + (column > 0 ? ":" + column : "") : "";
+            return new ScenarioException(path + place + ": " + message);
         }
 
         private static string NotOfType(JToken token, string key, Type type) =>

@@ -49,7 +49,7 @@ namespace Collektive.Headless
         /// <param name="ticks">Ticks that were done.</param>
         /// <param name="calls">Calls into the JVM.</param>
         internal void AddResults(
-            SimulationManager manager, JObject parameters, int ticks, SceneBuilder scene, IReadOnlyList<double> start, IReadOnlyList<double> end,
+            SimulationManager manager, JObject parameters, int ticks, RunMetrics metrics, IReadOnlyList<double> start, IReadOnlyList<double> end,
             double wallSeconds, ulong calls)
         {
             var description = Jvm.Description.Split('\n');
@@ -59,8 +59,8 @@ namespace Collektive.Headless
             Root.Add(new JProperty("shim_calls", calls));
             Root.Add(new JProperty("digest", manager.Digest.ToString("x16")));
             Root.Add(new JProperty("errors", manager.ErrorCount));
-            Root.Add(new JProperty("start", Metrics(scene, start)));
-            Root.Add(new JProperty("end", Metrics(scene, end)));
+            Root.Add(new JProperty("start", Metrics(metrics, start)));
+            Root.Add(new JProperty("end", Metrics(metrics, end)));
             Root.Add(new JProperty("wall_seconds", Math.Round(wallSeconds, 3)));
             Root.Add(new JProperty("versions", new JObject(
                     new JProperty("collektive", typeof(SimulationManager).Assembly.GetName().Version.ToString(3)),
@@ -101,11 +101,11 @@ namespace Collektive.Headless
             Write();
         }
 
-        private static JObject Metrics(SceneBuilder scene, IReadOnlyList<double> values)
+        private static JObject Metrics(RunMetrics metrics, IReadOnlyList<double> values)
         {
-            var metrics = new JObject();
-            for (var i = 0; i < values.Count; i++) metrics.Add(scene.MetricNames[i], Math.Round(values[i], 6));
-            return metrics;
+            var json = new JObject();
+            for (var i = 0; i < values.Count; i++) json.Add(metrics.Names[i], Math.Round(values[i], 6));
+            return json;
         }
 
         private static JObject Hashes(List<string> jars)

@@ -15,7 +15,8 @@ namespace Collektive.Headless
     internal sealed class MetricsTable : IDisposable
     {
         private readonly TextWriter writer;
-        private readonly SceneBuilder scene;
+        private readonly RunMetrics metrics;
+        private readonly SimulationManager manager;
         private static readonly string[] Counts = { "links", "sent", "dropped", "delayed", "expired" };
         private static readonly string[] Times = { "sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99" };
 
@@ -26,35 +27,35 @@ namespace Collektive.Headless
         private int ticks;
         private long sent, dropped, delayed, expired;
 
-        internal MetricsTable(string path, SceneBuilder scene)
+        internal MetricsTable(string path, RunMetrics metrics, SimulationManager manager)
         {
-            this.scene = scene;
-            values = new double[scene.MetricNames.Count];
+            this.metrics = metrics;
+            this.manager = manager;
+            values = new double[metrics.Names.Count];
             row = new double[values.Length + Counts.Length];
             writer = path == null ? TextWriter.Null : ResultFile.Create(path);
-            writer.Write("second," + string.Join(",", NamesOf(scene).Concat(Times).Select(CsvText.Header)) + "\n");
+            writer.Write("second," + string.Join(",", NamesOf(metrics).Concat(Times).Select(CsvText.Header)) + "\n");
         }
 
-        /// <summary>The scene's metrics at the last row.</summary>
+        /// <summary>The run's metrics at the last row.</summary>
         internal IReadOnlyList<double> Values => values;
 
-        /// <summary>The reproducible metrics of a row: the scene's, then those of links and messages.</summary>
-        internal static IEnumerable<string> NamesOf(SceneBuilder scene)
+        /// <summary>The reproducible metrics of a row: the run's, then those of links and messages.</summary>
+        internal static IEnumerable<string> NamesOf(RunMetrics metrics)
         {
-            foreach (var name in scene.MetricNames) yield return name;
+            foreach (var name in metrics.Names) yield return name;
             foreach (var name in Counts) yield return name;
         }
 
         /// <summary>Throws a <see cref="ScenarioException"/> if two columns of the table would have one name.</summary>
-        internal static void RefuseDuplicates(SceneBuilder scene)
+        internal static void RefuseDuplicates(RunMetrics metrics)
         {
             var known = new HashSet<string>(Counts.Concat(Times)) { "second" };
-            foreach (var name in scene.MetricNames)
+            foreach (var name in metrics.Names)
             {
                 if (known.Add(name)) continue;
                 throw new ScenarioException(
-                    "the scene " + scene.GetType().FullName + " has the metric '" + name
-                        + "', but metrics.csv already has a column of that name: rename the metric");
+                    "metrics.csv already has a column named '" + name + "': rename this metric of the scene or scenario");
             }
         }
 
@@ -76,12 +77,15 @@ namespace Collektive.Headless
         /// <summary>Adds the milliseconds between the ends of the previous and of this tick.</summary>
         internal void AddWhole(double milliseconds) => whole.Add(milliseconds);
 
+        /// <summary>Evaluates the metrics of this moment.</summary>
+        internal void Measure() => metrics.Measure(manager, values);
+
         /// <summary>
         /// Writes the row of an interval that ended, and returns it without its times of the machine: by <see cref="NamesOf"/>, valid until the next call.
         /// </summary>
         internal IReadOnlyList<double> EndInterval(double second, int links)
         {
-            scene.Measure(values);
+            Measure();
             values.CopyTo(row, 0);
             new double[] { links, sent, dropped, delayed, expired }.CopyTo(row, values.Length);
             var text = second.ToString("0.######", CultureInfo.InvariantCulture);

@@ -38,12 +38,12 @@ namespace Collektive.Headless
         private readonly Stopwatch clock = new Stopwatch();
         private double last = double.NegativeInfinity;
 
-        internal ReplayRecorder(string scratchPath, Scenario scenario, SceneBuilder scene, SimulationManager manager)
+        internal ReplayRecorder(string scratchPath, Scenario scenario, SceneBuilder scene, RunMetrics runMetrics, SimulationManager manager)
         {
             this.scene = scene;
             this.manager = manager;
             if (IsColoured(manager)) colours = new Dictionary<int, IColors>();
-            metrics = new ReplayMetrics(MetricsTable.NamesOf(scene));
+            metrics = new ReplayMetrics(MetricsTable.NamesOf(runMetrics));
             var metadata = new ReplayMetadata
             {
                 Title = scenario.Settings.program,

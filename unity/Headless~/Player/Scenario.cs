@@ -19,9 +19,15 @@ namespace Collektive.Headless
         /// <summary>A run keeps the times of all its ticks in memory.</summary>
         private const double MaxTicks = 1e8;
 
+        private const string StandardScene = "standard";
+
+        /// <summary>The sources of the standard scene, in the clone that contains this program.</summary>
+        private static readonly string StandardFolder =
+            System.IO.Path.GetFullPath(System.IO.Path.Combine(AppDomain.CurrentDomain.BaseDirectory, "../../unity/Headless~/Standard"));
+
         private static readonly string[] OwnKeys =
         {
-            "version", "scene", "scripts", "schema", "programs", "parameters", "fields", "seconds", "converged", "stopWhenConverged", "jvm", "outputs",
+            "version", "scene", "scripts", "schema", "programs", "parameters", "fields", "seconds", "metrics", "converged", "stopWhenConverged", "jvm", "outputs",
         };
 
         /// <summary>The settings that are also keys of a scenario. The other settings have different keys.</summary>
@@ -36,6 +42,7 @@ namespace Collektive.Headless
         internal static IEnumerable<string> Keys => OwnKeys.Concat(Shared.Select(field => field.Name));
 
         private readonly JObject root;
+        private readonly JObject queries;
 
         private Scenario(JsonFile file, string path, JObject root, string folder, bool trustsJvm)
         {
@@ -47,14 +54,17 @@ namespace Collektive.Headless
             Path = path;
             Folder = folder;
             Scene = file.Required<string>(root, "scene");
-            Scripts = Existing(file, root, "scripts", folder, directory: true);
-            Schema = Existing(file, root, "schema", folder, directory: false);
+            // Sweeps name their copies.
+            var isOurs = Scene == StandardScene && root["scripts"] == null && root["schema"] == null;
+            Scripts = isOurs ? StandardFolder : Existing(file, root, "scripts", folder, directory: true);
+            Schema = isOurs ? System.IO.Path.Combine(StandardFolder, "standard.fbs") : Existing(file, root, "schema", folder, directory: false);
             Programs = Existing(file, root, "programs", folder, directory: null);
             Fields = file.Optional(root, "fields", new JObject());
             Seconds = file.Required<double>(root, "seconds");
             file.Required<string>(root, nameof(SimulationSettings.program));
             file.Fill(Settings, Shared, root, "");
             ReadParameters(file, file.Optional(root, "parameters", new JObject()));
+            queries = file.Optional(root, "metrics", new JObject());
             Convergence = Convergence.Read(file, file.Optional(root, "converged", new JObject()));
             StopWhenConverged = file.Optional(root, "stopWhenConverged", false);
             if (StopWhenConverged && Convergence.Criteria.Count == 0)
@@ -91,6 +101,9 @@ namespace Collektive.Headless
         internal OriginalRun OriginalRun { get; private set; }
 
         internal string Scene { get; }
+
+        /// <summary>Full name of the scene builder's class.</summary>
+        internal string SceneClass => Scene == StandardScene ? "Collektive.Standard.StandardScene" : Scene;
 
         internal string Scripts { get; }
 
@@ -167,6 +180,9 @@ namespace Collektive.Headless
             if (seconds != null) Count(message => new ScenarioException("--seconds " + seconds + ": " + message));
         }
 
+        /// <summary>Checks and prepares the metrics. The schema's code must be loaded.</summary>
+        internal SqlMetrics MakeMetrics() => new SqlMetrics(File, queries, queries.Count == 0 ? null : Schemas.Find(""));
+
         /// <summary>Copies the shared settings to the manager's.</summary>
         internal void CopyTo(SimulationSettings settings)
         {
@@ -228,12 +244,11 @@ namespace Collektive.Headless
             var json = new JObject(
                 new JProperty("version", Version),
                 new JProperty("scene", Scene),
-                new JProperty("scripts", root["scripts"]),
-                new JProperty("schema", root["schema"]),
                 new JProperty("programs", root["programs"]),
                 new JProperty("parameters", ParametersToJson()),
                 new JProperty("fields", fields),
                 new JProperty("seconds", Seconds),
+                new JProperty("metrics", queries),
                 new JProperty("converged", Convergence.ToJson()),
                 new JProperty("stopWhenConverged", StopWhenConverged),
                 new JProperty("jvm", jvm),
@@ -244,6 +259,8 @@ namespace Collektive.Headless
                     new JProperty("replay", Replay),
                     new JProperty("pictures", Pictures),
                     new JProperty("record", Record))));
+            foreach (var key in new[] { "scripts", "schema" })
+                if (root[key] != null) json.Add(key, root[key]);
             foreach (var field in Shared)
             {
                 var value = field.GetValue(Settings);

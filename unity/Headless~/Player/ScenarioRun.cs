@@ -28,6 +28,7 @@ namespace Collektive.Headless
         private readonly List<double> roundTimes = new List<double>();
         private TimeSpan firstTick;
         private Manifest manifest;
+        private RunMetrics runMetrics;
         private MetricsTable metrics;
         private FrameLimit limit;
         private string cause = "";
@@ -84,6 +85,7 @@ namespace Collektive.Headless
             finally
             {
                 Loop.Quit();
+                runMetrics.Dispose();
                 manifest.WriteLast();
             }
         }
@@ -91,12 +93,14 @@ namespace Collektive.Headless
         /// <summary>
         /// Checks a scenario and its scene's fields, and throws a <see cref="ScenarioException"/> for an error. Builds and starts nothing.
         /// </summary>
-        /// <returns>Names of the scene's metrics.</returns>
+        /// <returns>Names of the run's metrics.</returns>
         internal static IReadOnlyList<string> Check(Scenario scenario, Options options)
         {
             var run = new ScenarioRun(scenario, options, null);
             run.FindProblem(scenario.Settings);
-            return run.AddScene(new GameObject("Scene")).MetricNames;
+            run.AddScene(new GameObject("Scene"));
+            run.runMetrics.Dispose();
+            return run.runMetrics.Names;
         }
 
         private void FindProblem(SimulationSettings settings)
@@ -135,6 +139,7 @@ namespace Collektive.Headless
         {
             if (++done == 1) firstTick = DateTime.Now - began;
             metrics.Add(manager.Times, manager.Network);
+            runMetrics.Ticked(manager);
             stepTimes.Add(manager.Times.Step);
             roundTimes.Add(manager.HostMicros.Rounds / 1000.0);
         }
@@ -153,7 +158,7 @@ namespace Collektive.Headless
         /// <summary>Adds the scene builder to an object, which stays inactive.</summary>
         private SceneBuilder AddScene(GameObject holder)
         {
-            var type = Assembly.LoadFrom(options.Scripts).GetType(scenario.Scene);
+            var type = Assembly.LoadFrom(options.Scripts).GetType(scenario.SceneClass);
             if (type == null || !typeof(SceneBuilder).IsAssignableFrom(type) || type.IsAbstract)
             {
                 throw new ScenarioException(
@@ -165,8 +170,10 @@ namespace Collektive.Headless
             holder.SetActive(false);
             var scene = (SceneBuilder)holder.AddComponent(type);
             SceneFields.Set(scene, scenario, options.FieldAssignments);
-            MetricsTable.RefuseDuplicates(scene);
-            scenario.Convergence.Bind(scene.MetricNames);
+            if (scene.FindProblem() is string problem) throw SceneFields.Error(scenario, problem);
+            runMetrics = new RunMetrics(scene, scenario.MakeMetrics());
+            MetricsTable.RefuseDuplicates(runMetrics);
+            scenario.Convergence.Bind(runMetrics.Names);
             return scene;
         }
 
@@ -181,9 +188,9 @@ namespace Collektive.Headless
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
             using (limit = new FrameLimit(manager, GiveUp))
-            using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, scene))
+            using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, runMetrics, manager))
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
-            using (var replay = scenario.Replay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, manager) : null)
+            using (var replay = scenario.Replay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, runMetrics, manager) : null)
             {
                 EndInterval(manager, replay, 0);
                 scenario.Convergence.Add(0, metrics.Values);
@@ -227,12 +234,12 @@ namespace Collektive.Headless
                         nodes.Add(nodeRows.Next);
                         nodeRows.Advance();
                     }
-                    if (progress.Due || frame == ticks || HasConverged) progress.Show(done, manager.SimulatedTime, Text(scene, metrics));
+                    if (progress.Due || frame == ticks || HasConverged) progress.Show(done, manager.SimulatedTime, Text());
                 }
                 progress.End();
-                scene.Measure((double[])metrics.Values);
+                metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
-                manifest.AddResults(manager, parameters ?? new JObject(), done, scene, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
+                manifest.AddResults(manager, parameters ?? new JObject(), done, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
                 manifest.AddConvergence(scenario.Convergence.Times());
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.AddFirstTick(firstTick);
@@ -306,10 +313,10 @@ namespace Collektive.Headless
             replay?.Measure(manager.SimulatedTime, row);
         }
 
-        private static string Text(SceneBuilder scene, MetricsTable metrics)
+        private string Text()
         {
-            if (scene.MetricNames.Count == 0) return "";
-            return ", " + scene.MetricNames[0].Replace('_', ' ') + " " + metrics.Values[0].ToString("0.0", CultureInfo.InvariantCulture);
+            if (runMetrics.Names.Count == 0) return "";
+            return ", " + runMetrics.Names[0].Replace('_', ' ') + " " + metrics.Values[0].ToString("0.0", CultureInfo.InvariantCulture);
         }
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using System.Reflection;
 using Collektive.Unity;
@@ -11,52 +12,109 @@ namespace Collektive.Headless
     /// <summary>Sets public fields of a scene builder, from the scenario file and from the command line, and reads them all.</summary>
     internal static class SceneFields
     {
+        private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
+
         /// <summary>The values of all fields that a scenario can set, those with their defaults included.</summary>
-        internal static JObject Get(SceneBuilder builder)
-        {
-            var values = new JObject();
-            foreach (var field in builder.GetType().GetFields(BindingFlags.Public | BindingFlags.Instance))
-            {
-                var value = field.GetValue(builder);
-                var token = value is Vector3 vector ? new JArray(vector.x, vector.y, vector.z) : JsonFile.Token(value);
-                if (token != null) values.Add(field.Name, token);
-            }
-            return values;
-        }
+        internal static JObject Get(SceneBuilder builder) => (JObject)ToJson(builder, typeof(SceneBuilder));
 
         internal static void Set(SceneBuilder builder, Scenario scenario, IReadOnlyList<string> assignments)
         {
             foreach (var property in scenario.Fields.Properties())
             {
                 var field = Find(builder, property.Name);
-                field.SetValue(builder, Value(scenario.File, property.Value, field));
+                field.SetValue(builder, Value(scenario.File, property.Value, field.FieldType, field.Name));
             }
             foreach (var assignment in assignments)
             {
                 var equals = assignment.IndexOf('=');
                 var field = Find(builder, assignment.Substring(0, equals));
-                field.SetValue(builder, Value(scenario.File, Token(assignment.Substring(equals + 1), field), field));
+                field.SetValue(builder, Value(scenario.File, Token(assignment.Substring(equals + 1), field), field.FieldType, field.Name));
             }
         }
 
         private static FieldInfo Find(SceneBuilder builder, string name)
         {
-            var field = builder.GetType().GetField(name, BindingFlags.Public | BindingFlags.Instance);
+            var field = builder.GetType().GetField(name, Public);
             if (field != null) return field;
             var names = new List<string>();
-            foreach (var known in builder.GetType().GetFields(BindingFlags.Public | BindingFlags.Instance)) names.Add(known.Name);
+            foreach (var known in builder.GetType().GetFields(Public)) names.Add(known.Name);
             throw new ScenarioException(
                 "the scene " + builder.GetType().FullName + " has no public field '" + name + "'; it has: " + string.Join(", ", names));
         }
 
-        private static object Value(JsonFile file, JToken token, FieldInfo field)
+        /// <summary>The error of a scene whose message may begin with a field in quotes; with its line if the scenario sets it.</summary>
+        internal static ScenarioException Error(Scenario scenario, string problem)
         {
-            if (field.FieldType != typeof(Vector3)) return file.Convert(token, field.FieldType, field.Name);
-            var numbers = token as JArray;
-            if (numbers == null || numbers.Count != 3) throw file.Error(token, "'" + field.Name + "' must be a list of three numbers");
-            float Number(int index) => (float)file.Convert(numbers[index], typeof(float), field.Name);
-            return new Vector3(Number(0), Number(1), Number(2));
+            JToken found = scenario.Fields;
+            var path = problem.StartsWith("'", StringComparison.Ordinal) ? problem.Substring(1, Math.Max(0, problem.IndexOf('\'', 1) - 1)) : "";
+            foreach (var name in path.Split(new[] { '.', '[', ']' }, StringSplitOptions.RemoveEmptyEntries))
+            {
+                var next = found is JArray list && int.TryParse(name, out var index) && index < list.Count ? list[index] : (found as JObject)?[name];
+                if (next == null) break;
+                found = next;
+            }
+            return scenario.File.Error(found, problem);
         }
+
+        private static object Value(JsonFile file, JToken token, Type type, string key)
+        {
+            if (type == typeof(Vector3))
+            {
+                var numbers = token as JArray;
+                if (numbers == null || numbers.Count != 3) throw file.Error(token, "'" + key + "' must be a list of three numbers");
+                float Number(int index) => (float)file.Convert(numbers[index], typeof(float), key);
+                return new Vector3(Number(0), Number(1), Number(2));
+            }
+            if (ElementOf(type) is Type element && element != typeof(string))
+            {
+                if (!(token is JArray items)) throw file.Error(token, "'" + key + "' must be a list");
+                var list = (IList)Activator.CreateInstance(typeof(List<>).MakeGenericType(element));
+                for (var i = 0; i < items.Count; i++) list.Add(Value(file, items[i], element, key + "[" + i + "]"));
+                if (!type.IsArray) return list;
+                var array = Array.CreateInstance(element, list.Count);
+                list.CopyTo(array, 0);
+                return array;
+            }
+            if (!IsObject(type)) return file.Convert(token, type, key);
+            var part = (JObject)file.Convert(token, typeof(JObject), key);
+            file.RefuseUnknown(part, key + ".", Array.ConvertAll(type.GetFields(Public), field => field.Name));
+            var value = Activator.CreateInstance(type);
+            foreach (var field in type.GetFields(Public))
+                if (part[field.Name] is JToken given) field.SetValue(value, Value(file, given, field.FieldType, key + "." + field.Name));
+            return value;
+        }
+
+        /// <summary>The value in a form that <see cref="Value"/> reads back; null for what scenarios cannot set.</summary>
+        private static JToken ToJson(object value, Type type)
+        {
+            if (value is Vector3 vector) return new JArray(vector.x, vector.y, vector.z);
+            if (JsonFile.Token(value) is JToken token) return token;
+            if (value is IEnumerable items && ElementOf(type) is Type element)
+            {
+                var list = new JArray();
+                foreach (var item in items)
+                {
+                    var json = ToJson(item, element);
+                    if (json == null) return null;
+                    list.Add(json);
+                }
+                return list;
+            }
+            if (!(value is SceneBuilder) && (value == null || !IsObject(type))) return null;
+            var values = new JObject();
+            foreach (var field in value.GetType().GetFields(Public))
+                if (ToJson(field.GetValue(value), field.FieldType) is JToken json) values.Add(field.Name, json);
+            return values;
+        }
+
+        private static Type ElementOf(Type type) =>
+            type.IsArray ? type.GetElementType()
+                : type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>) ? type.GetGenericArguments()[0] : null;
+
+        /// <summary>Whether the scene's code defines a plain class whose fields are keys.</summary>
+        private static bool IsObject(Type type) =>
+            type.IsClass && !type.IsAbstract && !typeof(UnityEngine.Object).IsAssignableFrom(type) && !typeof(IEnumerable).IsAssignableFrom(type)
+                && !typeof(Delegate).IsAssignableFrom(type) && type.Assembly != typeof(object).Assembly && type.GetConstructor(Type.EmptyTypes) != null;
 
         /// <summary>Reads command-line text as JSON. Strings need no quotes.</summary>
         private static JToken Token(string text, FieldInfo field)

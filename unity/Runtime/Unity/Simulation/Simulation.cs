@@ -124,6 +124,12 @@ namespace Collektive.Unity
         /// <summary>Buffer for actuators in a tick.</summary>
         internal ActuatorBuffer Answered => session.Answer.Actuators;
 
+        /// <summary>Number of nodes with a round in the last tick.</summary>
+        internal int DueCount => due.Count;
+
+        /// <summary>Id of the node whose sensor data has that index in <see cref="Sensed"/>.</summary>
+        internal int DueId(int index) => due.Items[index].Id;
+
         /// <summary>Starts the JVM if needed, and opens a session.</summary>
         /// <returns>False if the simulation failed. It is not opened again, because each later frame would fail.</returns>
         internal bool TryOpen()

@@ -1,0 +1,286 @@
+using System;
+using System.Collections.Generic;
+using System.Linq.Expressions;
+using System.Reflection;
+using System.Text;
+using Collektive.Bridge;
+using Collektive.Unity;
+
+namespace Collektive.Headless
+{
+    /// <summary>
+    /// The columns of the table of nodes that metrics are computed from: what is known of each node, then the numbers, booleans and enums of its last answer
+    /// and of the sensor data of its last round, by their names in the schema. A node without them has no value there.
+    /// </summary>
+    internal sealed class NodeColumns
+    {
+        /// <summary>Fields in fields, at most: a table may contain its own type.</summary>
+        private const int MaxDepth = 3;
+
+        private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
+
+        private readonly List<Column> columns = new List<Column>();
+        private readonly Dictionary<string, Column> byName = new Dictionary<string, Column>(StringComparer.OrdinalIgnoreCase);
+        private readonly Reader answers;
+        private readonly Reader sensors;
+        private readonly List<Column> used = new List<Column>();
+        private double[] row = Array.Empty<double>();
+        private double[][] sensed = Array.Empty<double[]>();
+        private int[] degrees = Array.Empty<int>();
+
+        internal NodeColumns(DataSchema schema)
+        {
+            foreach (var name in new[] { "id", "time", "degree", "x", "y", "z" }) Add(name, Kind.Node, columns.Count, null);
+            answers = Reader.Of(typeof(AnswerReader<>), typeof(ActuatorBuffer<>), schema.CreateActuators());
+            sensors = Reader.Of(typeof(SensorReader<>), typeof(SensorBuffer<>), schema.CreateSensors());
+            AddFields(answers, Kind.Answer, "answer_");
+            AddFields(sensors, Kind.Sensor, "sensor_");
+        }
+
+        /// <summary>Names of all columns.</summary>
+        internal IEnumerable<string> Names
+        {
+            get
+            {
+                foreach (var column in columns) yield return column.Name;
+            }
+        }
+
+        /// <summary>Names of the columns in use, in the order of <see cref="Row"/>.</summary>
+        internal IEnumerable<string> Used
+        {
+            get
+            {
+                foreach (var column in used) yield return column.Name;
+            }
+        }
+
+        /// <summary>Values of the node of the last <see cref="Read"/>; NaN: none.</summary>
+        internal double[] Row => row;
+
+        /// <summary>Definitions of the columns in SQL. Names of several words can also be written as in Kotlin.</summary>
+        internal string Definitions
+        {
+            get
+            {
+                var definitions = new List<string>();
+                foreach (var column in columns) definitions.Add(Quoted(column.Name) + " REAL");
+                foreach (var alias in byName)
+                    if (alias.Key != alias.Value.Name) definitions.Add(Quoted(alias.Key) + " REAL AS (" + Quoted(alias.Value.Name) + ")");
+                return string.Join(", ", definitions);
+            }
+        }
+
+        internal static string Quoted(string name) => "\"" + name + "\"";
+
+        /// <summary>Reads only these columns from now on.</summary>
+        internal void Use(IEnumerable<string> names)
+        {
+            foreach (var name in names)
+                if (byName.TryGetValue(name, out var column) && !used.Contains(column)) used.Add(column);
+            row = new double[used.Count];
+            sensed = new double[used.Count][];
+            for (var i = 0; i < used.Count; i++) sensed[i] = Array.Empty<double>();
+        }
+
+        /// <summary>Remembers the sensor data of the nodes that were due in a tick, which the next tick overwrites.</summary>
+        internal void Ticked(SimulationManager manager)
+        {
+            for (var i = 0; i < used.Count; i++)
+            {
+                if (used[i].Kind != Kind.Sensor) continue;
+                Grow(ref sensed[i], manager.Simulation.IdCapacity, double.NaN);
+                sensors.ReadDue(manager.Simulation, used[i].Index, sensed[i]);
+            }
+        }
+
+        /// <summary>Prepares to read the nodes of this moment.</summary>
+        internal void Begin(SimulationManager manager)
+        {
+            var capacity = manager.Simulation.IdCapacity;
+            for (var i = 0; i < used.Count; i++)
+                if (used[i].Kind == Kind.Sensor) Grow(ref sensed[i], capacity, double.NaN);
+            if (!used.Exists(column => column.Name == "degree")) return;
+            Grow(ref degrees, capacity, 0);
+            Array.Clear(degrees, 0, degrees.Length);
+            foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
+            {
+                if (pair.Up.Holders > 0) degrees[pair.High]++;
+                if (pair.Down.Holders > 0) degrees[pair.Low]++;
+            }
+        }
+
+        /// <summary>Reads the values of a node into <see cref="Row"/>.</summary>
+        internal void Read(SimulationManager manager, Node node)
+        {
+            var hasAnswer = answers.Load(node);
+            for (var i = 0; i < used.Count; i++)
+            {
+                var column = used[i];
+                row[i] = column.Kind == Kind.Node ? Value(manager, node, column.Index)
+                    : column.Kind == Kind.Answer ? hasAnswer ? answers.Value(column.Index) : double.NaN : sensed[i][node.Id];
+            }
+        }
+
+        private double Value(SimulationManager manager, Node node, int index)
+        {
+            switch (index)
+            {
+                case 0: return node.Id;
+                case 1: return manager.SimulatedTime;
+                case 2: return degrees[node.Id];
+                case 3: return node.transform.position.x;
+                case 4: return node.transform.position.y;
+                default: return node.transform.position.z;
+            }
+        }
+
+        private void AddFields(Reader reader, Kind kind, string prefix)
+        {
+            for (var i = 0; i < reader.Fields.Count; i++)
+            {
+                var name = SnakeCase(reader.Fields[i]);
+                Add(byName.ContainsKey(name) ? prefix + name : name, kind, i, reader.Fields[i]);
+            }
+        }
+
+        private void Add(string name, Kind kind, int index, string generated)
+        {
+            if (byName.ContainsKey(name)) return;
+            var column = new Column { Name = name, Kind = kind, Index = index };
+            columns.Add(column);
+            byName.Add(name, column);
+            if (generated != null && !byName.ContainsKey(generated)) byName.Add(generated, column);
+        }
+
+        private static void Grow<T>(ref T[] array, int count, T value)
+        {
+            var old = array.Length;
+            if (count <= old) return;
+            Array.Resize(ref array, Math.Max(count, 2 * old));
+            for (var i = old; i < array.Length; i++) array[i] = value;
+        }
+
+        /// <summary>Returns the schema's name of a field of generated code.</summary>
+        private static string SnakeCase(string name)
+        {
+            var text = new StringBuilder();
+            for (var i = 0; i < name.Length; i++)
+            {
+                if (char.IsUpper(name[i]) && i > 0 && name[i - 1] != '_' && !char.IsUpper(name[i - 1])) text.Append('_');
+                text.Append(char.ToLowerInvariant(name[i]));
+            }
+            return text.ToString();
+        }
+
+        private enum Kind
+        {
+            Node,
+            Answer,
+            Sensor,
+        }
+
+        private sealed class Column
+        {
+            internal string Name;
+            internal Kind Kind;
+            internal int Index;
+        }
+
+        /// <summary>Reads fields of data whose type only generated code knows, without boxing.</summary>
+        private abstract class Reader
+        {
+            internal List<string> Fields { get; } = new List<string>();
+
+            internal static Reader Of(Type reader, Type generic, object buffer)
+            {
+                var type = buffer.GetType();
+                while (!type.IsGenericType || type.GetGenericTypeDefinition() != generic) type = type.BaseType;
+                return (Reader)Activator.CreateInstance(reader.MakeGenericType(type.GetGenericArguments()[0]), true);
+            }
+
+            internal virtual bool Load(Node node) => false;
+
+            internal virtual double Value(int field) => double.NaN;
+
+            internal virtual void ReadDue(Simulation simulation, int field, double[] byId)
+            {
+            }
+        }
+
+        private abstract class Reader<T> : Reader
+        {
+            protected readonly List<Func<T, double>> Getters = new List<Func<T, double>>();
+
+            protected Reader()
+            {
+                var data = Expression.Parameter(typeof(T));
+                Add(data, data, typeof(T), "", 0);
+            }
+
+            private void Add(ParameterExpression data, Expression owner, Type type, string prefix, int depth)
+            {
+                // In the order of the schema.
+                foreach (var member in type.GetMembers(Public))
+                {
+                    if (!(member is FieldInfo) && (member as PropertyInfo)?.GetIndexParameters().Length != 0) continue;
+                    var value = Expression.MakeMemberAccess(owner, member);
+                    var inner = Nullable.GetUnderlyingType(value.Type) ?? value.Type;
+                    if (inner.IsEnum || inner.IsPrimitive && inner != typeof(char))
+                    {
+                        Fields.Add(prefix + member.Name);
+                        Getters.Add(Expression.Lambda<Func<T, double>>(Number(value, value.Type, inner), data).Compile());
+                    }
+                    else if (inner.IsValueType && inner.Namespace != "Google.FlatBuffers" && inner.Namespace != "System" && depth < MaxDepth && inner != type)
+                    {
+                        if (inner == value.Type) Add(data, value, inner, prefix + member.Name + "_", depth + 1);
+                        else AddOptional(data, value, inner, prefix + member.Name + "_", depth + 1);
+                    }
+                }
+            }
+
+            /// <summary>Adds the fields of a struct or table that may be missing.</summary>
+            private void AddOptional(ParameterExpression data, Expression value, Type inner, string prefix, int depth)
+            {
+                var first = Getters.Count;
+                Add(data, Expression.Property(value, "Value"), inner, prefix, depth);
+                var exists = Expression.Lambda<Func<T, bool>>(Expression.Property(value, "HasValue"), data).Compile();
+                for (var i = first; i < Getters.Count; i++)
+                {
+                    var get = Getters[i];
+                    Getters[i] = owner => exists(owner) ? get(owner) : double.NaN;
+                }
+            }
+
+            private static Expression Number(Expression value, Type type, Type inner)
+            {
+                if (inner != type)
+                {
+                    return Expression.Condition(
+                        Expression.Property(value, "HasValue"), Number(Expression.Property(value, "Value"), inner, inner), Expression.Constant(double.NaN));
+                }
+                if (inner == typeof(bool)) return Expression.Condition(value, Expression.Constant(1.0), Expression.Constant(0.0));
+                return Expression.Convert(inner.IsEnum ? Expression.Convert(value, Enum.GetUnderlyingType(inner)) : value, typeof(double));
+            }
+        }
+
+        private sealed class AnswerReader<T> : Reader<T>
+        {
+            private T answer;
+
+            internal override bool Load(Node node) => node.TryGetAnswer(out answer);
+
+            internal override double Value(int field) => Getters[field](answer);
+        }
+
+        private sealed class SensorReader<T> : Reader<T>
+        {
+            internal override void ReadDue(Simulation simulation, int field, double[] byId)
+            {
+                var get = Getters[field];
+                var items = ((SensorBuffer<T>)simulation.Sensed).Items;
+                for (var i = 0; i < simulation.DueCount; i++) byId[simulation.DueId(i)] = get(items[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,39 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+
+namespace Collektive.Headless
+{
+    /// <summary>All metrics of a run: the scene's, then the scenario's.</summary>
+    internal sealed class RunMetrics : IDisposable
+    {
+        private readonly SceneBuilder scene;
+        private readonly SqlMetrics queries;
+        private readonly List<string> names;
+        private readonly double[] own;
+
+        internal RunMetrics(SceneBuilder scene, SqlMetrics queries)
+        {
+            this.scene = scene;
+            this.queries = queries;
+            names = new List<string>(scene.MetricNames);
+            own = new double[names.Count];
+            names.AddRange(queries.Names);
+        }
+
+        internal IReadOnlyList<string> Names => names;
+
+        /// <summary>Takes what the next tick overwrites.</summary>
+        internal void Ticked(SimulationManager manager) => queries.Ticked(manager);
+
+        /// <summary>Evaluates all metrics of this moment, by <see cref="Names"/>.</summary>
+        internal void Measure(SimulationManager manager, double[] values)
+        {
+            scene.Measure(own);
+            own.CopyTo(values, 0);
+            queries.Measure(manager, values, own.Length);
+        }
+
+        public void Dispose() => queries.Dispose();
+    }
+}

@@ -1,0 +1,190 @@
+using System;
+using System.Collections.Generic;
+using System.Linq;
+using Collektive.Bridge;
+using Collektive.Unity;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>
+    /// The metrics of a scenario: SQL aggregates over the table of nodes at one moment, with a row per node in order of their ids. Without a value, that is
+    /// of no nodes at all for instance, a metric is NaN.
+    /// </summary>
+    internal sealed class SqlMetrics : IDisposable
+    {
+        private const string Before = "SELECT (";
+        // On a line of its own, so that a comment cannot hide it.
+        private const string After = "\n) FROM nodes";
+
+        /// <summary>Rows of one statement: each costs a call.</summary>
+        private const int RowsAtOnce = 64;
+
+        private readonly List<Metric> metrics = new List<Metric>();
+        private readonly List<string> names = new List<string>();
+        private readonly JsonFile file;
+        private readonly NodeColumns columns;
+        private readonly Sqlite database;
+        private readonly Sqlite.Statement clear, insert, insertMany;
+
+        /// <summary>Checks all metrics, on tables without nodes and with two.</summary>
+        internal SqlMetrics(JsonFile file, JObject root, DataSchema schema)
+        {
+            this.file = file;
+            if (root.Count == 0) return;
+            columns = new NodeColumns(schema);
+            database = new Sqlite();
+            database.Execute("PRAGMA journal_mode = OFF; CREATE TABLE nodes (" + columns.Definitions + ")");
+            var read = new SortedSet<string>(StringComparer.OrdinalIgnoreCase);
+            foreach (var property in root.Properties()) metrics.Add(Prepare(property, read));
+            columns.Use(read);
+            clear = database.Prepare("DELETE FROM nodes");
+            insert = Insertion(1);
+            insertMany = Insertion(RowsAtOnce);
+            foreach (var metric in metrics) RequireAggregate(metric);
+            clear.Execute();
+        }
+
+        internal IReadOnlyList<string> Names => names;
+
+        /// <summary>Takes the sensor data of a tick.</summary>
+        internal void Ticked(SimulationManager manager) => columns?.Ticked(manager);
+
+        /// <summary>Evaluates the metrics of this moment into an array, from an index on.</summary>
+        internal void Measure(SimulationManager manager, double[] values, int first)
+        {
+            if (metrics.Count == 0) return;
+            Fill(manager);
+            for (var i = 0; i < metrics.Count; i++) values[first + i] = Evaluate(metrics[i]) ?? double.NaN;
+        }
+
+        public void Dispose()
+        {
+            foreach (var metric in metrics) metric.Query.Dispose();
+            clear?.Dispose();
+            insert?.Dispose();
+            insertMany?.Dispose();
+            database?.Dispose();
+        }
+
+        private void Fill(SimulationManager manager)
+        {
+            database.Execute("BEGIN");
+            clear.Execute();
+            columns.Begin(manager);
+            var nodes = manager.Nodes;
+            var width = columns.Row.Length;
+            for (var next = 0; next < nodes.Count;)
+            {
+                var count = nodes.Count - next >= RowsAtOnce ? RowsAtOnce : 1;
+                var statement = count == 1 ? insert : insertMany;
+                for (var i = 0; i < count; i++)
+                {
+                    columns.Read(manager, nodes[next++]);
+                    for (var column = 0; column < width; column++) statement.Bind(1 + i * width + column, columns.Row[column]);
+                }
+                statement.Execute();
+            }
+            database.Execute("COMMIT");
+        }
+
+        private Sqlite.Statement Insertion(int rows)
+        {
+            var used = columns.Used.Select(NodeColumns.Quoted).ToList();
+            // A row needs a column.
+            var row = used.Count == 0 ? "(NULL)" : "(" + string.Join(",", used.Select(name => "?")) + ")";
+            return database.Prepare("INSERT INTO nodes (" + (used.Count == 0 ? "id" : string.Join(",", used)) + ") VALUES "
+                + string.Join(",", Enumerable.Repeat(row, rows)));
+        }
+
+        private Metric Prepare(JProperty property, ISet<string> read)
+        {
+            var sql = (string)file.Convert(property.Value, typeof(string), "metrics." + property.Name);
+            names.Add(property.Name);
+            if (property.Name.Trim().Length == 0) throw file.Error(property, "'metrics': a metric needs a name");
+            try
+            {
+                return new Metric(property, database.PrepareQuery(Before + sql + After, read));
+            }
+            catch (SqlException error)
+            {
+                throw Error(property, error);
+            }
+        }
+
+        /// <summary>
+        /// Throws unless a metric has one row even without nodes, as aggregates do, and the same value whatever the order of two nodes: SQLite accepts columns
+        /// outside of an aggregate function, and reads them from any node.
+        /// </summary>
+        private void RequireAggregate(Metric metric)
+        {
+            clear.Execute();
+            if (Evaluate(metric) == null)
+            {
+                throw file.Error(
+                    metric.Property,
+                    "'metrics." + metric.Property.Name + "' is not an aggregate: it needs a function over all nodes, such as avg(...), sum(...) or count(*)");
+            }
+            var value = new double[2];
+            for (var order = 0; order < 2; order++)
+            {
+                clear.Execute();
+                for (var node = 0; node < 2; node++)
+                {
+                    for (var column = 0; column < columns.Row.Length; column++) insert.Bind(1 + column, (node ^ order) == 0 ? column + 1 : 3 * column + 5);
+                    insert.Execute();
+                }
+                value[order] = Evaluate(metric) ?? double.NaN;
+            }
+            if (value[0].Equals(value[1])) return;
+            throw file.Error(
+                metric.Property,
+                "'metrics." + metric.Property.Name + "' depends on the order of nodes: write each column in a function over all nodes, such as avg(...)");
+        }
+
+        private double? Evaluate(Metric metric)
+        {
+            try
+            {
+                return metric.Query.Query();
+            }
+            catch (SqlException error)
+            {
+                throw Error(metric.Property, error);
+            }
+        }
+
+        private ScenarioException Error(JProperty property, SqlException error)
+        {
+            var sql = (string)property.Value;
+            var message = "'metrics." + property.Name + "': " + error.Message;
+            var at = error.Character - Before.Length;
+            if (at >= sql.Length) message = "'metrics." + property.Name + "': '" + sql + "' ends too early";
+            else if (at >= 0) message += ", at character " + (at + 1) + " of '" + sql + "'";
+            if (error.Message.StartsWith("no such column", StringComparison.Ordinal)) message += "; columns: " + string.Join(", ", columns.Names);
+            return file.Error(property.Value, message, at >= 0 && at <= sql.Length ? PlaceIn(property.Value, sql, at) : 0);
+        }
+
+        /// <summary>Returns the column of a character in the file's line; 0 if the file writes the text with escapes.</summary>
+        private static int PlaceIn(IJsonLineInfo token, string text, int character)
+        {
+            if (!token.HasLineInfo() || text.Any(letter => letter < ' ' || letter == '"' || letter == '\\')) return 0;
+            // Place of a token: behind its quote.
+            return Math.Max(0, token.LinePosition - text.Length + character);
+        }
+
+        private sealed class Metric
+        {
+            internal Metric(JProperty property, Sqlite.Statement query)
+            {
+                Property = property;
+                Query = query;
+            }
+
+            internal JProperty Property { get; }
+
+            internal Sqlite.Statement Query { get; }
+        }
+    }
+}

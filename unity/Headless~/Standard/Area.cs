@@ -1,0 +1,108 @@
+using System.Collections.Generic;
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Standard
+{
+    /// <summary>The bounds of a deployment, and the places in it that obstacles leave free.</summary>
+    internal sealed class Area
+    {
+        private const int Attempts = 10000;
+
+        private readonly Deployment deployment;
+        private readonly List<Obstacle> obstacles;
+        private readonly float[] x;
+        private readonly float[] z;
+
+        internal Area(Deployment deployment, List<Obstacle> obstacles)
+        {
+            this.deployment = deployment;
+            this.obstacles = obstacles;
+            x = Bounds(0);
+            z = Bounds(1);
+        }
+
+        internal static bool IsPoint(float[] point) => point.Length == 2 && IsFinite(point[0]) && IsFinite(point[1]);
+
+        internal static bool IsFinite(float number) => !float.IsNaN(number) && !float.IsInfinity(number);
+
+        /// <summary>Columns of a grid.</summary>
+        internal int Columns => deployment.columns > 0 ? deployment.columns : Mathf.CeilToInt(Mathf.Sqrt(deployment.nodes));
+
+        /// <summary>A uniform free place; null if there is hardly any.</summary>
+        internal Vector3? Uniform(RandomStream random)
+        {
+            for (var attempt = 0; attempt < Attempts; attempt++)
+            {
+                var place = new Vector3(random.Range(x[0], x[1]), 0, random.Range(z[0], z[1]));
+                if (Contains(place) && IsFree(place)) return place;
+            }
+            return null;
+        }
+
+        /// <summary>Whether no obstacle covers a place.</summary>
+        internal bool IsFree(Vector3 place)
+        {
+            foreach (var obstacle in obstacles)
+            {
+                var isInBox = obstacle.polygon.Count == 0 && Mathf.Abs(place.x - obstacle.box[0]) <= obstacle.size[0] / 2
+                    && Mathf.Abs(place.z - obstacle.box[1]) <= obstacle.size[1] / 2;
+                if (isInBox || obstacle.polygon.Count > 0 && IsInside(obstacle.polygon, place)) return false;
+            }
+            return true;
+        }
+
+        /// <summary>Reflects a place and a direction at the bounding rectangle.</summary>
+        internal void Reflect(ref Vector3 place, ref Vector3 direction)
+        {
+            Reflect(ref place.x, ref direction.x, x);
+            Reflect(ref place.z, ref direction.z, z);
+        }
+
+        private static void Reflect(ref float place, ref float direction, float[] bounds)
+        {
+            if (place >= bounds[0] && place <= bounds[1]) return;
+            place = Mathf.Clamp(place < bounds[0] ? 2 * bounds[0] - place : 2 * bounds[1] - place, bounds[0], bounds[1]);
+            direction = -direction;
+        }
+
+        private bool Contains(Vector3 place)
+        {
+            if (deployment.kind == DeploymentKind.Disc) return place.sqrMagnitude <= deployment.radius * deployment.radius;
+            return deployment.kind == DeploymentKind.Grid || deployment.polygon.Count == 0 || IsInside(deployment.polygon, place);
+        }
+
+        private float[] Bounds(int axis)
+        {
+            var half = deployment.size[axis] / 2;
+            if (deployment.kind == DeploymentKind.Disc) half = deployment.radius;
+            if (deployment.kind == DeploymentKind.Grid)
+            {
+                var count = axis == 0 ? Columns : (deployment.nodes + Columns - 1) / Columns;
+                return new[] { -deployment.disorder, deployment.spacing * (count - 1) + deployment.disorder };
+            }
+            if (deployment.kind == DeploymentKind.Disc || deployment.polygon.Count == 0) return new[] { -half, half };
+            var bounds = new[] { float.PositiveInfinity, float.NegativeInfinity };
+            foreach (var corner in deployment.polygon)
+            {
+                bounds[0] = Mathf.Min(bounds[0], corner[axis]);
+                bounds[1] = Mathf.Max(bounds[1], corner[axis]);
+            }
+            return bounds;
+        }
+
+        /// <summary>Whether a line from a place crosses the sides of a polygon an odd number of times.</summary>
+        private static bool IsInside(List<float[]> corners, Vector3 place)
+        {
+            var isInside = false;
+            for (int i = 0, before = corners.Count - 1; i < corners.Count; before = i++)
+            {
+                var a = corners[i];
+                var b = corners[before];
+                if (a[1] > place.z == b[1] > place.z) continue;
+                if (place.x < (b[0] - a[0]) * (place.z - a[1]) / (b[1] - a[1]) + a[0]) isInside = !isInside;
+            }
+            return isInside;
+        }
+    }
+}

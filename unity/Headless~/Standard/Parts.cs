@@ -1,0 +1,105 @@
+using Collektive.Bridge;
+using Collektive.Unity;
+using standard;
+using UnityEngine;
+
+namespace Collektive.Standard
+{
+    /// <summary>Senses everything but the velocity.</summary>
+    public sealed class StandardSensor : Sensor<SensorData>
+    {
+        internal StandardScene Scene;
+
+        protected override void Sense(ref SensorData data)
+        {
+            data.Position = Node.Position.ToValue();
+            data.Time = SimulationManager.Current.SimulatedTime;
+            data.Random = Node.Random.NextDouble();
+            data.Sets = Scene.SetsOf(Node.Id);
+            data.Source = Scene.IsSource(data.Sets);
+        }
+    }
+
+    /// <summary>Senses the velocity.</summary>
+    public sealed class StandardVelocity : VelocitySensor<SensorData>
+    {
+        protected override void Write(ref SensorData data, Vector3 velocity) => data.Velocity = velocity.ToValue();
+    }
+
+    /// <summary>Moves the node's body with the program's velocity.</summary>
+    public sealed class VelocityActuator : SetVelocityActuator<ActuatorData>
+    {
+        protected override Vector3 Read(ActuatorData data) => data.Velocity.ToUnity();
+    }
+
+    /// <summary>Moves the node's body to the program's target.</summary>
+    public sealed class TargetActuator : MoveActuator<ActuatorData>
+    {
+        protected override Vector3 Read(ActuatorData data) => data.Target.ToUnity();
+    }
+
+    /// <summary>Moves a node without a body at random. Its random numbers are the node's own.</summary>
+    public sealed class Walker : MonoBehaviour
+    {
+        private Vector3 target;
+        private Vector3 direction;
+        private float left;
+        private float wait;
+        private bool hasTarget;
+
+        internal void Walk(Node node, Movement movement, Area area, float seconds)
+        {
+            if (movement.kind == MovementKind.RandomWaypoint) GoToWaypoint(node, movement, area, seconds);
+            else Roam(node.Random, movement, area, movement.speed * seconds);
+        }
+
+        private void GoToWaypoint(Node node, Movement movement, Area area, float seconds)
+        {
+            // A fast node passes several waypoints in a tick.
+            while (seconds > 0)
+            {
+                if (wait > 0)
+                {
+                    var waited = Mathf.Min(wait, seconds);
+                    wait -= waited;
+                    seconds -= waited;
+                    continue;
+                }
+                if (!hasTarget) target = area.Uniform(node.Random) ?? transform.position;
+                hasTarget = true;
+                var way = target - transform.position;
+                var reach = movement.speed * seconds;
+                if (reach < way.magnitude)
+                {
+                    transform.position += reach / way.magnitude * way;
+                    return;
+                }
+                seconds -= way.magnitude / movement.speed;
+                transform.position = target;
+                hasTarget = false;
+                wait = movement.pause;
+                if (way.magnitude == 0 && wait == 0) return;
+            }
+        }
+
+        private void Roam(RandomStream random, Movement movement, Area area, float reach)
+        {
+            while (reach > 0)
+            {
+                if (left <= 0)
+                {
+                    var angle = random.Range(0, 2 * Mathf.PI);
+                    direction = new Vector3(Mathf.Cos(angle), 0, Mathf.Sin(angle));
+                    // Inverse of the distribution function of Pareto's law.
+                    left = movement.shortest * Mathf.Pow((float)(1 - random.NextDouble()), 1 / (1 - movement.exponent));
+                }
+                var step = Mathf.Min(reach, left);
+                var place = transform.position + step * direction;
+                area.Reflect(ref place, ref direction);
+                transform.position = place;
+                left -= step;
+                reach -= step;
+            }
+        }
+    }
+}

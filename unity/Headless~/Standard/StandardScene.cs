@@ -1,0 +1,296 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+using standard;
+using UnityEngine;
+
+namespace Collektive.Standard
+{
+    /// <summary>A scene for studies without C#: its fields describe nodes, obstacles, links and movement.</summary>
+    public sealed class StandardScene : SceneBuilder
+    {
+        private const int IgnoreRaycastLayer = 2;
+        private const int MaxSets = 32;
+        private const float WallWidth = 0.1f;
+
+        public Deployment deployment = new Deployment();
+        public Neighbourhood neighbourhood = new Neighbourhood();
+        public List<NodeSet> sets = new List<NodeSet>();
+        public List<Obstacle> obstacles = new List<Obstacle>();
+        public Movement movement = new Movement();
+        public Churn churn = new Churn();
+
+        private readonly Dictionary<int, uint> members = new Dictionary<int, uint>();
+        private readonly List<Node> failing = new List<Node>();
+        private readonly List<Node> found = new List<Node>();
+        private SimulationManager manager;
+        private Area area;
+        private uint active;
+        private uint source;
+        private double nextArrival;
+
+        /// <inheritdoc/>
+        public override IReadOnlyList<NodeShade> Shades => new[]
+        {
+            new NodeShade("value", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Value : double.NaN),
+            new NodeShade("category", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Category : double.NaN) { IsCategory = true },
+            new NodeShade("flag", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Flag ? 1 : 0 : double.NaN)
+            {
+                IsCategory = true, Words = new[] { "false", "true" },
+            },
+        };
+
+        /// <inheritdoc/>
+        public override string FindProblem() =>
+            ProblemOf(deployment) ?? ProblemOf(neighbourhood) ?? ProblemOf(movement) ?? ProblemOfSets() ?? ProblemOfObstacles()
+                ?? NotBelow("churn.failures", churn.failures, 0) ?? NotBelow("churn.arrivals", churn.arrivals, 0);
+
+        internal uint SetsOf(int id) => members.TryGetValue(id, out var bits) ? bits & active : 0;
+
+        internal bool IsSource(uint bits) => (bits & source) != 0;
+
+        /// <inheritdoc/>
+        protected override void Build(SimulationManager manager)
+        {
+            this.manager = manager;
+            area = new Area(deployment, obstacles);
+            foreach (var obstacle in obstacles) MakeObstacle(obstacle);
+            Deploy();
+            if (manager.Failure.Length > 0) return;
+            FillSets();
+            UpdateSets();
+            if (churn.arrivals > 0) nextArrival = Pause(churn.arrivals);
+            manager.Ticked += Advance;
+        }
+
+        private static string NotBelow(string field, float value, float least) =>
+            value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + value + ", it must be a number of at least " + least;
+
+        private static string NotAbove0(string field, float value) =>
+            value > 0 && Area.IsFinite(value) ? null : "'" + field + "' is " + value + ", it must be a number greater than 0";
+
+        private static string ProblemOf(Deployment deployment)
+        {
+            if (deployment.nodes < 1) return "'deployment.nodes' is " + deployment.nodes + ", it must be at least 1";
+            if (deployment.columns < 0) return "'deployment.columns' is " + deployment.columns + ", it must be at least 0";
+            if (deployment.size.Length != 2 || !(deployment.size[0] > 0) || !(deployment.size[1] > 0))
+                return "'deployment.size' must be two numbers greater than 0, the metres along x and z";
+            return NotAbove0("deployment.spacing", deployment.spacing) ?? NotBelow("deployment.disorder", deployment.disorder, 0)
+                ?? NotAbove0("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon, true);
+        }
+
+        private static string ProblemOf(string field, List<float[]> polygon, bool mayBeEmpty)
+        {
+            if (polygon.Count < 3 && !(mayBeEmpty && polygon.Count == 0)) return "'" + field + "' has " + polygon.Count + " corners, it needs 3";
+            return polygon.TrueForAll(Area.IsPoint) ? null : "'" + field + "' must be a list of [x, z]";
+        }
+
+        private static string ProblemOf(Neighbourhood neighbourhood) =>
+            neighbourhood.count < 1 ? "'neighbourhood.count' is " + neighbourhood.count + ", it must be at least 1"
+                : NotBelow("neighbourhood.radius", neighbourhood.radius, 0);
+
+        private static string ProblemOf(Movement movement) =>
+            movement.exponent <= 1 ? "'movement.exponent' is " + movement.exponent + ", it must be above 1"
+                : NotAbove0("movement.speed", movement.speed) ?? NotBelow("movement.pause", movement.pause, 0)
+                    ?? NotAbove0("movement.shortest", movement.shortest) ?? NotAbove0("movement.bodyRadius", movement.bodyRadius);
+
+        private string ProblemOfSets()
+        {
+            if (sets.Count > MaxSets) return "'sets' has " + sets.Count + " sets, the scene has room for " + MaxSets;
+            for (var i = 0; i < sets.Count; i++)
+            {
+                var set = sets[i];
+                var field = "sets[" + i + "]";
+                if (set.name.Length == 0) return "'" + field + ".name' is missing";
+                if (sets.FindIndex(other => other.name == set.name) < i) return "'" + field + ".name' is '" + set.name + "', as that of another set";
+                if (set.near.Length > 0 && !Area.IsPoint(set.near)) return "'" + field + ".near' must be [x, z]";
+                if (set.near.Length == 0 && set.ids.Length == 0) return "'" + field + "' needs 'ids' or 'near'";
+                if (set.count < 1 || set.count > deployment.nodes)
+                    return "'" + field + ".count' is " + set.count + ", it must be from 1 to the number of nodes, " + deployment.nodes;
+                foreach (var id in set.ids)
+                {
+                    if (id < 0 || id >= deployment.nodes)
+                        return "'" + field + ".ids' names node " + id + "; the deployment has ids from 0 to " + (deployment.nodes - 1);
+                }
+                if (!(set.from <= set.until)) return "'" + field + ".from' is " + set.from + ", above 'until', " + set.until;
+            }
+            return null;
+        }
+
+        private string ProblemOfObstacles()
+        {
+            for (var i = 0; i < obstacles.Count; i++)
+            {
+                var obstacle = obstacles[i];
+                var field = "obstacles[" + i + "]";
+                if (obstacle.box.Length > 0 == obstacle.polygon.Count > 0) return "'" + field + "' needs either 'box' or 'polygon'";
+                if (obstacle.box.Length > 0 && !Area.IsPoint(obstacle.box)) return "'" + field + ".box' must be the centre, [x, z]";
+                if (obstacle.size.Length != 2 || !(obstacle.size[0] > 0) || !(obstacle.size[1] > 0))
+                    return "'" + field + ".size' must be two numbers greater than 0, the metres along x and z";
+                var problem = ProblemOf(field + ".polygon", obstacle.polygon, true) ?? NotAbove0(field + ".height", obstacle.height);
+                if (problem != null) return problem;
+            }
+            return null;
+        }
+
+        private void MakeObstacle(Obstacle obstacle)
+        {
+            var middle = obstacle.height / 2;
+            if (obstacle.polygon.Count == 0)
+            {
+                MakeBox("Obstacle", new Vector3(obstacle.box[0], middle, obstacle.box[1]), new Vector3(obstacle.size[0], obstacle.height, obstacle.size[1]));
+                return;
+            }
+            for (var i = 0; i < obstacle.polygon.Count; i++)
+            {
+                var a = obstacle.polygon[i];
+                var b = obstacle.polygon[(i + 1) % obstacle.polygon.Count];
+                var way = new Vector3(b[0] - a[0], 0, b[1] - a[1]);
+                if (way.magnitude == 0) continue;
+                var wall = MakeBox("Wall", new Vector3((a[0] + b[0]) / 2, middle, (a[1] + b[1]) / 2), new Vector3(WallWidth, obstacle.height, way.magnitude));
+                wall.transform.rotation = Quaternion.LookRotation(way);
+            }
+        }
+
+        private void Deploy()
+        {
+            var placed = new List<Vector3>();
+            for (var i = 0; i < deployment.nodes && manager.Failure.Length == 0; i++)
+            {
+                var place = deployment.kind == DeploymentKind.Grid ? PlaceInGrid(i) : FreePlace(placed);
+                if (place is Vector3 free) MakeNode(i, free);
+            }
+            if (manager.Nodes.Count == 0 && manager.Failure.Length == 0) manager.Fail("obstacles cover all places of the grid");
+        }
+
+        /// <summary>Null where an obstacle is: the node is left out.</summary>
+        private Vector3? PlaceInGrid(int index)
+        {
+            var place = deployment.spacing * new Vector3(index % area.Columns, 0, index / area.Columns);
+            if (deployment.disorder > 0)
+            {
+                place += new Vector3(
+                    manager.Random.Range(-deployment.disorder, deployment.disorder), 0, manager.Random.Range(-deployment.disorder, deployment.disorder));
+            }
+            return area.IsFree(place) ? place : (Vector3?)null;
+        }
+
+        private Vector3? FreePlace(List<Vector3> placed)
+        {
+            const int Attempts = 1000;
+            var least = deployment.kind == DeploymentKind.Poisson ? deployment.spacing : 0;
+            for (var attempt = 0; attempt < Attempts; attempt++)
+            {
+                if (!(area.Uniform(manager.Random) is Vector3 place)) break;
+                if (least > 0 && !placed.TrueForAll(other => (other - place).sqrMagnitude >= least * least)) continue;
+                placed.Add(place);
+                return place;
+            }
+            manager.Fail("the area has no room for " + deployment.nodes + " nodes: " + placed.Count + " were placed; enlarge it, or use fewer nodes"
+                + (least > 0 ? " or a smaller 'deployment.spacing'" : ""));
+            return null;
+        }
+
+        private void MakeNode(int id, Vector3 place)
+        {
+            var hasBody = movement.kind == MovementKind.Velocity || movement.kind == MovementKind.Target;
+            var holder = hasBody ? GameObject.CreatePrimitive(PrimitiveType.Sphere) : new GameObject();
+            holder.SetActive(false);
+            holder.name = "Node";
+            // Bodies do not stop radio.
+            holder.layer = IgnoreRaycastLayer;
+            holder.transform.position = hasBody ? place + movement.bodyRadius * Vector3.up : place;
+            if (hasBody) AddBody(holder);
+            holder.AddComponent<Node>().RequestedId = id;
+            AddRule(holder);
+            holder.AddComponent<StandardSensor>().Scene = this;
+            holder.AddComponent<StandardVelocity>();
+            if (movement.kind == MovementKind.RandomWaypoint || movement.kind == MovementKind.LevyWalk) holder.AddComponent<Walker>();
+            holder.SetActive(true);
+        }
+
+        private void AddBody(GameObject holder)
+        {
+            holder.transform.localScale = 2 * movement.bodyRadius * Vector3.one;
+            var body = holder.AddComponent<Rigidbody>();
+            body.useGravity = false;
+            body.constraints = RigidbodyConstraints.FreezeRotation | RigidbodyConstraints.FreezePositionY;
+            if (movement.kind == MovementKind.Velocity) holder.AddComponent<VelocityActuator>();
+            else holder.AddComponent<TargetActuator>().MaxSpeed = movement.speed;
+        }
+
+        private void AddRule(GameObject holder)
+        {
+            if (neighbourhood.kind == NeighbourhoodKind.Radius) holder.AddComponent<RadiusNeighbourhood>().Radius = neighbourhood.radius;
+            else if (neighbourhood.kind == NeighbourhoodKind.Nearest) holder.AddComponent<KNearestNeighbourhood>().Count = neighbourhood.count;
+            else holder.AddComponent<LineOfSightNeighbourhood>().Radius = neighbourhood.radius;
+        }
+
+        private void FillSets()
+        {
+            for (var i = 0; i < sets.Count; i++)
+            {
+                var bit = 1u << i;
+                if (sets[i].name == "source") source = bit;
+                foreach (var id in sets[i].ids) Add(id, bit);
+                if (sets[i].near.Length == 0) continue;
+                var point = new Vector3(sets[i].near[0], 0, sets[i].near[1]);
+                found.Clear();
+                found.AddRange(manager.Nodes);
+                // At equal distances the smaller id.
+                found.Sort((a, b) =>
+                {
+                    var difference = Away(a, point).CompareTo(Away(b, point));
+                    return difference != 0 ? difference : a.Id.CompareTo(b.Id);
+                });
+                for (var k = 0; k < sets[i].count && k < found.Count; k++) Add(found[k].Id, bit);
+            }
+        }
+
+        private static float Away(Node node, Vector3 point)
+        {
+            var way = node.transform.position - point;
+            return way.x * way.x + way.z * way.z;
+        }
+
+        private void Add(int id, uint bit) => members[id] = (members.TryGetValue(id, out var bits) ? bits : 0) | bit;
+
+        private void UpdateSets()
+        {
+            active = 0;
+            for (var i = 0; i < sets.Count; i++)
+            {
+                if (manager.SimulatedTime >= sets[i].from && manager.SimulatedTime < sets[i].until) active |= 1u << i;
+            }
+        }
+
+        private void Advance(SimulationManager manager)
+        {
+            UpdateSets();
+            var seconds = manager.Settings.deltaTime;
+            if (movement.kind == MovementKind.RandomWaypoint || movement.kind == MovementKind.LevyWalk)
+            {
+                foreach (var node in manager.Nodes) node.GetComponent<Walker>().Walk(node, movement, area, seconds);
+            }
+            if (churn.failures > 0) Fail(1 - Math.Exp(-churn.failures * seconds));
+            for (; churn.arrivals > 0 && nextArrival <= manager.SimulatedTime; nextArrival += Pause(churn.arrivals))
+            {
+                if (area.Uniform(manager.Random) is Vector3 place) MakeNode(-1, place);
+            }
+        }
+
+        private void Fail(double probability)
+        {
+            // In a list first: nodes that leave change the manager's.
+            failing.Clear();
+            foreach (var node in manager.Nodes)
+            {
+                if (manager.Random.NextDouble() < probability) failing.Add(node);
+            }
+            foreach (var node in failing) Destroy(node.gameObject);
+        }
+
+        /// <summary>Exponentially distributed seconds between events of a rate.</summary>
+        private double Pause(double rate) => -Math.Log(1 - manager.Random.NextDouble()) / rate;
+    }
+}
