@@ -36,7 +36,7 @@ namespace Collektive.Standard
             new NodeShade("category", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Category : double.NaN) { IsCategory = true },
             new NodeShade("flag", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Flag ? 1 : 0 : double.NaN)
             {
-                IsCategory = true, Words = new[] { "false", "true" },
+                IsCategory = true, Categories = new[] { "false", "true" },
             },
         };
 
