@@ -1,0 +1,195 @@
+"""The standard scene and metrics in SQL: what is refused before the first run, and that results repeat."""
+import copy
+import json
+import re
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from collektive_experiments.worker import Worker
+from conftest import COLLEKTIVE, ROOT
+
+PROGRAM = """package first
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.spreading.hopDistanceTo
+import org.collektive.api.Program
+import standard.ActuatorData
+import standard.SensorData
+
+@Program("hops")
+fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
+    val hops = hopDistanceTo(sensors.source())
+    return ActuatorData(value = hops.toDouble(), flag = hops < Int.MAX_VALUE, category = hops)
+}
+"""
+SCENARIO: dict[str, Any] = {
+    "version": 1, "scene": "standard", "programs": "programs", "program": "hops",
+    "fields": {
+        "deployment": {"nodes": 36, "spacing": 3, "disorder": 0.5},
+        "neighbourhood": {"radius": 5},
+        "sets": [{"name": "source", "near": [0, 0], "count": 2}],
+        "obstacles": [{"box": [7, 7], "size": [1, 1]}],
+        "movement": {"kind": "RandomWaypoint", "speed": 2},
+        "churn": {"failures": 0.02, "arrivals": 1},
+    },
+    "metrics": {"reached": "avg(flag)", "mean": "avg(value) filter (where flag)", "sources": "total(source)", "degree_mean": "avg(degree)"},
+    "converged": {"reached": {"from": 0.9}}, "seconds": 5, "deltaTime": 0.1,
+}
+# Path of a key, its value, part of the message, and the column in the line if that is known.
+REFUSED: list[tuple[str, Any, str]] = [
+    ("metrics.bad", "avg(knwon)", "no such column: knwon, at character 5 of 'avg(knwon)'; columns: id, time, degree, x, y, z, value, category"),
+    ("metrics.bad", "avg(flag", "'avg(flag' ends too early"),
+    ("metrics.bad", "", "ends too early"),
+    ("metrics.bad", "average(flag)", "no such function: average, at character 1"),
+    ("metrics.bad", "avg(flag, x)", "wrong number of arguments to function avg()"),
+    ("metrics.bad", "flag", "'metrics.bad' is not an aggregate"),
+    ("metrics.bad", "1", "'metrics.bad' is not an aggregate"),
+    ("metrics.bad", "count(*) over ()", "'metrics.bad' is not an aggregate"),
+    ("metrics.bad", "avg(value) + x", "depends on the order of nodes"),
+    ("metrics.bad", "avg(flag), max(x)", "row value misused"),
+    ("metrics.bad", "avg(flag); select 1", 'near ";": syntax error, at character 10'),
+    ("metrics.bad", "random() + avg(flag)", "not authorized to use function: random, at character 1"),
+    ("metrics.bad", "count(*) filter (where time > julianday('now'))", "not authorized to use function: julianday"),
+    ("metrics.bad", "(select count(*) from sqlite_master)", "not authorized"),
+    ("metrics.bad", "group_concat(id)", "its value is not a number"),
+    ("metrics.bad", "1) from nodes; drop table nodes; --", "it must be one expression"),
+    ("metrics.bad", 3, "'metrics.bad' is 3, it must be of type string"),
+    ("metrics.links", "count(*)", "the metric 'links' of the scene or scenario has the name of another column of metrics.csv"),
+    ("converged.speed", {"to": 1}, "has no metric of that name; it has: reached, mean, sources, degree_mean"),
+    ("fields.deployment.kind", "Ring", "it must be of type string (one of Grid, Disc, Uniform, Poisson)"),
+    ("fields.deployment.nodez", 5, "unknown key 'deployment.nodez'; known here: kind, nodes"),
+    ("fields.deployment.nodes", 0, "'deployment.nodes' is 0, it must be at least 1"),
+    ("fields.deployment.nodes", 2.5, "'deployment.nodes' is 2.5, it must be of type whole number"),
+    ("fields.deployment.spacing", -3, "'deployment.spacing' is -3, it must be a number greater than 0"),
+    ("fields.deployment.disorder", -1, "'deployment.disorder' is -1, it must be a number of at least 0"),
+    ("fields.deployment.radius", 0, "'deployment.radius' is 0, it must be a number greater than 0"),
+    ("fields.deployment.size", [30], "'deployment.size' must be two numbers greater than 0"),
+    ("fields.deployment.columns", -1, "'deployment.columns' is -1"),
+    ("fields.deployment.polygon", [[0, 0], [1, 1]], "'deployment.polygon' has 2 corners, it needs 3"),
+    ("fields.deployment.polygon", [[0, 0], [1, 1], [2]], "'deployment.polygon' must be a list of [x, z]"),
+    ("fields.deployment.polygon", [0, 0], "'deployment.polygon[0]' must be a list"),
+    ("fields.deployment", "grid", "'deployment' is \"grid\", it must be of type object"),
+    ("fields.neighbourhood.radius", -1, "'neighbourhood.radius' is -1"),
+    ("fields.neighbourhood.count", 0, "'neighbourhood.count' is 0, it must be at least 1"),
+    ("fields.sets", [{"name": "a"}], "'sets[0]' needs 'ids' or 'near'"),
+    ("fields.sets", [{"near": [0, 0]}], "'sets[0].name' is missing"),
+    ("fields.sets", [{"name": "a", "ids": [1]}, {"name": "a", "ids": [2]}], "'sets[1].name' is 'a', as that of another set"),
+    ("fields.sets", [{"name": "a", "ids": [36]}], "'sets[0].ids' names node 36; the deployment has ids from 0 to 35"),
+    ("fields.sets", [{"name": "a", "near": [0, 0], "count": 40}], "'sets[0].count' is 40, it must be from 1 to the number of nodes, 36"),
+    ("fields.obstacles", [{"size": [1, 1]}], "'obstacles[0]' needs either 'box' or 'polygon'"),
+    ("fields.obstacles", [{"polygon": [[0, 0], [1, 0]]}], "'obstacles[0].polygon' has 2 corners, it needs 3"),
+    ("fields.movement.speed", 0, "'movement.speed' is 0, it must be a number greater than 0"),
+    ("fields.movement.exponent", 1, "'movement.exponent' is 1, it must be above 1"),
+    ("fields.churn.failures", -0.1, "'churn.failures' is -0.1"),
+    ("fields.crowd", {}, "has no public field 'crowd'; it has: deployment, neighbourhood, sets, obstacles, movement, churn"),
+]
+
+
+class Study:
+    """A project without C#, prepared for runs."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+        (folder / "programs").mkdir()
+        (folder / "programs/First.kt").write_text(PROGRAM)
+        (folder / "scenario.json").write_text(json.dumps(SCENARIO, indent=1))
+        self.bundle = folder / "bundle"
+        self.bundle.mkdir()
+        subprocess.run(["python3", "-I", ROOT / "scripts/build/bundle.py", folder / "scenario.json", self.bundle], check=True)
+        self.paths = json.loads((self.bundle / "inputs.json").read_text())["paths"]
+        self.worker = Worker(str(self.bundle), str(folder / "worker.txt"))
+
+    def write(self, scenario: dict[str, Any]) -> str:
+        """Replaces the scenario, and returns its text."""
+        text = json.dumps({**scenario, **self.paths}, indent=1)
+        (self.bundle / "inputs/scenario.json").write_text(text)
+        return text
+
+
+@pytest.fixture(scope="module")
+def study(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Study]:
+    prepared = Study(tmp_path_factory.mktemp("study"))
+    yield prepared
+    prepared.worker.stop()
+
+
+@pytest.mark.parametrize(("key", "value", "message"), REFUSED, ids=[f"{key}={json.dumps(value)}" for key, value, _ in REFUSED])
+def test_a_wrong_key_is_refused_with_its_place_before_a_run(study: Study, key: str, value: Any, message: str) -> None:
+    scenario = copy.deepcopy(SCENARIO)
+    part = scenario
+    *above, last = key.split(".")
+    for name in above:
+        part = part.setdefault(name, {})
+    part[last] = value
+    lines = study.write(scenario).splitlines()
+    problem, _ = study.worker.check({})
+    assert problem is not None
+    assert message in problem
+    if key.startswith("fields.") and key != "fields.crowd" or key == "metrics.bad":
+        line = next(number for number, text in enumerate(lines, 1) if f'"{last}":' in text)
+        place = re.search(r"scenario\.json:(\d+)(?::(\d+))?: ", problem)
+        assert place is not None
+        assert line <= int(place[1]) <= line + len(json.dumps(value, indent=1).splitlines())
+        if place[2]:
+            character = re.search(r"at character (\d+)", problem)
+            at = int(character[1]) - 1 if character else len(value)
+            assert int(place[2]) == lines[line - 1].index(f'"{value}"', len(f'  "{last}"')) + 2 + at
+
+
+def test_a_correct_scenario_has_its_metrics(study: Study) -> None:
+    study.write(SCENARIO)
+    assert study.worker.check({"fields.deployment.kind": "Poisson"}) == (None, ["reached", "mean", "sources", "degree_mean"])
+
+
+@pytest.mark.parametrize("settings", [
+    {}, {"fields.deployment.kind": "Poisson", "fields.deployment.spacing": 2}, {"fields.deployment.kind": "Disc", "fields.movement.kind": "LevyWalk"},
+    {"fields.movement.kind": "Target", "fields.neighbourhood.kind": "LineOfSight"}, {"fields.movement.kind": "Velocity", "fields.neighbourhood.kind": "Nearest"},
+], ids=lambda settings: json.dumps(settings))
+def test_runs_repeat_in_one_process_and_with_two_threads(study: Study, settings: dict[str, Any], tmp_path: Path) -> None:
+    study.write(SCENARIO)
+    results = []
+    for threads in (1, 2, 1):
+        out = tmp_path / str(len(results))
+        outcome = study.worker.run({**settings, "threads": threads}, "{}", str(out), 300, is_repeated=False)
+        assert outcome.status == "complete", outcome.message
+        manifest = json.loads((out / "manifest.json").read_text())
+        results.append((manifest["digest"], manifest["end"], manifest["nodes"], manifest["converged"]))
+    assert results[0] == results[1] == results[2]
+    # The process of short runs is used again: neither the scene nor the metrics keep anything.
+    assert study.worker._idle is not None
+    assert not study.worker._idle.is_fresh
+
+
+def test_metrics_are_right(study: Study, tmp_path: Path) -> None:
+    scenario = copy.deepcopy(SCENARIO)
+    scenario["fields"] = {"deployment": {"nodes": 9, "columns": 3, "spacing": 1}, "neighbourhood": {"radius": 1.1},
+                          "sets": [{"name": "other", "ids": [8]}, {"name": "source", "ids": [0], "until": 1}]}
+    scenario["metrics"] = {"nodes": "count(*)", "links_each": "avg(degree)", "farthest": "max(value)", "answers": "count(value)", "right": "sum(value = x + z)",
+                           "sources": "total(source)", "others": "sum(sets & 1 = 1)", "clock": "avg(abs(sensor_time - time))", "none": "avg(value) filter (where id < 0)"}
+    scenario["converged"] = {"farthest": {"from": 4, "to": 4}}
+    study.write(scenario)
+    assert study.worker.run({"seconds": 0.9}, "{}", str(tmp_path / "early"), 300, is_repeated=False).status == "complete"
+    manifest = json.loads((tmp_path / "early/manifest.json").read_text())
+    end = manifest["end"]
+    assert {name: end[name] for name in ("nodes", "farthest", "answers", "right", "sources", "others", "none")} == \
+        {"nodes": 9, "farthest": 4, "answers": 9, "right": 9, "sources": 1, "others": 1, "none": "NaN"}
+    assert end["links_each"] == pytest.approx(24 / 9)
+    assert end["clock"] == pytest.approx(0.1)
+    assert manifest["start"]["answers"] == 0
+    assert study.worker.run({"seconds": 3, "outputs.interval": 0.1}, "{}", str(tmp_path / "late"), 300, is_repeated=False).status == "complete"
+    manifest = json.loads((tmp_path / "late/manifest.json").read_text())
+    assert manifest["end"]["sources"] == 0
+    assert manifest["converged"]["farthest"] == pytest.approx(0.5)
+
+
+def test_a_run_from_its_file_repeats(study: Study, tmp_path: Path) -> None:
+    result = subprocess.run([COLLEKTIVE, "run", study.folder / "scenario.json", "--out", tmp_path / "out", "--set", "deployment.nodes=20"],
+                            capture_output=True, text=True, timeout=300)
+    assert result.returncode == 0, result.stderr
+    manifest = tmp_path / "out/manifest.json"
+    assert json.loads(manifest.read_text())["scenario"]["fields"]["deployment"]["nodes"] == 20
+    result = subprocess.run([COLLEKTIVE, "repeat", manifest, "--out", tmp_path / "again"], capture_output=True, text=True, timeout=300)
+    assert result.returncode == 0, result.stderr
