@@ -18,7 +18,8 @@ from build.places import ADAPTER_JAR, CSHARP, HOST_JAR, LIBRARY_JAR, SHIM
 from collektive import run_command
 
 ASSEMBLIES = ("Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "Collektive.Bridge.pdb", "Collektive.Unity.dll", "Collektive.Unity.pdb",
-              "UnityEngine.dll", "UnityEngine.pdb", "Newtonsoft.Json.dll", "libcollektive_physics.so", "Collektive.Player.exe", "Collektive.Player.pdb")
+              "UnityEngine.dll", "UnityEngine.pdb", "Newtonsoft.Json.dll", "libcollektive_physics.so", "libcollektive_sqlite.so",
+              "Collektive.Player.exe", "Collektive.Player.pdb")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -124,6 +124,13 @@ def _physx(folder: Path) -> None:
     _patch("physx", folder)
 
 
+def _sqlite(folder: Path) -> None:
+    crate = _crate("sqlite", "libsqlite3-sys", folder)
+    for name in ("sqlite3.c", "sqlite3.h"):
+        shutil.copy(crate / "sqlite3" / name, folder)
+    _make_writable(folder)
+
+
 def _npm(tool: str, folder: Path) -> None:
     for name in ("package.json", "package-lock.json", ".npmrc"):
         shutil.copy(TOOLS / tool / name, folder)
@@ -208,6 +215,7 @@ _EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
     "physx": ([TOOLS / "physx"], _physx),
+    "sqlite": ([TOOLS / "sqlite"], _sqlite),
     "npm": ([TOOLS / "npm"], _build_tools),
     "prose": ([TOOLS / "prose"], partial(_npm, "prose")),
     "kotlinc": ([TOOLS / "kotlinc", pom_value("kotlin.version")], partial(_maven_jars, "kotlinc")),
@@ -221,4 +229,4 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "zig": ([TOOLS / "zig"], _zig),
 }
 # The build graph needs these.
-BASE = ("flatbuffers", "physx", "npm", "kotlinc")
+BASE = ("flatbuffers", "physx", "sqlite", "npm", "kotlinc")

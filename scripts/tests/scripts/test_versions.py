@@ -68,6 +68,10 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None
     with open(os.path.join(BUILD, "physx/physx/physx/include/foundation/PxPhysicsVersion.h")) as file:
         physx_version = ".".join(re.findall(r"define PX_PHYSICS_VERSION_(?:MAJOR|MINOR|BUGFIX) (\d+)", file.read()))
     assert third_party("PhysX") == f"{physx_version} ({physx})"
+    with open(os.path.join(BUILD, "sqlite/sqlite3.h")) as file:
+        sqlite_version = found(r'define SQLITE_VERSION +"([^"]+)"', file.read())
+    sqlite = found(r'libsqlite3-sys = \{ version = "=([^"]+)"', text("tools/sqlite/Cargo.toml"))
+    assert third_party("SQLite") == f"{sqlite_version} ({sqlite})"
     assert third_party("FlatBuffers C#") == f"{flatbuffers} ({crate})"
     for tools in ["npm", "prose", "site"]:
         for name, wanted in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():

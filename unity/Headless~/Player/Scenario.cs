@@ -27,7 +27,8 @@ namespace Collektive.Headless
 
         private static readonly string[] OwnKeys =
         {
-            "version", "scene", "scripts", "schema", "programs", "parameters", "fields", "seconds", "metrics", "converged", "stopWhenConverged", "jvm", "outputs",
+            "version", "scene", "scripts", "schema", "programs", "parameters", "fields", "seconds", "metrics", "converged", "stopWhenConverged", "jvm",
+            "outputs",
         };
 
         /// <summary>The settings that are also keys of a scenario. The other settings have different keys.</summary>
@@ -181,7 +182,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>Checks and prepares the metrics. The schema's code must be loaded.</summary>
-        internal SqlMetrics MakeMetrics() => new SqlMetrics(File, queries, queries.Count == 0 ? null : Schemas.Find(""));
+        internal SqlMetrics MakeMetrics() => new SqlMetrics(File, queries, queries.Count == 0 ? null : Schemas.Find(""), Settings.stepLimitMs);
 
         /// <summary>Copies the shared settings to the manager's.</summary>
         internal void CopyTo(SimulationSettings settings)

@@ -163,8 +163,7 @@ namespace Collektive.Headless
             {
                 throw new ScenarioException(
                     scenario.Path + ": 'scene' names '" + scenario.Scene + "': no class with this full name that derives from SceneBuilder in "
-                        + scenario.Scripts
-                        + " that derives from SceneBuilder");
+                        + scenario.Scripts);
             }
             holder.name = type.Name;
             holder.SetActive(false);
@@ -239,7 +238,8 @@ namespace Collektive.Headless
                 progress.End();
                 metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
-                manifest.AddResults(manager, parameters ?? new JObject(), done, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
+                manifest.AddResults(
+                    manager, parameters ?? new JObject(), done, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
                 manifest.AddConvergence(scenario.Convergence.Times());
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.AddFirstTick(firstTick);

@@ -16,7 +16,7 @@ namespace Collektive.Headless
     {
         private const string Before = "SELECT (";
         // On a line of its own, so that a comment cannot hide it.
-        private const string After = "\n) FROM nodes";
+        private const string After = "\n) FROM " + Sqlite.Table;
 
         /// <summary>Rows of one statement: each costs a call.</summary>
         private const int RowsAtOnce = 64;
@@ -29,17 +29,18 @@ namespace Collektive.Headless
         private readonly Sqlite.Statement clear, insert, insertMany;
 
         /// <summary>Checks all metrics, on tables without nodes and with two.</summary>
-        internal SqlMetrics(JsonFile file, JObject root, DataSchema schema)
+        /// <param name="limitMs">Milliseconds that a metric may take.</param>
+        internal SqlMetrics(JsonFile file, JObject root, DataSchema schema, int limitMs)
         {
             this.file = file;
             if (root.Count == 0) return;
             columns = new NodeColumns(schema);
-            database = new Sqlite();
-            database.Execute("PRAGMA journal_mode = OFF; CREATE TABLE nodes (" + columns.Definitions + ")");
+            database = new Sqlite(limitMs);
+            database.Execute("PRAGMA journal_mode = OFF; CREATE TABLE " + Sqlite.Table + " (" + columns.Definitions + ")");
             var read = new SortedSet<string>(StringComparer.OrdinalIgnoreCase);
             foreach (var property in root.Properties()) metrics.Add(Prepare(property, read));
             columns.Use(read);
-            clear = database.Prepare("DELETE FROM nodes");
+            clear = database.Prepare("DELETE FROM " + Sqlite.Table);
             insert = Insertion(1);
             insertMany = Insertion(RowsAtOnce);
             foreach (var metric in metrics) RequireAggregate(metric);
@@ -94,7 +95,7 @@ namespace Collektive.Headless
             var used = columns.Used.Select(NodeColumns.Quoted).ToList();
             // A row needs a column.
             var row = used.Count == 0 ? "(NULL)" : "(" + string.Join(",", used.Select(name => "?")) + ")";
-            return database.Prepare("INSERT INTO nodes (" + (used.Count == 0 ? "id" : string.Join(",", used)) + ") VALUES "
+            return database.Prepare("INSERT INTO " + Sqlite.Table + " (" + (used.Count == 0 ? "id" : string.Join(",", used)) + ") VALUES "
                 + string.Join(",", Enumerable.Repeat(row, rows)));
         }
 
@@ -163,7 +164,7 @@ namespace Collektive.Headless
             if (at >= sql.Length) message = "'metrics." + property.Name + "': '" + sql + "' ends too early";
             else if (at >= 0) message += ", at character " + (at + 1) + " of '" + sql + "'";
             if (error.Message.StartsWith("no such column", StringComparison.Ordinal)) message += "; columns: " + string.Join(", ", columns.Names);
-            return file.Error(property.Value, message, at >= 0 && at <= sql.Length ? PlaceIn(property.Value, sql, at) : 0);
+            return file.Error(property.Value, message, at >= 0 ? PlaceIn(property.Value, sql, Math.Min(at, sql.Length)) : 0);
         }
 
         /// <summary>Returns the column of a character in the file's line; 0 if the file writes the text with escapes.</summary>

@@ -1,53 +1,71 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.Runtime.InteropServices;
 using System.Security;
 using System.Text;
 
 namespace Collektive.Headless
 {
-    /// <summary>A database in memory. Queries can read its tables and call functions whose results repeat, and nothing else. Not thread-safe.</summary>
+    /// <summary>
+    /// A database in memory. Queries can read its tables and call functions whose results repeat, and nothing else: they may come from strangers.
+    /// Not thread-safe.
+    /// </summary>
     internal sealed class Sqlite : IDisposable
     {
+        /// <summary>The only table that queries can read.</summary>
+        internal const string Table = "nodes";
+
         private const int Ok = 0;
+        private const int Interrupted = 9;
         private const int Row = 100;
         private const int Done = 101;
         private const int Deny = 1;
 
-        // Actions that the authorizer allows.
+        // Actions that the authorizer may allow.
         private const int Read = 20;
         private const int Select = 21;
         private const int Function = 31;
-        private const int Recursive = 33;
 
-        /// <summary>Functions that depend on a clock, on the process or on earlier queries.</summary>
-        private static readonly HashSet<string> Refused = new HashSet<string>(
-            ("random randomblob date time datetime julianday unixepoch strftime timediff current_date current_time current_timestamp changes "
-                + "total_changes last_insert_rowid load_extension sqlite_version sqlite_source_id sqlite_offset sqlite_log "
-                + "sqlite_compileoption_get sqlite_compileoption_used fts3_tokenizer").Split(' '), StringComparer.OrdinalIgnoreCase);
+        /// <summary>Instructions of SQLite between two checks of the time limit: about a millisecond.</summary>
+        private const int InstructionsPerCheck = 100_000;
+
+        /// <summary>Bytes of all databases of the process.</summary>
+        private const long MaxMemory = 1L << 30;
+
+        /// <summary>Functions of numbers that depend on their arguments alone.</summary>
+        private static readonly HashSet<string> Allowed = new HashSet<string>(
+            ("avg count max median min percentile percentile_cont percentile_disc sum total "
+                + "cume_dist dense_rank first_value lag last_value lead nth_value ntile percent_rank rank row_number "
+                + "abs acos acosh asin asinh atan atan2 atanh ceil ceiling coalesce cos cosh degrees exp floor ifnull iif if ln log log10 log2 mod nullif "
+                + "pi pow power radians round sign sin sinh sqrt tan tanh trunc typeof").Split(' '), StringComparer.OrdinalIgnoreCase);
 
         // Collected delegates would leave the database with dangling pointers.
         private readonly Authorizer authorizer;
+        private readonly ProgressHandler progress;
         private readonly IntPtr database;
+        private readonly Stopwatch clock = new Stopwatch();
+        private readonly int limitMs;
         private ISet<string> columnsRead;
 
-        internal Sqlite()
+        /// <param name="limitMs">Milliseconds that a query may take.</param>
+        internal Sqlite(int limitMs)
         {
+            this.limitMs = limitMs;
+            authorizer = Authorize;
+            progress = data => clock.ElapsedMilliseconds > this.limitMs ? 1 : 0;
             try
             {
                 Check(sqlite3_open_v2(":memory:", out database, 0x2 | 0x4 | 0x80, IntPtr.Zero));
-                // Since 3.38.
-                sqlite3_error_offset(database);
             }
-            catch (Exception error) when (error is DllNotFoundException || error is EntryPointNotFoundException)
+            catch (DllNotFoundException error)
             {
-                throw new ScenarioException("'metrics' needs SQLite 3.38 or newer: install the package libsqlite3-0 (" + error.Message + ")");
+                throw new ScenarioException(
+                    "the library for 'metrics' (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it (" + error.Message + ")");
             }
-            authorizer = Authorize;
+            sqlite3_hard_heap_limit64(MaxMemory);
+            sqlite3_progress_handler(database, InstructionsPerCheck, progress, IntPtr.Zero);
         }
-
-        /// <summary>Version of the library.</summary>
-        internal static string Version => Marshal.PtrToStringAnsi(sqlite3_libversion());
 
         public void Dispose() => sqlite3_close_v2(database);
 
@@ -77,9 +95,11 @@ namespace Collektive.Headless
                 var query = new Statement(this, statement);
                 var end = (int)(tail.ToInt64() - pin.AddrOfPinnedObject().ToInt64());
                 var rest = CharacterAt(bytes, end);
-                if (sql.Substring(rest).Trim().Length == 0 && sqlite3_column_count(statement) == 1) return query;
+                var hasRest = sql.Substring(rest).Trim().Length > 0;
+                var hasParameters = sqlite3_bind_parameter_count(statement) > 0;
+                if (!hasRest && !hasParameters && sqlite3_column_count(statement) == 1) return query;
                 query.Dispose();
-                throw new SqlException("it must be one expression", sql.Substring(rest).Trim().Length == 0 ? -1 : rest);
+                throw new SqlException(hasParameters ? "it must not have parameters" : "it must be one expression", hasRest ? rest : -1);
             }
             finally
             {
@@ -90,20 +110,27 @@ namespace Collektive.Headless
 
         private string Message => Text(sqlite3_errmsg(database));
 
+        // Never throws: SQLite calls it.
         private int Authorize(IntPtr data, int action, IntPtr first, IntPtr second, IntPtr schema, IntPtr trigger)
         {
             switch (action)
             {
-                case Select:
-                case Recursive: return Ok;
-                case Function: return Refused.Contains(Text(second)) ? Deny : Ok;
+                case Select: return Ok;
+                case Function: return Allowed.Contains(Text(second)) ? Ok : Deny;
                 case Read:
-                    // Rows of a subquery have no database.
-                    if (Text(first).StartsWith("sqlite_", StringComparison.OrdinalIgnoreCase)) return Deny;
-                    columnsRead.Add(Text(second));
-                    return Ok;
+                    return AuthorizeRead(Text(first), Text(second), schema != IntPtr.Zero);
                 default: return Deny;
             }
+        }
+
+        /// <param name="column">Empty: only rows are counted.</param>
+        /// <param name="isInSchema">False for the rows of a subquery, and for all rows that are only counted.</param>
+        private int AuthorizeRead(string table, string column, bool isInSchema)
+        {
+            var isInternal = table.StartsWith("sqlite_", StringComparison.OrdinalIgnoreCase) || table.StartsWith("pragma_", StringComparison.OrdinalIgnoreCase);
+            if (isInternal || isInSchema && table != Table) return Deny;
+            columnsRead.Add(column);
+            return Ok;
         }
 
         private void Check(int code)
@@ -154,10 +181,12 @@ namespace Collektive.Headless
             /// <exception cref="SqlException">The query fails, or has another result.</exception>
             internal double? Query()
             {
+                owner.clock.Restart();
                 try
                 {
                     var code = sqlite3_step(handle);
                     if (code == Done) return null;
+                    if (code == Interrupted) throw new SqlException("it takes longer than 'stepLimitMs', " + owner.limitMs + " ms", -1);
                     if (code != Row) throw new SqlException(owner.Message, -1);
                     const int Text = 3, Blob = 4, Null = 5;
                     var type = sqlite3_column_type(handle, 0);
@@ -169,13 +198,16 @@ namespace Collektive.Headless
                 finally
                 {
                     sqlite3_reset(handle);
+                    owner.clock.Reset();
                 }
             }
         }
 
-        private const string Library = "libsqlite3.so.0";
+        private const string Library = "collektive_sqlite";
 
         private delegate int Authorizer(IntPtr data, int action, IntPtr first, IntPtr second, IntPtr schema, IntPtr trigger);
+
+        private delegate int ProgressHandler(IntPtr data);
 
         [DllImport(Library)]
         private static extern int sqlite3_open_v2(string file, out IntPtr database, int flags, IntPtr vfs);
@@ -184,7 +216,10 @@ namespace Collektive.Headless
         private static extern int sqlite3_close_v2(IntPtr database);
 
         [DllImport(Library)]
-        private static extern IntPtr sqlite3_libversion();
+        private static extern long sqlite3_hard_heap_limit64(long bytes);
+
+        [DllImport(Library)]
+        private static extern void sqlite3_progress_handler(IntPtr database, int instructions, ProgressHandler handler, IntPtr data);
 
         [DllImport(Library)]
         private static extern IntPtr sqlite3_errmsg(IntPtr database);
@@ -217,6 +252,9 @@ namespace Collektive.Headless
         [DllImport(Library)]
         [SuppressUnmanagedCodeSecurity]
         private static extern int sqlite3_bind_double(IntPtr statement, int parameter, double value);
+
+        [DllImport(Library)]
+        private static extern int sqlite3_bind_parameter_count(IntPtr statement);
 
         [DllImport(Library)]
         private static extern int sqlite3_column_count(IntPtr statement);

@@ -24,6 +24,8 @@ namespace Collektive.Standard
 
         internal static bool IsPoint(float[] point) => point.Length == 2 && IsFinite(point[0]) && IsFinite(point[1]);
 
+        internal static bool IsSize(float[] size) => IsPoint(size) && size[0] > 0 && size[1] > 0;
+
         internal static bool IsFinite(float number) => !float.IsNaN(number) && !float.IsInfinity(number);
 
         /// <summary>Columns of a grid.</summary>

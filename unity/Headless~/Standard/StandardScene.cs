@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using Collektive.Unity;
 using standard;
 using UnityEngine;
@@ -10,6 +11,7 @@ namespace Collektive.Standard
     public sealed class StandardScene : SceneBuilder
     {
         private const int IgnoreRaycastLayer = 2;
+        private const int MaxNodes = 1_000_000;
         private const int MaxSets = 32;
         private const float WallWidth = 0.1f;
 
@@ -64,24 +66,26 @@ namespace Collektive.Standard
         }
 
         private static string NotBelow(string field, float value, float least) =>
-            value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + value + ", it must be a number of at least " + least;
+            value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + ", it must be a number of at least " + Text(least);
 
         private static string NotAbove0(string field, float value) =>
-            value > 0 && Area.IsFinite(value) ? null : "'" + field + "' is " + value + ", it must be a number greater than 0";
+            value > 0 && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + ", it must be a number greater than 0";
+
+        private static string Text(float value) => value.ToString(CultureInfo.InvariantCulture);
 
         private static string ProblemOf(Deployment deployment)
         {
-            if (deployment.nodes < 1) return "'deployment.nodes' is " + deployment.nodes + ", it must be at least 1";
+            if (deployment.nodes < 1 || deployment.nodes > MaxNodes)
+                return "'deployment.nodes' is " + deployment.nodes + ", it must be from 1 to " + MaxNodes;
             if (deployment.columns < 0) return "'deployment.columns' is " + deployment.columns + ", it must be at least 0";
-            if (deployment.size.Length != 2 || !(deployment.size[0] > 0) || !(deployment.size[1] > 0))
-                return "'deployment.size' must be two numbers greater than 0, the metres along x and z";
+            if (!Area.IsSize(deployment.size)) return "'deployment.size' must be two numbers greater than 0, the metres along x and z";
             return NotAbove0("deployment.spacing", deployment.spacing) ?? NotBelow("deployment.disorder", deployment.disorder, 0)
                 ?? NotAbove0("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon, true);
         }
 
         private static string ProblemOf(string field, List<float[]> polygon, bool mayBeEmpty)
         {
-            if (polygon.Count < 3 && !(mayBeEmpty && polygon.Count == 0)) return "'" + field + "' has " + polygon.Count + " corners, it needs 3";
+            if (polygon.Count < 3 && !(mayBeEmpty && polygon.Count == 0)) return "'" + field + "' has " + polygon.Count + " corners, it needs at least 3";
             return polygon.TrueForAll(Area.IsPoint) ? null : "'" + field + "' must be a list of [x, z]";
         }
 
@@ -90,19 +94,20 @@ namespace Collektive.Standard
                 : NotBelow("neighbourhood.radius", neighbourhood.radius, 0);
 
         private static string ProblemOf(Movement movement) =>
-            movement.exponent <= 1 ? "'movement.exponent' is " + movement.exponent + ", it must be above 1"
+            !(movement.exponent > 1) ? "'movement.exponent' is " + Text(movement.exponent) + ", it must be greater than 1"
                 : NotAbove0("movement.speed", movement.speed) ?? NotBelow("movement.pause", movement.pause, 0)
                     ?? NotAbove0("movement.shortest", movement.shortest) ?? NotAbove0("movement.bodyRadius", movement.bodyRadius);
 
         private string ProblemOfSets()
         {
-            if (sets.Count > MaxSets) return "'sets' has " + sets.Count + " sets, the scene has room for " + MaxSets;
+            if (sets.Count > MaxSets) return "'sets' has " + sets.Count + " sets, at most " + MaxSets + " are possible";
             for (var i = 0; i < sets.Count; i++)
             {
                 var set = sets[i];
                 var field = "sets[" + i + "]";
                 if (set.name.Length == 0) return "'" + field + ".name' is missing";
-                if (sets.FindIndex(other => other.name == set.name) < i) return "'" + field + ".name' is '" + set.name + "', as that of another set";
+                if (sets.FindIndex(other => other.name == set.name) < i)
+                    return "'" + field + ".name' is '" + set.name + "', which is also the name of another set";
                 if (set.near.Length > 0 && !Area.IsPoint(set.near)) return "'" + field + ".near' must be [x, z]";
                 if (set.near.Length == 0 && set.ids.Length == 0) return "'" + field + "' needs 'ids' or 'near'";
                 if (set.count < 1 || set.count > deployment.nodes)
@@ -110,9 +115,9 @@ namespace Collektive.Standard
                 foreach (var id in set.ids)
                 {
                     if (id < 0 || id >= deployment.nodes)
-                        return "'" + field + ".ids' names node " + id + "; the deployment has ids from 0 to " + (deployment.nodes - 1);
+                        return "'" + field + ".ids' contains node " + id + ", but the ids of the deployment are 0 to " + (deployment.nodes - 1);
                 }
-                if (!(set.from <= set.until)) return "'" + field + ".from' is " + set.from + ", above 'until', " + set.until;
+                if (!(set.from <= set.until)) return "'" + field + ".from' is " + Text(set.from) + ", above 'until', " + Text(set.until);
             }
             return null;
         }
@@ -125,8 +130,7 @@ namespace Collektive.Standard
                 var field = "obstacles[" + i + "]";
                 if (obstacle.box.Length > 0 == obstacle.polygon.Count > 0) return "'" + field + "' needs either 'box' or 'polygon'";
                 if (obstacle.box.Length > 0 && !Area.IsPoint(obstacle.box)) return "'" + field + ".box' must be the centre, [x, z]";
-                if (obstacle.size.Length != 2 || !(obstacle.size[0] > 0) || !(obstacle.size[1] > 0))
-                    return "'" + field + ".size' must be two numbers greater than 0, the metres along x and z";
+                if (!Area.IsSize(obstacle.size)) return "'" + field + ".size' must be two numbers greater than 0, the metres along x and z";
                 var problem = ProblemOf(field + ".polygon", obstacle.polygon, true) ?? NotAbove0(field + ".height", obstacle.height);
                 if (problem != null) return problem;
             }
@@ -160,7 +164,8 @@ namespace Collektive.Standard
                 var place = deployment.kind == DeploymentKind.Grid ? PlaceInGrid(i) : FreePlace(placed);
                 if (place is Vector3 free) MakeNode(i, free);
             }
-            if (manager.Nodes.Count == 0 && manager.Failure.Length == 0) manager.Fail("obstacles cover all places of the grid");
+            if (manager.Nodes.Count == 0 && manager.Failure.Length == 0)
+                manager.Fail("obstacles cover all positions of the grid: move 'obstacles', or change 'deployment'");
         }
 
         /// <summary>Null where an obstacle is: the node is left out.</summary>
