@@ -19,11 +19,14 @@ add_subdirectory("unity/Headless~/NativePhysics" physics EXCLUDE_FROM_ALL)
 # Mono looks for native libraries beside the assembly that calls them.
 set_target_properties(collektive_physics PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${COLLEKTIVE_BUILD}/csharp")
 
-# Metrics are SQL, possibly of strangers: without extensions, other databases and files. -O1 builds in half the time of -O2.
-add_library(collektive_sqlite SHARED EXCLUDE_FROM_ALL "${COLLEKTIVE_BUILD}/sqlite/sqlite3.c")
+# Metrics are SQL, possibly of strangers: without extensions, other databases and files.
+add_library(collektive_sqlite SHARED EXCLUDE_FROM_ALL "unity/Headless~/NativeSqlite/insert.c" "${COLLEKTIVE_BUILD}/sqlite/sqlite3.c")
+target_include_directories(collektive_sqlite SYSTEM PRIVATE "${COLLEKTIVE_BUILD}/sqlite")
 target_compile_definitions(collektive_sqlite PRIVATE SQLITE_DQS=0 SQLITE_THREADSAFE=0 SQLITE_TEMP_STORE=3 SQLITE_MAX_ATTACHED=0
   SQLITE_OMIT_LOAD_EXTENSION SQLITE_OMIT_JSON SQLITE_OMIT_DEPRECATED SQLITE_ENABLE_MATH_FUNCTIONS SQLITE_ENABLE_PERCENTILE)
 # No contraction of a*b+c: values are the same on processors with and without fused multiply-add.
-target_compile_options(collektive_sqlite PRIVATE -w -O1 -ffp-contract=off)
+target_compile_options(collektive_sqlite PRIVATE -ffp-contract=off)
+set_source_files_properties("${COLLEKTIVE_BUILD}/sqlite/sqlite3.c" PROPERTIES COMPILE_OPTIONS -w)
+set_source_files_properties("unity/Headless~/NativeSqlite/insert.c" PROPERTIES COMPILE_OPTIONS "-std=c11;-Wall;-Wextra;-Werror")
 target_link_libraries(collektive_sqlite PRIVATE m)
 set_target_properties(collektive_sqlite PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${COLLEKTIVE_BUILD}/csharp")

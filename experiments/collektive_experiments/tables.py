@@ -181,8 +181,9 @@ class _Columns:
             metrics = dict(zip(names, cells[1:]))
             rest = cells[1 + len(names):]
             self.rows[run.name] += 1
-            self._ends[run.name] = float(cells[0])
-            yield {"second": float(cells[0]), **{column: self._number(run, name, metrics.get(name)) for name, column in self._names.items()},
+            second = self._ends[run.name] = float(cells[0])
+            # Without answers, many metrics have no value.
+            yield {"second": second, **{column: self._number(run, name, metrics.get(name), warns=second > 0) for name, column in self._names.items()},
                    **{name: int(cell) for name, cell in zip(COUNTS, rest)}, **{name: float(cell) for name, cell in zip(TIMES, rest[len(COUNTS):])}}
 
     def node_rows(self, run: Run) -> Iterator[dict[str, Any]]:
@@ -201,12 +202,12 @@ class _Columns:
         for name, runs in self._not_finite.items():
             print(f"collektive: the metric '{name}' is NaN or infinite in {len(runs)} runs, such as '{min(runs)}'; these cells are empty", file=sys.stderr)
 
-    def _number(self, run: Run, name: str, value: Any) -> float | None:
+    def _number(self, run: Run, name: str, value: Any, warns: bool = True) -> float | None:
         """Returns a metric, or None if it is not finite. The player writes NaN and infinity as text."""
         if value is None or value == "":
             return None
         number = _finite(str(value).replace("∞", "inf"))
-        if number is None:
+        if number is None and warns:
             self._not_finite.setdefault(name, set()).add(run.name)
         return number
 

@@ -5,6 +5,7 @@ using System.Reflection;
 using System.Text;
 using Collektive.Bridge;
 using Collektive.Unity;
+using UnityEngine;
 
 namespace Collektive.Headless
 {
@@ -24,7 +25,6 @@ namespace Collektive.Headless
         private readonly Reader answers;
         private readonly Reader sensors;
         private readonly List<Column> used = new List<Column>();
-        private double[] row = Array.Empty<double>();
         private double[][] sensed = Array.Empty<double[]>();
         private int[] degrees = Array.Empty<int>();
 
@@ -46,7 +46,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Names of the columns in use, in the order of <see cref="Row"/>.</summary>
+        /// <summary>Names of the columns in use, in the order of <see cref="Read"/>.</summary>
         internal IEnumerable<string> Used
         {
             get
@@ -55,8 +55,8 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Values of the node of the last <see cref="Read"/>; NaN: none.</summary>
-        internal double[] Row => row;
+        /// <summary>Number of columns in use.</summary>
+        internal int Width => used.Count;
 
         /// <summary>Definitions of the columns in SQL. Names of several words can also be written as in Kotlin.</summary>
         internal string Definitions
@@ -78,7 +78,6 @@ namespace Collektive.Headless
         {
             foreach (var name in names)
                 if (byName.TryGetValue(name, out var column) && !used.Contains(column)) used.Add(column);
-            row = new double[used.Count];
             sensed = new double[used.Count][];
             for (var i = 0; i < used.Count; i++) sensed[i] = Array.Empty<double>();
         }
@@ -110,28 +109,29 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Reads the values of a node into <see cref="Row"/>.</summary>
-        internal void Read(SimulationManager manager, Node node)
+        /// <summary>Reads the values of a node into an array, from an index on; NaN: none.</summary>
+        internal void Read(SimulationManager manager, Node node, double[] values, int first)
         {
             var hasAnswer = answers.Load(node);
+            var position = node.transform.position;
             for (var i = 0; i < used.Count; i++)
             {
                 var column = used[i];
-                row[i] = column.Kind == Kind.Node ? Value(manager, node, column.Index)
+                values[first + i] = column.Kind == Kind.Node ? Value(manager, node, position, column.Index)
                     : column.Kind == Kind.Answer ? hasAnswer ? answers.Value(column.Index) : double.NaN : sensed[i][node.Id];
             }
         }
 
-        private double Value(SimulationManager manager, Node node, int index)
+        private double Value(SimulationManager manager, Node node, Vector3 position, int index)
         {
             switch (index)
             {
                 case 0: return node.Id;
                 case 1: return manager.SimulatedTime;
                 case 2: return degrees[node.Id];
-                case 3: return node.transform.position.x;
-                case 4: return node.transform.position.y;
-                default: return node.transform.position.z;
+                case 3: return position.x;
+                case 4: return position.y;
+                default: return position.z;
             }
         }
 

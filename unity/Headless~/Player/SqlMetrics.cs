@@ -18,7 +18,7 @@ namespace Collektive.Headless
         // On a line of its own, so that a comment cannot hide it.
         private const string After = "\n) FROM " + Sqlite.Table;
 
-        /// <summary>Rows of one statement: each costs a call.</summary>
+        /// <summary>Rows of one statement.</summary>
         private const int RowsAtOnce = 64;
 
         private readonly List<Metric> metrics = new List<Metric>();
@@ -27,6 +27,7 @@ namespace Collektive.Headless
         private readonly NodeColumns columns;
         private readonly Sqlite database;
         private readonly Sqlite.Statement clear, insert, insertMany;
+        private readonly double[] rows;
 
         /// <summary>Checks all metrics, on tables without nodes and with two.</summary>
         /// <param name="limitMs">Milliseconds that a metric may take.</param>
@@ -43,8 +44,8 @@ namespace Collektive.Headless
             clear = database.Prepare("DELETE FROM " + Sqlite.Table);
             insert = Insertion(1);
             insertMany = Insertion(RowsAtOnce);
+            rows = new double[RowsAtOnce * columns.Width];
             foreach (var metric in metrics) RequireAggregate(metric);
-            clear.Execute();
         }
 
         internal IReadOnlyList<string> Names => names;
@@ -72,20 +73,14 @@ namespace Collektive.Headless
         private void Fill(SimulationManager manager)
         {
             database.Execute("BEGIN");
-            clear.Execute();
+            clear.Execute(rows, 0);
             columns.Begin(manager);
             var nodes = manager.Nodes;
-            var width = columns.Row.Length;
             for (var next = 0; next < nodes.Count;)
             {
                 var count = nodes.Count - next >= RowsAtOnce ? RowsAtOnce : 1;
-                var statement = count == 1 ? insert : insertMany;
-                for (var i = 0; i < count; i++)
-                {
-                    columns.Read(manager, nodes[next++]);
-                    for (var column = 0; column < width; column++) statement.Bind(1 + i * width + column, columns.Row[column]);
-                }
-                statement.Execute();
+                for (var i = 0; i < count; i++) columns.Read(manager, nodes[next++], rows, i * columns.Width);
+                (count == 1 ? insert : insertMany).Execute(rows, count * columns.Width);
             }
             database.Execute("COMMIT");
         }
@@ -120,7 +115,7 @@ namespace Collektive.Headless
         /// </summary>
         private void RequireAggregate(Metric metric)
         {
-            clear.Execute();
+            clear.Execute(rows, 0);
             if (Evaluate(metric) == null)
             {
                 throw file.Error(
@@ -130,11 +125,11 @@ namespace Collektive.Headless
             var value = new double[2];
             for (var order = 0; order < 2; order++)
             {
-                clear.Execute();
+                clear.Execute(rows, 0);
                 for (var node = 0; node < 2; node++)
                 {
-                    for (var column = 0; column < columns.Row.Length; column++) insert.Bind(1 + column, (node ^ order) == 0 ? column + 1 : 3 * column + 5);
-                    insert.Execute();
+                    for (var column = 0; column < columns.Width; column++) rows[column] = (node ^ order) == 0 ? column + 1 : 3 * column + 5;
+                    insert.Execute(rows, columns.Width);
                 }
                 value[order] = Evaluate(metric) ?? double.NaN;
             }

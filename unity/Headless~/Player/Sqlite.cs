@@ -2,7 +2,6 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using System.Runtime.InteropServices;
-using System.Security;
 using System.Text;
 
 namespace Collektive.Headless
@@ -166,15 +165,10 @@ namespace Collektive.Headless
 
             public void Dispose() => sqlite3_finalize(handle);
 
-            /// <summary>Sets a parameter, from 1; NaN becomes NULL.</summary>
-            internal void Bind(int parameter, double value) => sqlite3_bind_double(handle, parameter, value);
-
-            /// <summary>Executes a statement without results.</summary>
-            internal void Execute()
+            /// <summary>Executes a statement without results, with the first values of an array as its parameters; NaN becomes NULL.</summary>
+            internal void Execute(double[] values, int count)
             {
-                var code = sqlite3_step(handle);
-                if (code != Done) throw new InvalidOperationException("SQLite: " + owner.Message);
-                sqlite3_reset(handle);
+                if (collektive_insert(handle, values, count) != Done) throw new InvalidOperationException("SQLite: " + owner.Message);
             }
 
             /// <summary>Returns the number in the only row; NaN for NULL; null if there is no row.</summary>
@@ -243,15 +237,13 @@ namespace Collektive.Headless
         private static extern int sqlite3_finalize(IntPtr statement);
 
         [DllImport(Library)]
-        [SuppressUnmanagedCodeSecurity]
         private static extern int sqlite3_step(IntPtr statement);
 
         [DllImport(Library)]
         private static extern int sqlite3_reset(IntPtr statement);
 
         [DllImport(Library)]
-        [SuppressUnmanagedCodeSecurity]
-        private static extern int sqlite3_bind_double(IntPtr statement, int parameter, double value);
+        private static extern int collektive_insert(IntPtr statement, double[] values, int count);
 
         [DllImport(Library)]
         private static extern int sqlite3_bind_parameter_count(IntPtr statement);

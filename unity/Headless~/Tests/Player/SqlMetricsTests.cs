@@ -71,17 +71,17 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Measure("total(heard)"), Is.EqualTo(0));
         }
 
-        // Values 1, NaN and infinity, the program doubles them; the fourth node has had no round.
+        // Values 1, NaN and infinity; the fourth node has had no round.
         [TestCase("count(*)", 4)]
         [TestCase("count(value)", 2)]
-        [TestCase("count(sensor_value)", 2)]
+        [TestCase("count(sensor_value)", 3)]
         [TestCase("count(heard)", 3)]
         [TestCase("avg(value)", double.PositiveInfinity)]
-        [TestCase("min(value)", 2)]
-        [TestCase("max(-value)", -2)]
+        [TestCase("min(value)", 1)]
+        [TestCase("max(-value)", -1)]
         [TestCase("avg(value) - max(value)", double.NaN)]
-        [TestCase("avg(value) filter (where value < 9)", 2)]
-        [TestCase("avg(coalesce(value, 0)) filter (where id <> 2)", 2.0 / 3)]
+        [TestCase("avg(value) filter (where value < 9)", 1)]
+        [TestCase("avg(coalesce(value, 0)) filter (where id <> 2)", 1.0 / 3)]
         [TestCase("avg(value) filter (where id > 9)", double.NaN)]
         [TestCase("sum(value) / 0", double.NaN)]
         [TestCase("max(1e308 * 10)", double.PositiveInfinity)]
@@ -93,12 +93,12 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("sum(id / 2)", 3)]
         [TestCase("max(time)", 0.05)]
         [TestCase("max(x) + max(position_z)", 5)]
-        [TestCase("max(positionZ)", 2)]
         [TestCase("sum((select count(*) from nodes other where other.x < nodes.x))", 6)]
         [TestCase("avg(id) -- a comment", 1.5)]
         public void Values_are_those_of_SQL_with_NULL_for_NaN_and_missing_answers(string sql, double expected)
         {
-            var values = new[] { 1, float.NaN, float.PositiveInfinity };
+            var values = new[] { 2, 0, 0.5f };
+            Configure("ratio");
             using (var metrics = Make(sql))
             {
                 for (var i = 0; i < values.Length; i++) MakeNode(values[i], new UnityEngine.Vector3(i, 0, i));

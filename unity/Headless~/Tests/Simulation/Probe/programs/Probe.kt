@@ -13,6 +13,10 @@ import org.collektive.api.Program
 @Program("double")
 public fun Aggregate<Int>.double(sensors: SensorData): ActuatorData = ActuatorData(sensors.value() * 2)
 
+/** 1 for 2, infinity for 0.5, NaN for 0. */
+@Program("ratio")
+public fun Aggregate<Int>.ratio(sensors: SensorData): ActuatorData = ActuatorData(sensors.value() / sensors.value().toInt())
+
 @Program("sum")
 public fun Aggregate<Int>.sum(sensors: SensorData): ActuatorData {
     val heard = neighboring(sensors.value()).neighbors.list.map { it.value }
