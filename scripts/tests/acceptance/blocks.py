@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from build.places import ROOT
 
 FENCE = re.compile(r'(?m)^( *)```(\w*)(?: title="([^"]+)")?\n(.*?)^\1```$', re.S)
-STORIES = ["Documentation~/without-unity.md", "Documentation~/first-study.md", *sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "Documentation~/tutorial-*.md")))]
+STORIES = ["Documentation~/without-unity.md", "Documentation~/first-study.md",
+           *sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "Documentation~/tutorial-*.md")))]
 PROJECTS = ["README.md", "Documentation~/getting-started.md"]
 PAGES = sorted(os.path.relpath(path, ROOT) for pattern in ("*.md", "docs/*.md", "Documentation~/*.md") for path in glob.glob(os.path.join(ROOT, pattern)))
 

@@ -45,7 +45,7 @@ namespace Collektive.Headless
                 criterion.Index = new List<string>(names).IndexOf(criterion.Metric);
                 if (criterion.Index >= 0) continue;
                 throw new ScenarioException(
-                    "'converged." + criterion.Metric + "': unknown metric; the scene's metrics are: " + string.Join(", ", names));
+                    "'converged." + criterion.Metric + "': unknown metric; the metrics are: " + string.Join(", ", names));
             }
         }
 

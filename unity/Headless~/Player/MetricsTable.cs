@@ -47,16 +47,13 @@ namespace Collektive.Headless
             foreach (var name in Counts) yield return name;
         }
 
-        /// <summary>Throws a <see cref="ScenarioException"/> if two columns of the table would have one name.</summary>
-        internal static void RefuseDuplicates(RunMetrics metrics)
+        /// <summary>Returns the first metric with the name of an earlier column, or null.</summary>
+        internal static string FindDuplicate(RunMetrics metrics)
         {
             var known = new HashSet<string>(Counts.Concat(Times)) { "second" };
             foreach (var name in metrics.Names)
-            {
-                if (known.Add(name)) continue;
-                throw new ScenarioException(
-                    "metrics.csv already has a column named '" + name + "': rename this metric of the scene or scenario");
-            }
+                if (!known.Add(name)) return name;
+            return null;
         }
 
         /// <summary>Adds a tick.</summary>

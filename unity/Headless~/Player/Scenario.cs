@@ -43,7 +43,6 @@ namespace Collektive.Headless
         internal static IEnumerable<string> Keys => OwnKeys.Concat(Shared.Select(field => field.Name));
 
         private readonly JObject root;
-        private readonly JObject queries;
 
         private Scenario(JsonFile file, string path, JObject root, string folder, bool trustsJvm)
         {
@@ -65,7 +64,7 @@ namespace Collektive.Headless
             file.Required<string>(root, nameof(SimulationSettings.program));
             file.Fill(Settings, Shared, root, "");
             ReadParameters(file, file.Optional(root, "parameters", new JObject()));
-            queries = file.Optional(root, "metrics", new JObject());
+            Queries = file.Optional(root, "metrics", new JObject());
             Convergence = Convergence.Read(file, file.Optional(root, "converged", new JObject()));
             StopWhenConverged = file.Optional(root, "stopWhenConverged", false);
             if (StopWhenConverged && Convergence.Criteria.Count == 0)
@@ -141,6 +140,9 @@ namespace Collektive.Headless
         /// <summary>Simulated seconds from one row of each node to the next.</summary>
         internal double NodeInterval { get; }
 
+        /// <summary>SQL of the scenario's metrics, by name.</summary>
+        internal JObject Queries { get; }
+
         /// <summary>When metrics have converged.</summary>
         internal Convergence Convergence { get; }
 
@@ -182,7 +184,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>Checks and prepares the metrics. The schema's code must be loaded.</summary>
-        internal SqlMetrics MakeMetrics() => new SqlMetrics(File, queries, queries.Count == 0 ? null : Schemas.Find(""), Settings.stepLimitMs);
+        internal SqlMetrics MakeMetrics() => new SqlMetrics(File, Queries, Queries.Count == 0 ? null : Schemas.Find(""), Settings.stepLimitMs);
 
         /// <summary>Copies the shared settings to the manager's.</summary>
         internal void CopyTo(SimulationSettings settings)
@@ -249,7 +251,7 @@ namespace Collektive.Headless
                 new JProperty("parameters", ParametersToJson()),
                 new JProperty("fields", fields),
                 new JProperty("seconds", Seconds),
-                new JProperty("metrics", queries),
+                new JProperty("metrics", Queries),
                 new JProperty("converged", Convergence.ToJson()),
                 new JProperty("stopWhenConverged", StopWhenConverged),
                 new JProperty("jvm", jvm),

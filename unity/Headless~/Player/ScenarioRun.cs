@@ -171,9 +171,17 @@ namespace Collektive.Headless
             SceneFields.Set(scene, scenario, options.FieldAssignments);
             if (scene.FindProblem() is string problem) throw SceneFields.Error(scenario, problem);
             runMetrics = new RunMetrics(scene, scenario.MakeMetrics());
-            MetricsTable.RefuseDuplicates(runMetrics);
+            if (MetricsTable.FindDuplicate(runMetrics) is string metric) throw DuplicateError(scene, metric);
             scenario.Convergence.Bind(runMetrics.Names);
             return scene;
+        }
+
+        private ScenarioException DuplicateError(SceneBuilder scene, string metric)
+        {
+            const string Problem = "metrics.csv already has a column of that name: rename the metric";
+            return scenario.Queries.Property(metric) is JProperty query
+                ? scenario.File.Error(query, "'metrics." + metric + "': " + Problem)
+                : new ScenarioException("the scene " + scene.GetType().FullName + " has the metric '" + metric + "', but " + Problem);
         }
 
         private int Play(SimulationManager manager, SceneBuilder scene)
