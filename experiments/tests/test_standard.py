@@ -186,6 +186,54 @@ def test_metrics_are_right(study: Study, tmp_path: Path) -> None:
     assert json.loads((tmp_path / "stopped/manifest.json").read_text())["ticks"] == 5
 
 
+SPEED = "sqrt(pow(sensor_velocity_x, 2) + pow(sensor_velocity_z, 2))"
+NEAREST = "(select min(pow(other.x - nodes.x, 2) + pow(other.z - nodes.z, 2)) from nodes other where other.id <> nodes.id)"
+# Fields, simulated seconds, and the least and greatest value of metrics at the end.
+SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
+    ({"deployment": {"nodes": 6, "columns": 3, "spacing": 2}}, 0.1, {"max(x)": (4, 4), "max(z)": (2, 2), "count(*)": (6, 6)}),
+    ({"deployment": {"nodes": 36, "spacing": 2, "disorder": 0.5}}, 0.1, {"max(abs(x - 2 * round(x / 2)))": (0.3, 0.5), "min(abs(z))": (0, 0.5)}),
+    ({"deployment": {"kind": "Poisson", "nodes": 40, "spacing": 2, "size": [30, 10]}}, 0.1,
+     {f"sqrt(min({NEAREST}))": (2, 3), "max(abs(x))": (10, 15), "max(abs(z))": (3, 5)}),
+    ({"deployment": {"kind": "Disc", "nodes": 200, "radius": 5}}, 0.1, {"max(sqrt(x*x + z*z))": (4.7, 5), "avg(sqrt(x*x + z*z))": (3, 3.7)}),
+    ({"deployment": {"kind": "Uniform", "nodes": 200, "polygon": [[0, 0], [10, 0], [0, 10]]}}, 0.1,
+     {"max(x + z)": (8, 10), "min(min(x, z))": (0, 1), "avg(x)": (2.8, 3.9)}),
+    ({"deployment": {"kind": "Uniform", "nodes": 200, "size": [10, 10]}, "obstacles": [{"box": [3, 3], "size": [4, 2]}]}, 0.1,
+     {"count(*) filter (where abs(x - 3) <= 2 and abs(z - 3) <= 1)": (0, 0)}),
+    ({"deployment": {"nodes": 9, "spacing": 2}, "neighbourhood": {"kind": "Nearest", "count": 3}}, 0.1, {"min(degree)": (3, 3)}),
+    ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"}}, 0.1, {"sum(degree)": (2, 2)}),
+    ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"},
+      "obstacles": [{"polygon": [[1, -1], [1.5, -1], [1.5, 1], [1, 1]]}]}, 0.1, {"sum(degree)": (0, 0)}),
+    ({"movement": {"kind": "RandomWaypoint", "speed": 2}}, 2, {f"max({SPEED})": (1.99, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
+    ({"movement": {"kind": "LevyWalk", "speed": 2}}, 9, {f"max({SPEED})": (1.9, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
+    # The program's target is the origin.
+    ({"deployment": {"nodes": 4}, "movement": {"kind": "Target", "speed": 1}}, 2, {f"max({SPEED})": (0.5, 1.01), "max(x)": (1, 2.5)}),
+    ({"churn": {"failures": 0.1, "arrivals": 10}}, 5,
+     {"count(*) filter (where id < 100)": (45, 75), "count(*) filter (where id >= 100)": (20, 70)}),
+]
+
+
+@pytest.mark.parametrize(("fields", "seconds", "expected"), SCENES, ids=[json.dumps(fields) for fields, *_ in SCENES])
+def test_nodes_are_where_the_fields_say(study: Study, fields: dict[str, Any], seconds: float, expected: dict[str, tuple[float, float]], tmp_path: Path) -> None:
+    study.write({**SCENARIO, "fields": fields, "metrics": {sql: sql for sql in expected}, "converged": {}})
+    outcome = study.worker.run({"seconds": seconds}, "{}", str(tmp_path / "out"), 300, is_repeated=False)
+    assert outcome.status == "complete", outcome.message
+    end = json.loads((tmp_path / "out/manifest.json").read_text())["end"]
+    for sql, (least, greatest) in expected.items():
+        assert least <= end[sql] <= greatest, f"{sql}: {end}"
+
+
+@pytest.mark.parametrize(("fields", "message"), [
+    ({"deployment": {"kind": "Poisson", "nodes": 100, "spacing": 20}}, "the area has no room for 100 nodes: "),
+    ({"deployment": {"kind": "Uniform", "polygon": [[0, 0], [1, 0], [2, 0]]}}, "the area has no room for 100 nodes: 0 were placed"),
+    ({"deployment": {"nodes": 4}, "obstacles": [{"box": [0, 0], "size": [20, 20]}]}, "obstacles cover all positions of the grid"),
+])
+def test_deployments_without_room_fail_at_the_start(study: Study, fields: dict[str, Any], message: str, tmp_path: Path) -> None:
+    study.write({**SCENARIO, "fields": fields})
+    outcome = study.worker.run({}, "{}", str(tmp_path / "out"), 300, is_repeated=False)
+    assert outcome.status == "failed"
+    assert message in outcome.message
+
+
 def test_a_run_from_its_file_repeats(study: Study, tmp_path: Path) -> None:
     result = subprocess.run([COLLEKTIVE, "run", study.folder / "scenario.json", "--out", tmp_path / "out", "--set", "deployment.nodes=20",
                              "--set", "outputs.replay=true"],
