@@ -11,8 +11,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from collektive_experiments.worker import Worker
 from conftest import COLLEKTIVE, ROOT
+
+from collektive_experiments.worker import Worker
 
 PROGRAM = """package first
 
@@ -120,7 +121,7 @@ def test_a_wrong_key_is_refused_with_its_place_before_a_run(study: Study, key: s
     problem, _ = study.worker.check({})
     assert problem is not None
     assert message in problem
-    if key.startswith("fields.") and key != "fields.crowd" or key.startswith("metrics."):
+    if (key.startswith("fields.") and key != "fields.crowd") or key.startswith("metrics."):
         line = next(number for number, text in enumerate(lines, 1) if f'"{last}":' in text)
         place = re.search(r"scenario\.json:(\d+)(?::(\d+))?: ", problem)
         assert place is not None

@@ -15,7 +15,7 @@ namespace Collektive.Headless
     internal sealed class SqlMetrics : IDisposable
     {
         private const string Before = "SELECT (";
-        // On a line of its own, so that a comment cannot hide it.
+        // On a new line, so that a comment cannot hide it.
         private const string After = "\n) FROM " + Sqlite.Table;
 
         /// <summary>Rows of one statement.</summary>
@@ -110,7 +110,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Throws unless a metric has one row even without nodes, as aggregates do, and the same value whatever the order of two nodes: SQLite accepts columns
+        /// Throws unless a metric has one row even without nodes, as aggregates do, and the same value for both orders of two nodes. SQLite accepts columns
         /// outside of an aggregate function, and reads them from any node.
         /// </summary>
         private void RequireAggregate(Metric metric)

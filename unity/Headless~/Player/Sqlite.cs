@@ -7,7 +7,7 @@ using System.Text;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// A database in memory. Queries can read its tables and call functions whose results repeat, and nothing else: they may come from strangers.
+    /// A database in memory. Queries can only read the table and call functions whose results repeat, because they may come from strangers.
     /// Not thread-safe.
     /// </summary>
     internal sealed class Sqlite : IDisposable
@@ -171,7 +171,7 @@ namespace Collektive.Headless
                 if (collektive_insert(handle, values, count) != Done) throw new InvalidOperationException("SQLite: " + owner.Message);
             }
 
-            /// <summary>Returns the number in the only row; NaN for NULL; null if there is no row.</summary>
+            /// <summary>Returns the number in the only row; NaN for NULL; null for zero rows.</summary>
             /// <exception cref="SqlException">The query fails, or has another result.</exception>
             internal double? Query()
             {

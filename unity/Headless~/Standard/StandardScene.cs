@@ -168,7 +168,7 @@ namespace Collektive.Standard
                 manager.Fail("obstacles cover all positions of the grid: move 'obstacles', or change 'deployment'");
         }
 
-        /// <summary>Null where an obstacle is: the node is left out.</summary>
+        /// <summary>Returns the position of a node, or null if an obstacle covers it.</summary>
         private Vector3? PlaceInGrid(int index)
         {
             var place = deployment.spacing * new Vector3(index % area.Columns, 0, index / area.Columns);

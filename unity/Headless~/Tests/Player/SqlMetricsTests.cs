@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using Collektive.Bridge;
 using Collektive.Headless.Tests.Simulation;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -125,6 +126,10 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Measure("sum(degree)"), Is.EqualTo(2));
         }
 
+        [TestCase("count(maybeNumber) + count(maybe_number) + count(MAYBE_NUMBER)")]
+        [TestCase("avg(position_x) + count(mode)")]
+        public void Columns_have_the_names_of_the_schema_and_of_Kotlin(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
+
         private double Measure(string sql)
         {
             using (var metrics = Make(sql))
@@ -135,11 +140,11 @@ namespace Collektive.Headless.Tests.Player
             }
         }
 
-        private SqlMetrics Make(string sql)
+        private SqlMetrics Make(string sql, DataSchema schema = null)
         {
             File.WriteAllText(path, "{\n  \"metrics\": {\n    \"m\": " + Newtonsoft.Json.JsonConvert.ToString(sql) + "\n  }\n}");
             var file = JsonFile.Read(path);
-            return new SqlMetrics(file, (JObject)file.Root["metrics"], new probe.ProbeSchema(), LimitMs);
+            return new SqlMetrics(file, (JObject)file.Root["metrics"], schema ?? new probe.ProbeSchema(), LimitMs);
         }
     }
 }

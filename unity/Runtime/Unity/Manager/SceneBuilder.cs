@@ -28,7 +28,7 @@ namespace Collektive.Unity
         public virtual IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => Array.Empty<KeyValuePair<string, Vector3>>();
 
         /// <summary>
-        /// Returns the problem with the fields, or null. Called before a run without Unity, when nothing is built. If the message begins with a field in
+        /// Returns the problem with the fields, or null. Called before a run without Unity builds the scene. If the message begins with a field in
         /// single quotes, such as <c>'range' must be positive</c> or <c>'zones[2].radius'</c>, the error contains its line in the scenario file.
         /// </summary>
         public virtual string FindProblem() => null;
