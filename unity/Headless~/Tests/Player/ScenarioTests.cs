@@ -134,7 +134,7 @@ namespace Collektive.Headless.Tests.Player
             for (var i = 0; i < values.Length; i++) convergence.Add(i, new[] { 0, values[i] });
             Assert.That((double?)convergence.Times()["error"], Is.EqualTo(expected));
             Assert.That(convergence.IsComplete, Is.EqualTo(expected != null));
-            Assert.That(Assert.Throws<ScenarioException>(() => convergence.Bind(new[] { "other" })).Message, Is.StringContaining("the scene's metrics "
+            Assert.That(Assert.Throws<ScenarioException>(() => convergence.Bind(new[] { "other" })).Message, Is.StringContaining("the metrics "
                 + "are: other"));
         }
 
