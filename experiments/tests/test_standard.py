@@ -5,6 +5,7 @@ import csv
 import gzip
 import json
 import re
+import shutil
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -135,6 +136,19 @@ def test_a_wrong_key_is_refused_with_its_place_before_a_run(study: Study, key: s
 def test_a_correct_scenario_has_its_metrics(study: Study) -> None:
     study.write(SCENARIO)
     assert study.worker.check({"fields.deployment.kind": "Poisson"}) == (None, ["reached", "mean", "sources", "degree_mean"])
+
+
+def test_a_missing_library_is_reported_with_the_command_that_builds_it(study: Study, tmp_path: Path) -> None:
+    study.write(SCENARIO)
+    shutil.copytree(study.bundle, tmp_path / "bundle")
+    (tmp_path / "bundle/csharp/libcollektive_sqlite.so").unlink()
+    worker = Worker(str(tmp_path / "bundle"), str(tmp_path / "worker.txt"))
+    try:
+        problem, _ = worker.check({})
+    finally:
+        worker.stop()
+    assert problem is not None
+    assert "the library for 'metrics' (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it" in problem
 
 
 @pytest.mark.parametrize("settings", [
