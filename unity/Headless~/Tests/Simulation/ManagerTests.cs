@@ -105,7 +105,8 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             var names = new List<string>();
             foreach (var program in Manager.Programs) names.Add(program.Name);
-            Assert.That(names, Is.EquivalentTo(new[] { "arms", "clock", "count", "double", "far", "hops", "random", "ratio", "scaled", "sum", "trouble", "windy" }));
+            var expected = new[] { "arms", "clock", "count", "double", "far", "hops", "random", "ratio", "scaled", "sum", "trouble", "windy" };
+            Assert.That(names, Is.EquivalentTo(expected));
             foreach (var program in Manager.Programs)
             {
                 if (program.Name != "scaled") continue;
