@@ -104,8 +104,8 @@ namespace Collektive.Headless
             Array.Clear(degrees, 0, degrees.Length);
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {
-                if (pair.Up.Holders > 0) degrees[pair.High]++;
-                if (pair.Down.Holders > 0) degrees[pair.Low]++;
+                if (pair.Up.References > 0) degrees[pair.High]++;
+                if (pair.Down.References > 0) degrees[pair.Low]++;
             }
         }
 
@@ -278,7 +278,7 @@ namespace Collektive.Headless
             internal override void ReadDue(Simulation simulation, int field, double[] byId)
             {
                 var get = Getters[field];
-                var items = ((SensorBuffer<T>)simulation.Sensed).Items;
+                var items = ((SensorBuffer<T>)simulation.SensorData).Items;
                 for (var i = 0; i < simulation.DueCount; i++) byId[simulation.DueId(i)] = get(items[i]);
             }
         }

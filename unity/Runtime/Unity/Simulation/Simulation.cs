@@ -127,7 +127,7 @@ namespace Collektive.Unity
         /// <summary>Number of nodes with a round in the last tick.</summary>
         internal int DueCount => due.Count;
 
-        /// <summary>Id of the node whose sensor data has that index in <see cref="Sensed"/>.</summary>
+        /// <summary>Id of the node whose sensor data has that index in <see cref="SensorData"/>.</summary>
         internal int DueId(int index) => due.Items[index].Id;
 
         /// <summary>Starts the JVM if needed, and opens a session.</summary>
