@@ -79,7 +79,7 @@ namespace Collektive.Standard
         public float height = 3;
     }
 
-    /// <summary>Which nodes hear each other.</summary>
+    /// <summary>The rule that links nodes.</summary>
     public enum NeighbourhoodKind
     {
         /// <summary>Those within a radius.</summary>
@@ -104,7 +104,7 @@ namespace Collektive.Standard
         public int count = 8;
     }
 
-    /// <summary>What moves nodes.</summary>
+    /// <summary>The way in which nodes move.</summary>
     public enum MovementKind
     {
         /// <summary>Nothing.</summary>
