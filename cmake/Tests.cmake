@@ -54,7 +54,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(sanitized-on-${name} sanitized LABELS extra NEEDS build:sanitized TIMEOUT 1800 ${java_home}
     COMMAND ctest --test-dir "${COLLEKTIVE_BUILD}/sanitized" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
   suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
-  suite(csharp-own-process-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
+  suite(csharp-own-process-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
     SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()

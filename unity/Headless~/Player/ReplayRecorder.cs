@@ -31,8 +31,8 @@ namespace Collektive.Headless
         private readonly ReplayMetrics metrics;
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
         // By node id, where nodes are coloured.
-        private readonly Dictionary<int, IColors> colours;
-        // By node id; null if the scene has shades.
+        private readonly Dictionary<int, IColours> colours;
+        // By node id; null if the scene has colourings.
         private int[] neighbours;
         private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
         private readonly Stopwatch clock = new Stopwatch();
@@ -42,7 +42,7 @@ namespace Collektive.Headless
         {
             this.scene = scene;
             this.manager = manager;
-            if (IsColoured(manager)) colours = new Dictionary<int, IColors>();
+            if (IsColoured(manager)) colours = new Dictionary<int, IColours>();
             metrics = new ReplayMetrics(MetricsTable.NamesOf(runMetrics));
             var metadata = new ReplayMetadata
             {
@@ -164,27 +164,27 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>The scene's own shades and then colours; for a scene without shades, its colours and then what its nodes answer.</summary>
+        /// <summary>Returns the scene's colourings, then its colours. Without colourings, its colours, then fields of the answers.</summary>
         private List<ReplayField> Fields()
         {
             var fields = new List<ReplayField>();
-            foreach (var shade in scene.Shades) Add(fields, shade);
-            var hasShades = fields.Count > 0;
+            foreach (var colouring in scene.Colourings) Add(fields, colouring);
+            var hasColourings = fields.Count > 0;
             if (colours != null) AddColours(fields);
-            if (!hasShades) foreach (var shade in AnswerShades.Of(manager)) Add(fields, shade);
+            if (!hasColourings) foreach (var colouring in AnswerColourings.Of(manager)) Add(fields, colouring);
             if (fields.Count == 0)
             {
                 neighbours = Array.Empty<int>();
-                Add(fields, new NodeShade("neighbours", node => neighbours[node.Id]));
+                Add(fields, new NodeColouring("neighbours", node => neighbours[node.Id]));
             }
             return fields;
         }
 
-        private void Add(List<ReplayField> fields, NodeShade shade)
+        private void Add(List<ReplayField> fields, NodeColouring colouring)
         {
-            var kind = shade.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
-            fields.Add(new ReplayField(shade.Name, kind) { Unit = shade.Unit, Categories = shade.Categories });
-            readers.Add(shade.Read);
+            var kind = colouring.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
+            fields.Add(new ReplayField(colouring.Name, kind) { Unit = colouring.Unit, Categories = colouring.Categories });
+            readers.Add(colouring.Read);
         }
 
         private void AddColours(List<ReplayField> fields)
@@ -196,14 +196,14 @@ namespace Collektive.Headless
         private static bool IsColoured(SimulationManager manager)
         {
             foreach (var node in manager.Nodes)
-                if (node.GetComponentInChildren<IColors>() != null) return true;
+                if (node.GetComponentInChildren<IColours>() != null) return true;
             return false;
         }
 
         private double ColourOf(Node node)
         {
             if (colours == null) return double.NaN;
-            if (!colours.TryGetValue(node.Id, out var part)) colours.Add(node.Id, part = node.GetComponentInChildren<IColors>());
+            if (!colours.TryGetValue(node.Id, out var part)) colours.Add(node.Id, part = node.GetComponentInChildren<IColours>());
             if (part == null || part.Target == null) return double.NaN;
             part.Target.GetPropertyBlock(block);
             if (block.isEmpty) return double.NaN;

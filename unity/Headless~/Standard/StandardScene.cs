@@ -32,11 +32,11 @@ namespace Collektive.Standard
         private double nextArrival;
 
         /// <inheritdoc/>
-        public override IReadOnlyList<NodeShade> Shades => new[]
+        public override IReadOnlyList<NodeColouring> Colourings => new[]
         {
-            new NodeShade("value", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Value : double.NaN),
-            new NodeShade("category", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Category : double.NaN) { IsCategory = true },
-            new NodeShade("flag", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Flag ? 1 : 0 : double.NaN)
+            new NodeColouring("value", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Value : double.NaN),
+            new NodeColouring("category", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Category : double.NaN) { IsCategory = true },
+            new NodeColouring("flag", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Flag ? 1 : 0 : double.NaN)
             {
                 IsCategory = true, Categories = new[] { "false", "true" },
             },

@@ -44,10 +44,10 @@ namespace Collektive.Samples.Channel
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override IReadOnlyList<NodeShade> Shades => new[]
+        public override IReadOnlyList<NodeColouring> Colourings => new[]
         {
-            new NodeShade("role", node => IsInChannel(node) ? 1 : 0) { IsCategory = true, Categories = new[] { "outside", "in the channel" } },
-            new NodeShade("distance to the source", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
+            new NodeColouring("role", node => IsInChannel(node) ? 1 : 0) { IsCategory = true, Categories = new[] { "outside", "in the channel" } },
+            new NodeColouring("distance to the source", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
             {
                 Unit = "m",
             },
@@ -158,7 +158,7 @@ namespace Collektive.Samples.Channel
             var end = holder.AddComponent<EndSensor>();
             end.Source = isSource;
             end.Target = isTarget;
-            holder.AddComponent<ChannelColor>();
+            holder.AddComponent<ChannelColour>();
             holder.SetActive(true);
             return node;
         }

@@ -39,10 +39,10 @@ namespace Collektive.Samples.Crowd
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override IReadOnlyList<NodeShade> Shades => new[]
+        public override IReadOnlyList<NodeColouring> Colourings => new[]
         {
-            new NodeShade("density", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Density : 0) { Unit = "walkers/m²" },
-            new NodeShade("warning", node => node.TryGetAnswer(out ActuatorData answer) && answer.Warned ? 1 : 0)
+            new NodeColouring("density", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Density : 0) { Unit = "walkers/m²" },
+            new NodeColouring("warning", node => node.TryGetAnswer(out ActuatorData answer) && answer.Warned ? 1 : 0)
             {
                 IsCategory = true, Categories = new[] { "not warned", "warned" },
             },
@@ -117,7 +117,7 @@ namespace Collektive.Samples.Crowd
             walker.AddComponent<WallSensor>().Reach = 2;
             bumps.Add(walker.AddComponent<BumpSensor>());
             walker.AddComponent<WalkActuator>().KeepVertical = true;
-            walker.AddComponent<WarningColor>();
+            walker.AddComponent<WarningColour>();
             walker.SetActive(true);
         }
     }

@@ -48,13 +48,13 @@ namespace Collektive.Samples.GradientAscent
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override string ShadeName => "intensity";
+        public override string ColouringName => "intensity";
 
         /// <inheritdoc/>
         public override IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => new[] { new KeyValuePair<string, Vector3>("source", source) };
 
         /// <inheritdoc/>
-        public override float Shade(Node node) => intensity.IntensityAt(node.transform.position);
+        public override float GetColouringValue(Node node) => intensity.IntensityAt(node.transform.position);
 
         /// <summary>Mean and 90th percentile of the distance to the source in metres, and the number of contacts between bodies.</summary>
         public override void Measure(double[] values)

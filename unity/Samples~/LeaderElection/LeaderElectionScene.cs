@@ -38,10 +38,10 @@ namespace Collektive.Samples.LeaderElection
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override IReadOnlyList<NodeShade> Shades => new[]
+        public override IReadOnlyList<NodeColouring> Colourings => new[]
         {
-            new NodeShade("leader", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Leader : double.NaN) { IsCategory = true },
-            new NodeShade("distance to the leader", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
+            new NodeColouring("leader", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Leader : double.NaN) { IsCategory = true },
+            new NodeColouring("distance to the leader", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
             {
                 Unit = "m",
             },
@@ -114,7 +114,7 @@ namespace Collektive.Samples.LeaderElection
             node.Parameters.Add(new NodeParameter("radius", radius.ToString(CultureInfo.InvariantCulture)));
             holder.AddComponent<RadiusNeighbourhood>().Radius = range;
             holder.AddComponent<PositionSensor>();
-            holder.AddComponent<LeaderColor>();
+            holder.AddComponent<LeaderColour>();
             var lamp = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             lamp.name = "Lamp";
             lamp.transform.SetParent(holder.transform, false);

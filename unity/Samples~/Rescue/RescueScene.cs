@@ -54,13 +54,13 @@ namespace Collektive.Samples.Rescue
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override IReadOnlyList<NodeShade> Shades => new[]
+        public override IReadOnlyList<NodeColouring> Colourings => new[]
         {
-            new NodeShade("role", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Role : double.NaN)
+            new NodeColouring("role", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Role : double.NaN)
             {
-                IsCategory = true, Categories = RoleColor.Names,
+                IsCategory = true, Categories = RoleColour.Names,
             },
-            new NodeShade("distance to the base", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
+            new NodeColouring("distance to the base", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
             {
                 Unit = "m",
             },
@@ -193,7 +193,7 @@ namespace Collektive.Samples.Rescue
             sensor.Casualties = Casualties;
             sensor.IsBase = isBase;
             robot.AddComponent<DriveActuator>().KeepVertical = true;
-            robot.AddComponent<RoleColor>();
+            robot.AddComponent<RoleColour>();
             robot.SetActive(true);
             return node;
         }

@@ -45,10 +45,10 @@ namespace Collektive.Samples.Swarm
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override string ShadeName => "shape";
+        public override string ColouringName => "shape";
 
         /// <inheritdoc/>
-        public override float Shade(Node node) => node.TryGetAnswer(out ActuatorData answer) ? answer.Shape : -1;
+        public override float GetColouringValue(Node node) => node.TryGetAnswer(out ActuatorData answer) ? answer.Shape : -1;
 
         /// <summary>
         /// Drones within a metre of the shape that they form; how many different shapes drones form; and the least distance in metres of two

@@ -75,7 +75,7 @@ namespace Collektive.Unity.PublicApi.Tests
         protected override Vector3 Read(float data) => data * Vector3.forward;
     }
 
-    internal sealed class UsersColor : ColorActuator<float>
+    internal sealed class UsersColour : ColourActuator<float>
     {
         protected override Color Read(float data) => Color.Lerp(Color.black, Color.white, data);
     }

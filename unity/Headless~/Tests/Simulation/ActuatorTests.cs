@@ -201,7 +201,7 @@ namespace Collektive.Headless.Tests.Simulation
             protected override Vector3 Read(ActuatorData data) => new Vector3(data.Value, 0, 0);
         }
 
-        public sealed class Tint : ColorActuator<ActuatorData>
+        public sealed class Tint : ColourActuator<ActuatorData>
         {
             protected override Color Read(ActuatorData data) => data.Value > 0 ? Color.red : Color.blue;
         }

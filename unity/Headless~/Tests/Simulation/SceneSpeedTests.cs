@@ -75,16 +75,16 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(milliseconds, Is.LessThan(2 * 3));
         }
 
-        [TestCase(LinkColoring.Direction)]
-        [TestCase(LinkColoring.Length)]
-        public void The_link_view_of_83_000_links_takes_2_milliseconds_a_tick(LinkColoring coloring)
+        [TestCase(LinkColouring.Direction)]
+        [TestCase(LinkColouring.Length)]
+        public void The_link_view_of_83_000_links_takes_2_milliseconds_a_tick(LinkColouring colouring)
         {
             var view = new GameObject("Links").AddComponent<LinkView>();
-            view.Coloring = coloring;
+            view.Colouring = colouring;
             ScatterInRadius(Count, 10, 1.75f);
             Play(1);
             var milliseconds = LeastOfView(view);
-            Print("link view by " + coloring + ", " + Manager.LinkCount + " links", milliseconds);
+            Print("link view by " + colouring + ", " + Manager.LinkCount + " links", milliseconds);
             Assert.That(Manager.LinkCount, Is.InRange(75000, 90000));
             Assert.That(milliseconds, Is.LessThan(3));
         }

@@ -243,7 +243,7 @@ namespace Collektive.Headless.Tests.Simulation
             protected override Vector3 Read(ActuatorData data) => new Vector3(0, 0, 1e-3f);
         }
 
-        public sealed class Tint : ColorActuator<ActuatorData>
+        public sealed class Tint : ColourActuator<ActuatorData>
         {
             protected override Color Read(ActuatorData data) => new Color(data.Value % 1, 0, 0);
         }

@@ -52,12 +52,12 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Bars().FindAll(bar => bar.Color == Color.green).Count, Is.EqualTo(4));
         }
 
-        [TestCase(LinkColoring.Length)]
-        [TestCase(LinkColoring.Value)]
-        public void Links_are_coloured_by_a_number(LinkColoring coloring)
+        [TestCase(LinkColouring.Length)]
+        [TestCase(LinkColouring.Value)]
+        public void Links_are_coloured_by_a_number(LinkColouring colouring)
         {
             var view = AddLinkView();
-            view.Coloring = coloring;
+            view.Colouring = colouring;
             view.Value = link => link.To * link.To;
             view.Scale.low = Color.black;
             view.Scale.high = Color.white;

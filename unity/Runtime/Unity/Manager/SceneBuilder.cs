@@ -14,15 +14,15 @@ namespace Collektive.Unity
         /// <summary>Names of the scene's metrics.</summary>
         public virtual IReadOnlyList<string> MetricNames => Array.Empty<string>();
 
-        /// <summary>Name of <see cref="Shade"/> in the legend of a replay, or null without shades.</summary>
-        public virtual string ShadeName => null;
+        /// <summary>Name of <see cref="GetColouringValue"/> in the legend of a replay, or null without colourings.</summary>
+        public virtual string ColouringName => null;
 
         /// <summary>
         /// The values by which a replay can colour nodes; the first is the default. Read once, at the start of the run.
-        /// Default: <see cref="Shade"/> alone, if it has a name.
+        /// Default: <see cref="GetColouringValue"/> alone, if it has a name.
         /// </summary>
-        public virtual IReadOnlyList<NodeShade> Shades =>
-            ShadeName == null ? Array.Empty<NodeShade>() : new[] { new NodeShade(ShadeName, node => Shade(node)) };
+        public virtual IReadOnlyList<NodeColouring> Colourings =>
+            ColouringName == null ? Array.Empty<NodeColouring>() : new[] { new NodeColouring(ColouringName, node => GetColouringValue(node)) };
 
         /// <summary>Points to mark in a replay, with their labels.</summary>
         public virtual IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => Array.Empty<KeyValuePair<string, Vector3>>();
@@ -39,7 +39,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Returns the number by which a replay colours a node.</summary>
-        public virtual float Shade(Node node) => 0;
+        public virtual float GetColouringValue(Node node) => 0;
 
         /// <summary>Creates the scene's objects. Called once, from <c>Awake</c>, in play mode. An exception stops the simulation.</summary>
         protected abstract void Build(SimulationManager manager);

@@ -18,7 +18,7 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Tooltip("Colours of the numbers.")]
-        private ColorScale scale = new ColorScale();
+        private ColourScale scale = new ColourScale();
 
         [SerializeField]
         [Tooltip("On: the legend is shown in the upper left corner.")]
@@ -50,7 +50,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>The colours.</summary>
-        public ColorScale Scale => scale;
+        public ColourScale Scale => scale;
 
         /// <summary>Text of the legend, in Unity's rich text. Cached until the title or the scale changes.</summary>
         public string Legend
@@ -122,7 +122,7 @@ namespace Collektive.Unity
         private void Describe()
         {
             var made = new StringBuilder(title).Append("  ").Append(Text(scale.lowest)).Append(' ');
-            for (var step = 0; step < ColorScale.Steps; step++) made.Append("<color=#").Append(Hex(scale.At(step))).Append(">\u2588</color>");
+            for (var step = 0; step < ColourScale.Steps; step++) made.Append("<color=#").Append(Hex(scale.At(step))).Append(">\u2588</color>");
             text = made.Append(' ').Append(Text(scale.highest)).ToString();
         }
 

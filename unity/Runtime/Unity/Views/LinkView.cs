@@ -2,6 +2,7 @@ using System;
 using Collektive.Bridge;
 using UnityEngine;
 using UnityEngine.Rendering;
+using UnityEngine.Serialization;
 
 namespace Collektive.Unity
 {
@@ -34,12 +35,13 @@ namespace Collektive.Unity
         private int limit = 100000;
 
         [SerializeField]
+        [FormerlySerializedAs("coloring")]
         [Tooltip("Value that determines the colour of links.")]
-        private LinkColoring coloring;
+        private LinkColouring colouring;
 
         [SerializeField]
         [Tooltip("Colours of the values. By direction: the high colour for links in both directions, the low one for one-way links.")]
-        private ColorScale scale = new ColorScale();
+        private ColourScale scale = new ColourScale();
 
         private GraphicsBuffer placesBuffer;
         private GraphicsBuffer pairsBuffer;
@@ -87,16 +89,16 @@ namespace Collektive.Unity
         }
 
         /// <summary>The value that determines the colour of links.</summary>
-        public LinkColoring Coloring
+        public LinkColouring Colouring
         {
-            get => coloring;
-            set => coloring = value;
+            get => colouring;
+            set => colouring = value;
         }
 
         /// <summary>The colours.</summary>
-        public ColorScale Scale => scale;
+        public ColourScale Scale => scale;
 
-        /// <summary>The number that a link is coloured by with <see cref="LinkColoring.Value"/>. Called once for each link and tick.</summary>
+        /// <summary>The number that a link is coloured by with <see cref="LinkColouring.Value"/>. Called once for each link and tick.</summary>
         public Func<LinkRecord, float> Value { get; set; }
 
         private void OnEnable()
@@ -172,7 +174,7 @@ namespace Collektive.Unity
             TakePlaces(manager);
             var all = links.Pairs;
             if (pairs.Length < all.Length) Array.Resize(ref pairs, links.PairCapacity);
-            if (coloring != LinkColoring.Direction) TakeNumbers(all, links.PairCapacity);
+            if (colouring != LinkColouring.Direction) TakeNumbers(all, links.PairCapacity);
             for (var i = 0; i < all.Length; i++)
             {
                 ref var pair = ref all[i];
@@ -192,7 +194,7 @@ namespace Collektive.Unity
 
         private int StepOf(int link, bool isBothWays)
         {
-            if (coloring == LinkColoring.Direction) return isBothWays ? ColorScale.Steps - 1 : 0;
+            if (colouring == LinkColouring.Direction) return isBothWays ? ColourScale.Steps - 1 : 0;
             return scale.StepOf(numbers[link]);
         }
 
@@ -221,8 +223,8 @@ namespace Collektive.Unity
 
         private float NumberOf(int from, int to, in LinkDirection direction)
         {
-            if (coloring == LinkColoring.Length) return direction.Length;
-            if (coloring == LinkColoring.Attenuation) return direction.Attenuation;
+            if (colouring == LinkColouring.Length) return direction.Length;
+            if (colouring == LinkColouring.Attenuation) return direction.Attenuation;
             return Value == null ? 0 : Value(LinkTable.Record(from, to, direction));
         }
 

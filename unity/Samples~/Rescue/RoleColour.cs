@@ -6,7 +6,7 @@ namespace Collektive.Samples.Rescue
 {
     /// <summary>Colours each robot by its role.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Role Color")]
-    public sealed class RoleColor : ColorActuator<ActuatorData>
+    public sealed class RoleColour : ColourActuator<ActuatorData>
     {
         private static readonly Color[] Colors =
         {

@@ -5,7 +5,7 @@ namespace Collektive.Unity
 {
     /// <summary>Colours for numbers, from a low one to a high one in <see cref="Steps"/> steps.</summary>
     [Serializable]
-    public sealed class ColorScale
+    public sealed class ColourScale
     {
         /// <summary>How many different colours there are.</summary>
         internal const int Steps = 16;

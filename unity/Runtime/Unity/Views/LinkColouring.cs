@@ -1,7 +1,7 @@
 namespace Collektive.Unity
 {
     /// <summary>The value by which a <see cref="LinkView"/> colours links.</summary>
-    public enum LinkColoring
+    public enum LinkColouring
     {
         /// <summary>Both directions or one.</summary>
         Direction,

@@ -4,12 +4,12 @@ using System.Collections.Generic;
 namespace Collektive.Unity
 {
     /// <summary>A value of each node by which a replay can colour nodes.</summary>
-    public sealed class NodeShade
+    public sealed class NodeColouring
     {
-        /// <summary>Creates a shade of numbers, or of categories if <see cref="IsCategory"/> is set.</summary>
-        /// <param name="name">Shown in the legend; different for each shade of a scene.</param>
+        /// <summary>Creates a colouring by numbers, or by categories if <see cref="IsCategory"/> is set.</summary>
+        /// <param name="name">Shown in the legend; different for each colouring of a scene.</param>
         /// <param name="read">Returns the node's value, or NaN without one. Called between ticks, on the main thread, for each recorded frame.</param>
-        public NodeShade(string name, Func<Node, double> read)
+        public NodeColouring(string name, Func<Node, double> read)
         {
             Name = name ?? throw new ArgumentNullException(nameof(name));
             Read = read ?? throw new ArgumentNullException(nameof(read));

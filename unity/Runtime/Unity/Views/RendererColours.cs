@@ -3,7 +3,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>Colours single objects without creating a material for each.</summary>
-    internal static class RendererColors
+    internal static class RendererColours
     {
         // The built-in pipeline's shaders and those of the scriptable ones name the colour differently.
         private static readonly int BuiltIn = Shader.PropertyToID("_Color");

@@ -4,7 +4,7 @@ namespace Collektive.Unity
 {
     /// <summary>Colours the node's renderer by the program's answer.</summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
-    public abstract class ColorActuator<TData> : Actuator<TData>, IColors
+    public abstract class ColourActuator<TData> : Actuator<TData>, IColours
     {
         [SerializeField]
         [Tooltip("Renderer to colour. None: the first one on this GameObject or its children.")]

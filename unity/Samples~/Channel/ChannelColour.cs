@@ -6,7 +6,7 @@ namespace Collektive.Samples.Channel
 {
     /// <summary>Colours the nodes of the channel.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/Channel Color")]
-    public sealed class ChannelColor : ColorActuator<ActuatorData>
+    public sealed class ChannelColour : ColourActuator<ActuatorData>
     {
         private static readonly Color In = new Color(1, 0.8f, 0.2f);
         private static readonly Color Out = new Color(0.3f, 0.35f, 0.5f);

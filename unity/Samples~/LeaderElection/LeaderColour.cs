@@ -6,7 +6,7 @@ namespace Collektive.Samples.LeaderElection
 {
     /// <summary>Gives all nodes of one leader the same colour.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Leader Color")]
-    public sealed class LeaderColor : ColorActuator<ActuatorData>
+    public sealed class LeaderColour : ColourActuator<ActuatorData>
     {
         /// <summary>A hue in 0..1, far from those of neighbouring ids.</summary>
         public static float HueOf(int leader) => leader * 0.61803399f % 1;

@@ -6,7 +6,7 @@ namespace Collektive.Samples.Crowd
 {
     /// <summary>Colours walkers by the density around them, and warned walkers red.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Warning Color")]
-    public sealed class WarningColor : ColorActuator<ActuatorData>
+    public sealed class WarningColour : ColourActuator<ActuatorData>
     {
         private static readonly Color Free = new Color(0.3f, 0.6f, 0.9f);
         private static readonly Color Dense = new Color(1, 0.8f, 0.2f);

@@ -1,0 +1,52 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Unity;
+
+namespace Collektive.Headless
+{
+    /// <summary>Derives colourings from the nodes' answers, for scenes without their own.</summary>
+    internal static class AnswerColourings
+    {
+        /// <summary>Each colouring takes time and space in every frame.</summary>
+        private const int MaxColourings = 8;
+
+        /// <summary>Returns a colouring for each number, boolean and enum of the answers, at most eight.</summary>
+        internal static List<NodeColouring> Of(SimulationManager manager)
+        {
+            var colourings = new List<NodeColouring>();
+            foreach (var field in AnswerField.Of(manager))
+            {
+                if (colourings.Count == MaxColourings) break;
+                if (Converter(field.Type) is Func<object, double> convert) colourings.Add(Colouring(field, convert));
+            }
+            return colourings;
+        }
+
+        private static NodeColouring Colouring(AnswerField field, Func<object, double> convert)
+        {
+            var name = char.ToLowerInvariant(field.Name[0]) + field.Name.Substring(1);
+            var colouring = new NodeColouring(name, node => node.Answer is object answer ? convert(field.Read(answer)) : double.NaN);
+            if (field.Type == typeof(bool)) (colouring.IsCategory, colouring.Categories) = (true, new[] { "false", "true" });
+            else if (field.Type.IsEnum) (colouring.IsCategory, colouring.Categories) = (true, Enum.GetNames(field.Type));
+            return colouring;
+        }
+
+        private static Func<object, double> Converter(Type type)
+        {
+            if (type == typeof(bool)) return value => (bool)value ? 1 : 0;
+            if (type.IsEnum)
+            {
+                // In the same order as the names.
+                var values = Enum.GetValues(type);
+                return value => Array.IndexOf(values, value) is var place && place >= 0 ? place : double.NaN;
+            }
+            if (type.IsPrimitive && type != typeof(char)) return value => Storable(Convert.ToDouble(value));
+            return null;
+        }
+
+        /// <summary>
+        /// Infinity and numbers beyond the range of float, such as the distance without a source, count as no value, because the page stores floats.
+        /// </summary>
+        private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
+    }
+}
