@@ -47,7 +47,9 @@ namespace Collektive.Samples.Channel
         public override IReadOnlyList<NodeColouring> Colourings => new[]
         {
             new NodeColouring("role", node => IsInChannel(node) ? 1 : 0) { IsCategory = true, Categories = new[] { "outside", "in the channel" } },
-            new NodeColouring("distance to the source", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
+            new NodeColouring(
+                "distance to the source",
+                node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
             {
                 Unit = "m",
             },
