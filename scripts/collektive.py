@@ -24,6 +24,7 @@ COMMANDS = {
     "build": "build targets of this checkout",
     "generate": "generate C#, Java and Kotlin from a FlatBuffers schema",
     "demo": "run the case study without Unity",
+    "check": "check scenarios and experiments before their runs",
     "run": "run a scenario without Unity",
     "repeat": "repeat a run from its manifest and compare the results",
     "sweep": "run a scenario for many parameter values",

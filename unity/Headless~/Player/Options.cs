@@ -12,7 +12,7 @@ namespace Collektive.Headless
             "Player plan SCENARIO [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR] [--trust-jvm]\n" +
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
             "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR]\n" +
-            "           [--inputs JSON] [--keep-going] [--trust-jvm] [--debug PORT]\n" +
+            "           [--inputs JSON] [--keep-going] [--trust-jvm] [--debug PORT] [--check]\n" +
             "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR --channel DESCRIPTOR [--inputs JSON] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
@@ -57,6 +57,9 @@ namespace Collektive.Headless
         /// <summary>Whether the run goes on after a tick of which all rounds failed.</summary>
         internal bool KeepGoing { get; private set; }
 
+        /// <summary>Whether the run ends after its first tick, without a replay.</summary>
+        internal bool IsCheck { get; private set; }
+
         /// <summary>Overrides of scenario keys on the command line.</summary>
         internal List<Assignment> Assignments { get; } = new List<Assignment>();
 
@@ -77,10 +80,8 @@ namespace Collektive.Headless
             var options = new Options { Command = arguments[0], Scenario = arguments[1] };
             for (var i = 2; i < arguments.Length; i += 2)
             {
-                if (arguments[i] == "--trust-jvm" || arguments[i] == "--keep-going")
+                if (options.SetFlag(arguments[i]))
                 {
-                    if (arguments[i] == "--trust-jvm") options.TrustJvm = true;
-                    else options.KeepGoing = true;
                     i--;
                     continue;
                 }
@@ -94,6 +95,17 @@ namespace Collektive.Headless
         {
             if (assignment == null) FieldAssignments.Add(field);
             else Assignments.Add(assignment);
+        }
+
+        private bool SetFlag(string name)
+        {
+            switch (name)
+            {
+                case "--trust-jvm": return TrustJvm = true;
+                case "--keep-going": return KeepGoing = true;
+                case "--check": return IsCheck = true;
+                default: return false;
+            }
         }
 
         private void Set(string name, string value)
