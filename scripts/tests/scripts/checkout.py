@@ -35,7 +35,7 @@ class Checkout:
         self.root = folder / "a b"
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(ROOT / "scripts", self.root / "scripts", ignore=ignored)
-        for path in ("collektive", "jvm-host/pom.xml"):
+        for path in ("collektive", "jvm-host/pom.xml", "experiments/collektive_experiments/options.py"):
             (self.root / path).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(ROOT / path, self.root / path)
         self.open_gate()

@@ -189,6 +189,7 @@ namespace Collektive.Headless
             // An original run that was interrupted is repeated up to there.
             var ticks = scenario.OriginalRun == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.OriginalRun.Ticks);
             if (options.IsCheck) ticks = Math.Min(ticks, 1);
+            var hasReplay = scenario.Replay && !options.IsCheck;
             // A repetition goes on like the original run.
             var stopsAtFailures = !options.KeepGoing && scenario.OriginalRun == null;
             JObject parameters = null;
@@ -198,7 +199,7 @@ namespace Collektive.Headless
             using (limit = new FrameLimit(manager, GiveUp))
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, runMetrics, manager))
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
-            using (var replay = scenario.Replay && !options.IsCheck ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, runMetrics, manager) : null)
+            using (var replay = hasReplay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, runMetrics, manager) : null)
             {
                 EndInterval(manager, replay, 0);
                 scenario.Convergence.Add(0, metrics.Values);

@@ -41,7 +41,9 @@ namespace Collektive.Samples.LeaderElection
         public override IReadOnlyList<NodeColouring> Colourings => new[]
         {
             new NodeColouring("leader", node => node.TryGetAnswer(out ActuatorData answer) ? answer.Leader : double.NaN) { IsCategory = true },
-            new NodeColouring("distance to the leader", node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
+            new NodeColouring(
+                "distance to the leader",
+                node => node.TryGetAnswer(out ActuatorData answer) && answer.Distance >= 0 ? answer.Distance : double.NaN)
             {
                 Unit = "m",
             },

@@ -524,7 +524,7 @@ const ready = started.then(
             const [a, b] = [ids[here.pairs[2 * i]], ids[here.pairs[2 * i + 1]]];
             return [[a, b], [b, a]].filter((_, direction) => (ways >> direction) & 1);
           }),
-          other: player.other ? { frame: player.other.here.index, nodes: player.other.here.slots.length } : null,
+          other: player.other?.here ? { frame: player.other.here.index, nodes: player.other.here.slots.length } : null,
         };
       },
       /** Draws the frame on show now, for a picture right after. */
