@@ -140,7 +140,7 @@ def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
 def test_a_dry_run_whose_trial_fails_estimates_nothing(project: Project) -> None:
     result = project.sweep("--dry-run", vary={"fields.lamps": [0, 1]})
     assert result.returncode == 1
-    assert "not complete (failed: the run had no nodes" in result.stderr
+    assert "failed (failed: the run had no nodes" in result.stderr
     assert "runs into" not in result.stdout
 
 

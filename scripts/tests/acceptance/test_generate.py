@@ -37,7 +37,7 @@ class Generated(Folder):
     def test_schemas_that_cannot_be_used_are_refused(self) -> None:
         bad = {
             "namespace": ("table SensorData { a: int; } table ActuatorData { a: int; }", "namespace"),
-            "sensor": ("namespace a; table ActuatorData { a: int; }", "SensorData"),
+            "sensor": ("namespace a; table Sensors { a: int; } table ActuatorData { a: int; }", "SensorData"),
             "union": ("namespace a; table X { a: int; } union U { X } table SensorData { u: U; } table ActuatorData { a: int; }", "union"),
         }
         for name, (text, word) in bad.items():
