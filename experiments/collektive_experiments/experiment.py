@@ -36,7 +36,7 @@ class Run:
 
     @property
     def jvm(self) -> str:
-        """The JVM settings as JSON. A process starts only one JVM, so runs share a process only if these are equal."""
+        """The JVM settings as JSON. By default, a process starts only one JVM, so runs share a process only if these are equal."""
         return json.dumps({key: value for key, value in self.settings.items() if key == "jvm" or key.startswith("jvm.")}, sort_keys=True)
 
 

@@ -41,7 +41,7 @@ def _files(path: Path) -> list[tuple[Path, str]]:
         if not found:
             raise Failure(f"check: '{path}' contains no scenarios or experiments; name a folder with scenario files")
         return found
-    # The player reports what is wrong with any other file.
+    # The player reports the error in any other file.
     return [(path, _kind(path) or SCENARIO)]
 
 

@@ -91,8 +91,9 @@ namespace Collektive.Unity
             "Empty: no record. Relative to the project's folder, or to the player's working directory.")]
         public string record = "";
 
-        /// <summary>Settings of the JVM, which starts once per process; null for the defaults.</summary>
-        [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts, once per editor session. None: the defaults.")]
+        /// <summary>Settings of the JVM, used when it starts; null for the defaults.</summary>
+        [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts: once per editor session, " +
+            "or at each Play with the placement OwnProcess. None: the defaults.")]
         public JvmSettingsAsset jvm;
 
         /// <summary>The error of the command line, or null.</summary>
