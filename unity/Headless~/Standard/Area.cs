@@ -76,14 +76,16 @@ namespace Collektive.Standard
 
         private float[] Bounds(int axis)
         {
-            var half = deployment.size[axis] / 2;
-            if (deployment.kind == DeploymentKind.Disc) half = deployment.radius;
             if (deployment.kind == DeploymentKind.Grid)
             {
                 var count = axis == 0 ? Columns : (deployment.nodes + Columns - 1) / Columns;
                 return new[] { -deployment.disorder, deployment.spacing * (count - 1) + deployment.disorder };
             }
-            if (deployment.kind == DeploymentKind.Disc || deployment.polygon.Count == 0) return new[] { -half, half };
+            if (deployment.kind == DeploymentKind.Disc || deployment.polygon.Count == 0)
+            {
+                var half = deployment.kind == DeploymentKind.Disc ? deployment.radius : deployment.size[axis] / 2;
+                return new[] { -half, half };
+            }
             var bounds = new[] { float.PositiveInfinity, float.NegativeInfinity };
             foreach (var corner in deployment.polygon)
             {

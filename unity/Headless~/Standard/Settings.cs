@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>How nodes are placed. The area is centred at the origin, unless a polygon defines it.</summary>
+    /// <summary>How nodes are placed. A grid begins at the origin. Discs and rectangles are centred there.</summary>
     public enum DeploymentKind
     {
         /// <summary>Rows and columns, with <see cref="Deployment.disorder"/>.</summary>

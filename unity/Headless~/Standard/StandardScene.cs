@@ -80,12 +80,12 @@ namespace Collektive.Standard
             if (deployment.columns < 0) return "'deployment.columns' is " + deployment.columns + ", it must be at least 0";
             if (!Area.IsSize(deployment.size)) return "'deployment.size' must be two numbers greater than 0, the metres along x and z";
             return NotAbove0("deployment.spacing", deployment.spacing) ?? NotBelow("deployment.disorder", deployment.disorder, 0)
-                ?? NotAbove0("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon, true);
+                ?? NotAbove0("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon);
         }
 
-        private static string ProblemOf(string field, List<float[]> polygon, bool mayBeEmpty)
+        private static string ProblemOf(string field, List<float[]> polygon)
         {
-            if (polygon.Count < 3 && !(mayBeEmpty && polygon.Count == 0)) return "'" + field + "' has " + polygon.Count + " corners, it needs at least 3";
+            if (polygon.Count == 1 || polygon.Count == 2) return "'" + field + "' has " + polygon.Count + " corners, it needs at least 3";
             return polygon.TrueForAll(Area.IsPoint) ? null : "'" + field + "' must be a list of [x, z]";
         }
 
@@ -131,7 +131,7 @@ namespace Collektive.Standard
                 if (obstacle.box.Length > 0 == obstacle.polygon.Count > 0) return "'" + field + "' needs either 'box' or 'polygon'";
                 if (obstacle.box.Length > 0 && !Area.IsPoint(obstacle.box)) return "'" + field + ".box' must be the centre, [x, z]";
                 if (!Area.IsSize(obstacle.size)) return "'" + field + ".size' must be two numbers greater than 0, the metres along x and z";
-                var problem = ProblemOf(field + ".polygon", obstacle.polygon, true) ?? NotAbove0(field + ".height", obstacle.height);
+                var problem = ProblemOf(field + ".polygon", obstacle.polygon) ?? NotAbove0(field + ".height", obstacle.height);
                 if (problem != null) return problem;
             }
             return null;

@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.Channel
 {
     /// <summary>Colours the nodes of the channel.</summary>
-    [AddComponentMenu("Collektive/Samples/Channel/Channel Color")]
+    [AddComponentMenu("Collektive/Samples/Channel/Channel Colour")]
     public sealed class ChannelColour : ColourActuator<ActuatorData>
     {
         private static readonly Color In = new Color(1, 0.8f, 0.2f);

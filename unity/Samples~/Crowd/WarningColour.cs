@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.Crowd
 {
     /// <summary>Colours walkers by the density around them, and warned walkers red.</summary>
-    [AddComponentMenu("Collektive/Samples/Crowd/Warning Color")]
+    [AddComponentMenu("Collektive/Samples/Crowd/Warning Colour")]
     public sealed class WarningColour : ColourActuator<ActuatorData>
     {
         private static readonly Color Free = new Color(0.3f, 0.6f, 0.9f);

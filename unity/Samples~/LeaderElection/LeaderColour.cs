@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.LeaderElection
 {
     /// <summary>Gives all nodes of one leader the same colour.</summary>
-    [AddComponentMenu("Collektive/Samples/Leader Election/Leader Color")]
+    [AddComponentMenu("Collektive/Samples/Leader Election/Leader Colour")]
     public sealed class LeaderColour : ColourActuator<ActuatorData>
     {
         /// <summary>A hue in 0..1, far from those of neighbouring ids.</summary>

@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Samples.Rescue
 {
     /// <summary>Colours each robot by its role.</summary>
-    [AddComponentMenu("Collektive/Samples/Rescue/Role Color")]
+    [AddComponentMenu("Collektive/Samples/Rescue/Role Colour")]
     public sealed class RoleColour : ColourActuator<ActuatorData>
     {
         private static readonly Color[] Colors =
