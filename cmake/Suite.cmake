@@ -3,14 +3,14 @@ set(RESULTS "${COLLEKTIVE_BUILD}/results")
 set(TEST_PYTHON "${COLLEKTIVE_BUILD}/python/bin/python" -I -B)
 set(COLLEKTIVE "${PROJECT_SOURCE_DIR}/collektive")
 
-# suite(NAME AREA LABELS quick|all|extra... [NEEDS build:TARGET|setup:TOOL...] [TIMEOUT SECONDS] [UNLOCKED] [NUNIT] [ENVIRONMENT NAME=VALUE...]
+# suite(NAME AREA LABELS quick|all|extra... [NEEDS build:TARGET|setup:TOOL...] [TIMEOUT SECONDS] [UNLOCKED] [NUNIT] [PARALLEL] [ENVIRONMENT NAME=VALUE...]
 #   COMMAND WORD... | SCRIPT FILE WORD... | PYTEST WORD...)
 #
 # LABELS are the runs that include the suite; `extra` suites run only by name. RESULTS in a command is the suite's result folder. A SCRIPT is in
 # scripts/tests and runs in the test environment, like PYTEST. NUNIT suites are skipped without NUnit. UNLOCKED suites start commands that lock the
-# outputs themselves.
+# outputs themselves. A PARALLEL suite uses about one processor, and runs beside another one.
 function(suite NAME AREA)
-  cmake_parse_arguments(PARSE_ARGV 2 S "UNLOCKED;NUNIT" "TIMEOUT" "LABELS;NEEDS;ENVIRONMENT;COMMAND;SCRIPT;PYTEST")
+  cmake_parse_arguments(PARSE_ARGV 2 S "UNLOCKED;NUNIT;PARALLEL" "TIMEOUT" "LABELS;NEEDS;ENVIRONMENT;COMMAND;SCRIPT;PYTEST")
   if(S_SCRIPT)
     list(POP_FRONT S_SCRIPT script)
     set(S_COMMAND ${TEST_PYTHON} "${SCRIPTS}/tests/${script}" ${S_SCRIPT})
@@ -30,6 +30,10 @@ function(suite NAME AREA)
   list(TRANSFORM S_COMMAND REPLACE "=RESULTS" "=${RESULTS}/${NAME}")
   add_test(NAME ${NAME} COMMAND "${COLLEKTIVE_PYTHON}" -I -B "${SCRIPTS}/tests/suite.py" "${RESULTS}/${NAME}" ${lock} -- ${S_COMMAND}
     WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}")
+  set(serial TRUE)
+  if(S_PARALLEL)
+    set(serial FALSE)
+  endif()
   list(REMOVE_DUPLICATES S_NEEDS)
   set(fixtures)
   foreach(need ${S_NEEDS})
@@ -41,7 +45,7 @@ function(suite NAME AREA)
     endif()
     list(APPEND fixtures ${fixture})
   endforeach()
-  set_tests_properties(${NAME} PROPERTIES LABELS "${AREA};${S_LABELS}" FIXTURES_REQUIRED "${fixtures}" RUN_SERIAL TRUE TIMEOUT ${S_TIMEOUT}
+  set_tests_properties(${NAME} PROPERTIES LABELS "${AREA};${S_LABELS}" FIXTURES_REQUIRED "${fixtures}" RUN_SERIAL ${serial} TIMEOUT ${S_TIMEOUT}
     ENVIRONMENT "COLLEKTIVE_RESULTS=${RESULTS}/${NAME};${S_ENVIRONMENT}")
   if(S_NUNIT AND NOT COLLEKTIVE_NUNIT)
     set_tests_properties(${NAME} PROPERTIES DISABLED TRUE)

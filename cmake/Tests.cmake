@@ -53,15 +53,15 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(shim-slow-on-${name} shim LABELS ${slow} NEEDS build:shim_test ${java_home} COMMAND ${shim} -L slow)
   suite(sanitized-on-${name} sanitized LABELS extra NEEDS build:sanitized TIMEOUT 1800 ${java_home}
     COMMAND ctest --test-dir "${COLLEKTIVE_BUILD}/sanitized" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
-  suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
-  suite(csharp-own-process-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
+  suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
+  suite(csharp-own-process-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
     SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
-  suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
+  suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()
 # On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
-suite(csharp-on-coreclr csharp LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --without Slow)
-suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT SCRIPT ${coreclr} --only Slow)
+suite(csharp-on-coreclr csharp LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --without Slow)
+suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --only Slow)
 suite(unity csharp LABELS quick all NEEDS ${csharp_needs} NUNIT SCRIPT unity.py RESULTS)
 add_custom_target(sanitized
   COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/native-shim" -B "${COLLEKTIVE_BUILD}/sanitized" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo

@@ -121,7 +121,7 @@ def read(path: str) -> Experiment:
     for key, kind, name in (("version", int, "a whole number"), ("scenario", str, "a string"), ("vary", dict, "an object"), ("zip", dict, "an object"),
                             ("set", dict, "an object")):
         if key in root and (not isinstance(root[key], kind) or isinstance(root[key], bool)):
-            raise located.error(f"'{key}' is {json.dumps(root[key])}, it must be {name}", key)
+            raise located.error(f"'{key}' is {json.dumps(root[key])}; it must be {name}", key)
     for key in ("version", "scenario"):
         if key not in root:
             raise located.error(f"the key '{key}' is missing")
@@ -145,13 +145,13 @@ def _read_vary(located: Located, part: str) -> list[tuple[str, list[Any]]]:
         if isinstance(values, str):
             values = _range(located, part, key, values)
         if not isinstance(values, list):
-            raise located.error(f"'{part}.{key}' is {json.dumps(values)}, it must be a list or a range, like \"1-20\"", part, key)
+            raise located.error(f"'{part}.{key}' is {json.dumps(values)}; it must be a list or a range, like \"1-20\"", part, key)
         if not values:
             raise located.error(f"'{part}.{key}' is an empty list; add at least one value", part, key)
         for index, value in enumerate(values):
             numbers = isinstance(value, list) and value and all(isinstance(number, (int, float)) and not isinstance(number, bool) for number in value)
             if not numbers and not isinstance(value, (str, int, float, bool)):
-                raise located.error(f"'{part}.{key}[{index}]' is {json.dumps(value)}, it must be a number, a string, true, false or a list of numbers",
+                raise located.error(f"'{part}.{key}[{index}]' is {json.dumps(value)}; it must be a number, a string, true, false or a list of numbers",
                                     part, key, index)
         varied.append((key, values))
     return varied
@@ -201,7 +201,7 @@ def read_figures(located: Located) -> list[FigureOptions]:
 
 def _read_figure(located: Located, index: int, figure: Any) -> FigureOptions:
     if not isinstance(figure, dict):
-        raise located.error(f"'figures[{index}]' is {json.dumps(figure)}, it must be an object", "figures", index)
+        raise located.error(f"'figures[{index}]' is {json.dumps(figure)}; it must be an object", "figures", index)
     return read_options(figure, lambda option, problem: located.error(f"'figures[{index}].{option}' {problem}", "figures", index, option))
 
 
@@ -211,7 +211,7 @@ def _read_labels(located: Located) -> dict[str, str]:
         raise located.error("'labels' must be an object with the text of each metric, key or value", "labels")
     for name, label in labels.items():
         if not isinstance(label, str) or not label.strip() or not label.isprintable():
-            raise located.error(f"'labels.{name}' is {json.dumps(label)}, it must be a text of one line", "labels", name)
+            raise located.error(f"'labels.{name}' is {json.dumps(label)}; it must be a text of one line", "labels", name)
     return dict(labels)
 
 

@@ -112,7 +112,7 @@ def check_metrics(options: FigureOptions, at_end: Sequence[str], over_time: Sequ
 def _choice(given: Mapping[str, Any], option: str, choices: tuple[str, ...], fail: Fail) -> str:
     value: str = given.get(option, "")
     if option in given and value not in choices:
-        raise fail(option, f"is '{value}', it must be one of: {', '.join(choices)}")
+        raise fail(option, f"is '{value}'; it must be one of: {', '.join(choices)}")
     return value
 
 
@@ -134,11 +134,11 @@ def _range(value: str, fail: Fail) -> tuple[float | None, float | None]:
     try:
         low, high = (float(part) if part.strip() else None for part in parts)
     except ValueError:
-        raise fail("range", f"is '{value}', it must be one or two limits, such as 0:1, 0: or :1") from None
+        raise fail("range", f"is '{value}'; it must be one or two limits, such as 0:1, 0: or :1") from None
     if any(limit is not None and not math.isfinite(limit) for limit in (low, high)):
-        raise fail("range", f"is '{value}', its limits must be finite")
+        raise fail("range", f"is '{value}'; its limits must be finite")
     if low is not None and high is not None and low >= high:
-        raise fail("range", f"is '{value}', the first limit must be below the second")
+        raise fail("range", f"is '{value}'; the first limit must be below the second")
     return low, high
 
 
@@ -149,7 +149,7 @@ def _size(value: str, fail: Fail) -> tuple[float, float]:
             raise ValueError
         width, height = float(match[1]), float(match[2])
     except ValueError:
-        raise fail("size", f"is '{value}', it must be a width and a height in inches, such as 3.3x2.2") from None
+        raise fail("size", f"is '{value}'; it must be a width and a height in inches, such as 3.3x2.2") from None
     if not all(MIN_INCHES <= length <= MAX_INCHES for length in (width, height)):
-        raise fail("size", f"is '{value}', width and height must be from {MIN_INCHES} to {MAX_INCHES} inches")
+        raise fail("size", f"is '{value}'; width and height must be from {MIN_INCHES} to {MAX_INCHES} inches")
     return width, height

@@ -80,16 +80,16 @@ def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
 
 
 @pytest.mark.parametrize(("words", "message"), [
-    (["--kind", "pie"], "--kind is 'pie', it must be one of: line, box, heat, ecdf"),
-    (["--style", "nature"], "--style is 'nature', it must be one of: plain, ieee, acm"),
-    (["--log", "z"], "--log is 'z', it must be one of: x, y, xy"),
-    (["--size", "3.3"], "--size is '3.3', it must be a width and a height in inches, such as 3.3x2.2"),
-    (["--size", "3..3x2"], "--size is '3..3x2', it must be a width and a height in inches"),
-    (["--size", "330x220"], "--size is '330x220', width and height must be from 1 to 20 inches"),
-    (["--range", "3"], "--range is '3', it must be one or two limits"),
-    (["--range", "0:1:2"], "--range is '0:1:2', it must be one or two limits"),
-    (["--range", "1:0"], "--range is '1:0', the first limit must be below the second"),
-    (["--range", "0:inf"], "--range is '0:inf', its limits must be finite"),
+    (["--kind", "pie"], "--kind is 'pie'; it must be one of: line, box, heat, ecdf"),
+    (["--style", "nature"], "--style is 'nature'; it must be one of: plain, ieee, acm"),
+    (["--log", "z"], "--log is 'z'; it must be one of: x, y, xy"),
+    (["--size", "3.3"], "--size is '3.3'; it must be a width and a height in inches, such as 3.3x2.2"),
+    (["--size", "3..3x2"], "--size is '3..3x2'; it must be a width and a height in inches"),
+    (["--size", "330x220"], "--size is '330x220'; width and height must be from 1 to 20 inches"),
+    (["--range", "3"], "--range is '3'; it must be one or two limits"),
+    (["--range", "0:1:2"], "--range is '0:1:2'; it must be one or two limits"),
+    (["--range", "1:0"], "--range is '1:0'; the first limit must be below the second"),
+    (["--range", "0:inf"], "--range is '0:inf'; its limits must be finite"),
     (["--range", "0:1", "--log", "y"], "--range is '0:1', but a logarithmic axis needs limits above 0"),
     (["--x", "loss"], "--x is 'loss', which does not vary; these vary: program, network.loss, time"),
     (["--x", "program"], "--x is 'program', whose values are not numbers; use the kind 'box'"),
@@ -126,7 +126,7 @@ def test_options_of_a_figure_need_a_metric(sweep: str, capsys: pytest.CaptureFix
 
 @pytest.mark.parametrize(("line", "keys", "message"), [
     (5, '"figures": 3', "'figures' must be a list of objects"),
-    (6, '"figures": [\n3]', "'figures[0]' is 3, it must be an object"),
+    (6, '"figures": [\n3]', "'figures[0]' is 3; it must be an object"),
     (7, '"figures": [\n{"metric": "error",\n"colour": "red"}]', "'figures[0].colour' is unknown; known here: metric, x, by"),
     (6, '"figures": [{"metric": "error",\n"size": 3}]', "'figures[0].size' must be a string"),
     (5, '"figures": [{"x": "time"},\n{}]', "'figures[0].metric' must name at least one metric"),
@@ -135,7 +135,7 @@ def test_options_of_a_figure_need_a_metric(sweep: str, capsys: pytest.CaptureFix
     (6, '"figures": [{"metric": "error", "x": "loss",\n"log": "x"}]', "'figures[0].log' is 'x', but 'loss' has the value 0"),
     (6, '"figures": [{"metric": "error",\n"by": "program"}]', "'figures[0].by' is 'program', which has more than 10 values"),
     (5, '"labels": []', "'labels' must be an object"),
-    (6, '"labels": {\n"error": ""}', "'labels.error' is \"\", it must be a text of one line"),
+    (6, '"labels": {\n"error": ""}', "'labels.error' is \"\"; it must be a text of one line"),
 ])
 def test_wrong_figures_of_an_experiment_have_a_line(tmp_path: Path, line: int, keys: str, message: str) -> None:
     (tmp_path / "scenario.json").write_text("{}")

@@ -114,7 +114,7 @@ def test_scripts_that_changed_are_not_mixed_with_former_runs(project: Project) -
 
 @pytest.mark.parametrize(("keys", "line", "message"), [
     ({"vary": {"fields.lampz": [1]}}, 6, "has no public field 'lampz'; it has: lamps, loop"),
-    ({"vary": {"fields.lamps": [1, "many"]}}, 7, "'lamps' is \"many\", it must be of type whole number"),
+    ({"vary": {"fields.lamps": [1, "many"]}}, 7, "'lamps' is \"many\"; it must be of type whole number"),
     ({"set": {"network.los": 1}}, 5, "unknown key 'network.los'"),
     ({"vary": {"seed": [1]}, "measure": ["glow"]}, 9, "the scene has no metric 'glow'; it has: agreeing, seen"),
     ({"set": {"converged.seen": {"from": 1}}, "figures": [{"metric": "converged.glow", "kind": "ecdf"}]}, 11,

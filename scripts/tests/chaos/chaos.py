@@ -310,7 +310,7 @@ def main() -> int:
     signal.signal(signal.SIGINT, signal.default_int_handler)
     counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others, "fault": given.faults}
     if not can_mount():
-        print("disk: skipped, this system lets nobody mount")
+        print("disk: skipped, mounting is not permitted")
         counts["disk"] = 0
     if not clock_library():
         print("clock: skipped, libfaketime is not installed")

@@ -157,7 +157,7 @@ namespace Collektive.Headless
         }
 
         private static string NotOfType(JToken token, string key, Type type) =>
-            "'" + key + "' is " + token.ToString(Formatting.None) + ", it must be of type " + NameOf(type);
+            "'" + key + "' is " + token.ToString(Formatting.None) + "; it must be of type " + NameOf(type);
 
         /// <summary>The enum's own name for it; <c>Enum.Parse</c> would also take numbers and lists of names.</summary>
         private static string NameIn(Type type, string text) =>

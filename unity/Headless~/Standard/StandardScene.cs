@@ -66,18 +66,18 @@ namespace Collektive.Standard
         }
 
         private static string NotBelow(string field, float value, float least) =>
-            value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + ", it must be a number of at least " + Text(least);
+            value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be a number of at least " + Text(least);
 
         private static string NotAbove0(string field, float value) =>
-            value > 0 && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + ", it must be a number greater than 0";
+            value > 0 && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be a number greater than 0";
 
         private static string Text(float value) => value.ToString(CultureInfo.InvariantCulture);
 
         private static string ProblemOf(Deployment deployment)
         {
             if (deployment.nodes < 1 || deployment.nodes > MaxNodes)
-                return "'deployment.nodes' is " + deployment.nodes + ", it must be from 1 to " + MaxNodes;
-            if (deployment.columns < 0) return "'deployment.columns' is " + deployment.columns + ", it must be at least 0";
+                return "'deployment.nodes' is " + deployment.nodes + "; it must be from 1 to " + MaxNodes;
+            if (deployment.columns < 0) return "'deployment.columns' is " + deployment.columns + "; it must be at least 0";
             if (!Area.IsSize(deployment.size)) return "'deployment.size' must be two numbers greater than 0, the metres along x and z";
             return NotAbove0("deployment.spacing", deployment.spacing) ?? NotBelow("deployment.disorder", deployment.disorder, 0)
                 ?? NotAbove0("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon);
@@ -90,11 +90,11 @@ namespace Collektive.Standard
         }
 
         private static string ProblemOf(Neighbourhood neighbourhood) =>
-            neighbourhood.count < 1 ? "'neighbourhood.count' is " + neighbourhood.count + ", it must be at least 1"
+            neighbourhood.count < 1 ? "'neighbourhood.count' is " + neighbourhood.count + "; it must be at least 1"
                 : NotBelow("neighbourhood.radius", neighbourhood.radius, 0);
 
         private static string ProblemOf(Movement movement) =>
-            !(movement.exponent > 1) ? "'movement.exponent' is " + Text(movement.exponent) + ", it must be greater than 1"
+            !(movement.exponent > 1) ? "'movement.exponent' is " + Text(movement.exponent) + "; it must be greater than 1"
                 : NotAbove0("movement.speed", movement.speed) ?? NotBelow("movement.pause", movement.pause, 0)
                     ?? NotAbove0("movement.shortest", movement.shortest) ?? NotAbove0("movement.bodyRadius", movement.bodyRadius);
 
@@ -111,7 +111,7 @@ namespace Collektive.Standard
                 if (set.near.Length > 0 && !Area.IsPoint(set.near)) return "'" + field + ".near' must be [x, z]";
                 if (set.near.Length == 0 && set.ids.Length == 0) return "'" + field + "' needs 'ids' or 'near'";
                 if (set.count < 1 || set.count > deployment.nodes)
-                    return "'" + field + ".count' is " + set.count + ", it must be from 1 to the number of nodes, " + deployment.nodes;
+                    return "'" + field + ".count' is " + set.count + "; it must be from 1 to the number of nodes, " + deployment.nodes;
                 foreach (var id in set.ids)
                 {
                     if (id < 0 || id >= deployment.nodes)

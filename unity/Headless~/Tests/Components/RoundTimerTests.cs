@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void Rounds_missed_while_nobody_asked_are_one_and_change_no_later_one()
+        public void Rounds_missed_in_a_pause_count_as_one_and_do_not_shift_later_rounds()
         {
             var asked = Make(0.13f, 0, 0.1f, 3);
             var slept = Make(0.13f, 0, 0.1f, 3);

@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests
             }
             Assert.That(words[2], Is.EqualTo("-XX:+AutoCreateSharedArchive"));
             Assert.That(words[3], Is.StringStarting("-XX:SharedArchiveFile=" + folder));
-            Assert.That(words[4], Is.EqualTo("-Xlog:cds=off"), "what it says is for nobody");
+            Assert.That(words[4], Is.EqualTo("-Xlog:cds=off"), "its output is not shown");
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options, Is.EqualTo(words));
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
             var jar = Path.Combine(folder, "host.jar");
@@ -154,7 +154,7 @@ namespace Collektive.Headless.Tests
             var settings = TestJvm.Settings;
             settings.flags.Add(flag);
             var report = JvmReport.Of(settings, TestJvm.Launch);
-            Assert.That(report.IsGood, Is.False);
+            Assert.That(report.IsValid, Is.False);
             Assert.That(report.Problem(JvmSetting.Find(key)), Is.StringContaining(reason));
         }
 
@@ -162,7 +162,7 @@ namespace Collektive.Headless.Tests
         public void A_heap_that_the_machine_cannot_give_is_a_problem_of_the_heap()
         {
             var report = JvmReport.Of(new JvmSettings { initialHeapMb = 1 << 20, maximumHeapMb = 1 << 20, cdsArchive = false }, TestJvm.Launch);
-            Assert.That(report.IsGood, Is.False);
+            Assert.That(report.IsValid, Is.False);
             var problems = JvmSetting.All.Where(setting => report.Problem(setting).Length > 0).Select(setting => setting.Key).ToArray();
             Assert.That(problems, Is.SubsetOf(new[] { "initialHeapMb", "maximumHeapMb" }));
         }
@@ -201,7 +201,7 @@ namespace Collektive.Headless.Tests
         public void Each_setting_shows_its_value_in_effect()
         {
             var report = JvmReport.Of(TestJvm.Settings, TestJvm.Launch);
-            Assert.That(report.IsGood, Is.True);
+            Assert.That(report.IsValid, Is.True);
             Assert.That(report.Notice, Is.Empty);
             Func<string, string> effective = key => report.Effective(JvmSetting.Find(key));
             Assert.That(effective("maximumHeapMb"), Is.EqualTo("256 MB"));
@@ -223,7 +223,7 @@ namespace Collektive.Headless.Tests
             var settings = TestJvm.Settings;
             settings.maximumHeapMb = 512;
             var report = JvmReport.Of(settings, TestJvm.Launch);
-            Assert.That(report.IsGood, Is.True);
+            Assert.That(report.IsValid, Is.True);
             Assert.That(report.Notice, Is.StringContaining(TestJvm.WhenChangesTakeEffect));
             Assert.That(report.Notice, Is.StringContaining("-Xmx256m"));
             Assert.That(report.Effective(JvmSetting.Find("maximumHeapMb")), Is.EqualTo("256 MB"));

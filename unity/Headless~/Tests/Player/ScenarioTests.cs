@@ -12,7 +12,7 @@ namespace Collektive.Headless.Tests.Player
     [TestFixture]
     public sealed class ScenarioTests
     {
-        private static readonly string[] InOtherWords = { "schema", "jars", "record", "stopAfter", "jvm" };
+        private static readonly string[] RenamedKeys = { "schema", "jars", "record", "stopAfter", "jvm" };
 
         private readonly string folder = Path.Combine(Path.GetTempPath(), "collektive-scenario-" + Guid.NewGuid());
 
@@ -35,7 +35,7 @@ namespace Collektive.Headless.Tests.Player
             var other = new Dictionary<string, JToken>();
             foreach (var field in typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance))
             {
-                if (Array.IndexOf(InOtherWords, field.Name) < 0) other.Add(field.Name, Other(field.GetValue(new SimulationSettings())));
+                if (Array.IndexOf(RenamedKeys, field.Name) < 0) other.Add(field.Name, Other(field.GetValue(new SimulationSettings())));
             }
             Assert.That(other.Keys, Has.Member("threads").And.Member("network").And.Member("stepLimitMs"));
             foreach (var setting in other) root[setting.Key] = setting.Value;
@@ -61,10 +61,10 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [TestCase("network", "{\"loss\": 0.1, \"los\": 0.1}", "unknown key 'network.los'; known here: loss, lossPerMetre")]
-        [TestCase("timing", "{\"period\": \"long\"}", "'timing.period' is \"long\", it must be of type number")]
-        [TestCase("network", "0.1", "'network' is 0.1, it must be of type object; its keys are: loss, ")]
-        [TestCase("outputs", "{\"nodes\": [\"position\"]}", "'outputs.nodes' is [\"position\"], it must be of type object; its keys are: fields, interval")]
-        [TestCase("threads", "2.5", "'threads' is 2.5, it must be of type whole number")]
+        [TestCase("timing", "{\"period\": \"long\"}", "'timing.period' is \"long\"; it must be of type number")]
+        [TestCase("network", "0.1", "'network' is 0.1; it must be of type object; its keys are: loss, ")]
+        [TestCase("outputs", "{\"nodes\": [\"position\"]}", "'outputs.nodes' is [\"position\"]; it must be of type object; its keys are: fields, interval")]
+        [TestCase("threads", "2.5", "'threads' is 2.5; it must be of type whole number")]
         [TestCase("stopAfter", "1", "unknown key 'stopAfter'; known here: version, scene")]
         public void Errors_name_their_position(string key, string value, string message)
         {
@@ -73,8 +73,8 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Assert.Throws<ScenarioException>(() => Read(root)).Message, Is.StringContaining(message));
         }
 
-        [TestCase("parameters", "{\"p\": 3}", "'parameters.p' is 3, it must be of type object")]
-        [TestCase("parameters", "{\"p\": {\"width\": [1]}}", "'parameters.p.width' is [1], it must be of type string")]
+        [TestCase("parameters", "{\"p\": 3}", "'parameters.p' is 3; it must be of type object")]
+        [TestCase("parameters", "{\"p\": {\"width\": [1]}}", "'parameters.p.width' is [1]; it must be of type string")]
         [TestCase("converged", "{\"error\": {\"seconds\": 1}}", "'converged.error' needs 'from', 'to' or both")]
         [TestCase("converged", "{\"error\": {\"from\": 2, \"to\": 1}}", "'converged.error': 'from' is greater than 'to'")]
         [TestCase("stopWhenConverged", "true", "'stopWhenConverged' needs 'converged'")]
@@ -111,13 +111,13 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(found, Is.EqualTo(field));
         }
 
-        [TestCase("threads=010", "'threads' is \"010\", it must be of type whole number")]
-        [TestCase("threads=0x10", "'threads' is \"0x10\", it must be of type whole number")]
-        [TestCase("network.loss=0,5", "'network.loss' is \"0,5\", it must be of type number")]
-        [TestCase("deltaTime=1e39", "'deltaTime' is 1E+39, it must be of type number")]
+        [TestCase("threads=010", "'threads' is \"010\"; it must be of type whole number")]
+        [TestCase("threads=0x10", "'threads' is \"0x10\"; it must be of type whole number")]
+        [TestCase("network.loss=0,5", "'network.loss' is \"0,5\"; it must be of type number")]
+        [TestCase("deltaTime=1e39", "'deltaTime' is 1E+39; it must be of type number")]
         [TestCase("network.los=1", "unknown key 'network.los'")]
         [TestCase("seconds.x=1", "'seconds.x' cannot be set: 'seconds' is not an object")]
-        [TestCase("threads=many", "'threads' is \"many\", it must be of type whole number")]
+        [TestCase("threads=many", "'threads' is \"many\"; it must be of type whole number")]
         [TestCase("threads", "--set threads: write it as --set KEY=VALUE")]
         public void What_is_wrong_from_outside_is_named(string assignment, string message) =>
             Assert.That(Assert.Throws<ScenarioException>(() => Read(Minimal(), assignment)).Message, Is.StringContaining(message));

@@ -19,7 +19,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(17, "SecurityException")]
         [TestCase(18, "OutOfMemoryError")]
         [TestCase(19, "view")]
-        public void A_round_that_fails_costs_its_node_this_round_and_nobody_else_anything(int trouble, string expected)
+        public void A_failed_round_affects_only_its_node_and_only_this_round(int trouble, string expected)
         {
             Configure("trouble");
             var good = MakeNode(0);

@@ -118,7 +118,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_session_that_nobody_closed_is_closed_by_the_collector()
+        public void A_session_that_was_not_closed_is_closed_by_the_garbage_collector()
         {
             var forgotten = new List<WeakReference>();
             ForgetSessions(forgotten);

@@ -46,7 +46,7 @@ namespace Collektive.Headless.Tests.Simulation
                 zone.AddComponent<TriggerNeighbourhood>();
             });
             Play(3);
-            var milliseconds = LeastOfRules();
+            var milliseconds = ShortestRuleUpdate();
             Print("trigger rules, " + Manager.LinkCount + " links", milliseconds);
             Assert.That(Errors, Is.Empty);
             Assert.That(Manager.LinkCount, Is.GreaterThan(80 * Count));
@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests.Simulation
                 for (var i = 0; i < nodes.Count; i++) found += simulation.Grid.Find(nodes[i].Position, 3).Length;
             });
             Print("grid of 10,000 nodes, " + found + " near ones", milliseconds);
-            Print("rules of 10,000 nodes, " + Manager.LinkCount + " links", LeastOfRules());
+            Print("rules of 10,000 nodes, " + Manager.LinkCount + " links", ShortestRuleUpdate());
             Assert.That(found, Is.EqualTo(nodes.Count + Manager.LinkCount));
             // 3 on a machine that does nothing else.
             Assert.That(milliseconds, Is.LessThan(2 * 3));
@@ -114,7 +114,7 @@ namespace Collektive.Headless.Tests.Simulation
                 wall.transform.localScale = new Vector3(0.2f, 1, 1);
             }
             Play(2);
-            Print("line of sight rules, " + Manager.LinkCount + " links", LeastOfRules());
+            Print("line of sight rules, " + Manager.LinkCount + " links", ShortestRuleUpdate());
             var before = QueryLog.Rays;
             Manager.Step();
             Assert.That(QueryLog.Rays - before, Is.EqualTo(PairsWithin(2)));
@@ -215,7 +215,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         /// <summary>Milliseconds of asking all rules once, as a tick does.</summary>
-        private double LeastOfRules()
+        private double ShortestRuleUpdate()
         {
             var best = double.MaxValue;
             var nodes = new List<Node>(Manager.Nodes);

@@ -218,14 +218,14 @@ namespace Collektive.Headless.Tests.Simulation
             ball.isKinematic = true;
             var sensor = ball.gameObject.AddComponent<Zones>();
             Play(2);
-            Assert.That(sensor.Told, Is.Empty);
+            Assert.That(sensor.Events, Is.Empty);
             ball.transform.position = new Vector3(5, 0, 0);
             Play(4);
-            Assert.That(sensor.Told, Is.EqualTo(new[] { "entered", "in", "in" }));
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "in", "in" }));
             Assert.That(sensor.Last, Is.SameAs(zone));
             ball.transform.position = Vector3.zero;
             Play(3);
-            Assert.That(sensor.Told, Is.EqualTo(new[] { "entered", "in", "in", "in", "left" }));
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "in", "in", "in", "left" }));
         }
 
         [Test]
@@ -241,7 +241,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(3);
             zone.enabled = false;
             Play(2);
-            Assert.That(sensor.Told, Is.EqualTo(new[] { "entered", "in", "left" }));
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "in", "left" }));
         }
 
         [Test]
@@ -357,7 +357,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         public sealed class Zones : ZoneSensor<SensorData>
         {
-            public List<string> Told { get; } = new List<string>();
+            public List<string> Events { get; } = new List<string>();
 
             public Collider Last { get; private set; }
 
@@ -366,7 +366,7 @@ namespace Collektive.Headless.Tests.Simulation
                 foreach (var zone in zones)
                 {
                     Last = zone.Collider;
-                    Told.Add(zone.Left ? "left" : zone.Entered ? "entered" : "in");
+                    Events.Add(zone.Left ? "left" : zone.Entered ? "entered" : "in");
                 }
             }
         }

@@ -146,7 +146,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             var own = DrawLog.Draws[0].Material;
             Assert.That(own.shader.name, Is.EqualTo("Collektive/Link"));
-            Assert.That(view.Material == null, Is.True, "the package's own is nobody's setting");
+            Assert.That(view.Material == null, Is.True, "the package's material is not a setting");
             Assert.That(DrawLog.Buffers, Is.EqualTo(before + 2));
             view.enabled = false;
             Play(1);

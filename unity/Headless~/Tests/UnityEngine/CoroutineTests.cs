@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests.Engine
             var runner = Add<Runner>();
             runner.StartCoroutine(runner.Frames());
             Frames(2);
-            Assert.That(Told(), Is.EqualTo("a Update b LateUpdate Update c LateUpdate"));
+            Assert.That(Events(), Is.EqualTo("a Update b LateUpdate Update c LateUpdate"));
         }
 
         [Test]
@@ -90,7 +90,7 @@ namespace Collektive.Headless.Tests.Engine
             runner.StartCoroutine(runner.Nested());
             Frames(5);
             Notes.RemoveAll(note => note.EndsWith("Update"));
-            Assert.That(Told(), Is.EqualTo("a b c outer waited end"));
+            Assert.That(Events(), Is.EqualTo("a b c outer waited end"));
         }
 
         [Test]
@@ -99,7 +99,7 @@ namespace Collektive.Headless.Tests.Engine
             var runner = Add<Runner>();
             runner.StartCoroutine(runner.Phases());
             Frames(1);
-            Assert.That(Told(), Is.EqualTo("fixed Update LateUpdate frame end"));
+            Assert.That(Events(), Is.EqualTo("fixed Update LateUpdate frame end"));
             Frames(2);
             runner.Open = true;
             Frames(1);
@@ -123,7 +123,7 @@ namespace Collektive.Headless.Tests.Engine
         {
             Add<StartsAsCoroutine>();
             Frames(2);
-            Assert.That(Told(), Is.EqualTo("first second"));
+            Assert.That(Events(), Is.EqualTo("first second"));
         }
     }
 }

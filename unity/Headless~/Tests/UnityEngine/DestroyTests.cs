@@ -20,7 +20,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(part != null, Is.True);
             Loop.Frame(0.01f);
             Assert.That(part == null, Is.True);
-            Assert.That(Told(), Is.EqualTo("a.OnDisable a.OnDestroy"));
+            Assert.That(Events(), Is.EqualTo("a.OnDisable a.OnDestroy"));
         }
 
         [Test]
@@ -48,7 +48,7 @@ namespace Collektive.Headless.Tests.Engine
             Object.Destroy(parent.gameObject);
             Loop.Frame(0.01f);
             Assert.That(child == null, Is.True);
-            Assert.That(Told(), Is.EqualTo("p.OnDisable c.OnDisable p.OnDestroy c.OnDestroy"));
+            Assert.That(Events(), Is.EqualTo("p.OnDisable c.OnDisable p.OnDestroy c.OnDestroy"));
         }
 
         [Test]

@@ -47,7 +47,7 @@ namespace Collektive.Headless.Tests.Engine
             var copy = UnityEngine.Object.Instantiate(original, new Vector3(4f, 0f, 0f), Quaternion.identity);
             copy.gameObject.SetActive(true);
 
-            Assert.That(Told(), Is.EqualTo("Awake(7 at 4)"));
+            Assert.That(Events(), Is.EqualTo("Awake(7 at 4)"));
             Assert.That(copy.name, Is.EqualTo("template(Clone)"));
             Assert.That(copy.names, Is.EqualTo(new[] { "one" }).And.Not.SameAs(original.names));
             Assert.That(copy.settings, Is.Not.SameAs(original.settings));

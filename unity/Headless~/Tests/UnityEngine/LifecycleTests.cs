@@ -60,11 +60,11 @@ namespace Collektive.Headless.Tests.Engine
         public void A_script_lives_in_the_order_of_the_manual()
         {
             var witness = Add<Witness>("a");
-            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable"));
+            Assert.That(Events(), Is.EqualTo("a.Awake a.OnEnable"));
             Loop.Frame(0.02f);
             UnityEngine.Object.Destroy(witness.gameObject);
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo(
+            Assert.That(Events(), Is.EqualTo(
                 "a.Awake a.OnEnable a.Start a.FixedUpdate a.Update a.LateUpdate a.Update a.LateUpdate a.OnDisable a.OnDestroy"));
         }
 
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Engine
         {
             Add<Heir>("h");
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo("h.Awake h.OnEnable h.Start h.Update h.LateUpdate"));
+            Assert.That(Events(), Is.EqualTo("h.Awake h.OnEnable h.Start h.Update h.LateUpdate"));
         }
 
         [Test]
@@ -83,7 +83,7 @@ namespace Collektive.Headless.Tests.Engine
             Add<Witness>("b");
             Notes.Clear();
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo("a.Start b.Start a.Update b.Update a.LateUpdate b.LateUpdate"));
+            Assert.That(Events(), Is.EqualTo("a.Start b.Start a.Update b.Update a.LateUpdate b.LateUpdate"));
         }
 
         [Test]
@@ -94,7 +94,7 @@ namespace Collektive.Headless.Tests.Engine
             Add<Early>();
             Notes.Clear();
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo("early middle late"));
+            Assert.That(Events(), Is.EqualTo("early middle late"));
         }
 
         [Test]
@@ -106,7 +106,7 @@ namespace Collektive.Headless.Tests.Engine
             Child<Middle>("middle");
             Child<Early>("early");
             root.SetActive(true);
-            Assert.That(Told(), Is.EqualTo("early middle late"));
+            Assert.That(Events(), Is.EqualTo("early middle late"));
 
             void Child<T>(string name) where T : Component
             {
@@ -123,13 +123,13 @@ namespace Collektive.Headless.Tests.Engine
             holder.SetActive(false);
             var witness = holder.AddComponent<Witness>();
             Loop.Frame(0.02f);
-            Assert.That(Told(), Is.Empty);
+            Assert.That(Events(), Is.Empty);
             Assert.That(witness.isActiveAndEnabled, Is.False);
             holder.SetActive(true);
-            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable"));
+            Assert.That(Events(), Is.EqualTo("a.Awake a.OnEnable"));
             holder.SetActive(false);
             holder.SetActive(true);
-            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable a.OnDisable a.OnEnable"));
+            Assert.That(Events(), Is.EqualTo("a.Awake a.OnEnable a.OnDisable a.OnEnable"));
         }
 
         [Test]
@@ -139,7 +139,7 @@ namespace Collektive.Headless.Tests.Engine
             holder.SetActive(false);
             holder.AddComponent<Witness>();
             UnityEngine.Object.DestroyImmediate(holder);
-            Assert.That(Told(), Is.Empty);
+            Assert.That(Events(), Is.Empty);
         }
 
         [Test]
@@ -151,10 +151,10 @@ namespace Collektive.Headless.Tests.Engine
             witness.enabled = false;
             holder.SetActive(true);
             Loop.Frame(0.02f);
-            Assert.That(Told(), Is.EqualTo("a.Awake"));
+            Assert.That(Events(), Is.EqualTo("a.Awake"));
             witness.enabled = true;
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo("a.Awake a.OnEnable a.Start a.Update a.LateUpdate"));
+            Assert.That(Events(), Is.EqualTo("a.Awake a.OnEnable a.Start a.Update a.LateUpdate"));
         }
 
         [Test]
@@ -168,18 +168,18 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(child.gameObject.activeSelf, Is.True);
             Assert.That(child.gameObject.activeInHierarchy, Is.False);
             child.transform.SetParent(null);
-            Assert.That(Told(), Is.EqualTo("c.OnDisable c.OnEnable"));
+            Assert.That(Events(), Is.EqualTo("c.OnDisable c.OnEnable"));
         }
 
         [Test]
-        public void Exceptions_are_logged_and_stop_nobody_else()
+        public void An_exception_is_logged_and_other_components_go_on()
         {
             Add<Thrower>();
             Add<Witness>("w");
             Notes.Clear();
             Loop.Frame(0.001f);
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo("w.Start w.Update w.LateUpdate w.Update w.LateUpdate"));
+            Assert.That(Events(), Is.EqualTo("w.Start w.Update w.LateUpdate w.Update w.LateUpdate"));
             Assert.That(Errors, Is.EqualTo(new[] { "start failed", "update failed", "update failed" }));
         }
 
@@ -188,7 +188,7 @@ namespace Collektive.Headless.Tests.Engine
         {
             var script = Add<FailsToAwake>();
             Assert.That(script.enabled, Is.False);
-            Assert.That(Told(), Is.Empty);
+            Assert.That(Events(), Is.Empty);
         }
 
         [Test]
@@ -196,10 +196,10 @@ namespace Collektive.Headless.Tests.Engine
         {
             Add<Spawner>();
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo("child.Awake child.OnEnable child.Start child.LateUpdate"));
+            Assert.That(Events(), Is.EqualTo("child.Awake child.OnEnable child.Start child.LateUpdate"));
             Notes.Clear();
             Loop.Frame(0.001f);
-            Assert.That(Told(), Is.EqualTo("child.Update child.LateUpdate"));
+            Assert.That(Events(), Is.EqualTo("child.Update child.LateUpdate"));
         }
 
         [TestCase(0.02f, 1)]
@@ -220,7 +220,7 @@ namespace Collektive.Headless.Tests.Engine
             Add<Witness>("a");
             Notes.Clear();
             Loop.Quit();
-            Assert.That(Told(), Is.EqualTo("a.OnApplicationQuit a.OnDisable a.OnDestroy"));
+            Assert.That(Events(), Is.EqualTo("a.OnApplicationQuit a.OnDisable a.OnDestroy"));
             Assert.That(quitting, Is.EqualTo(1));
         }
 

@@ -25,7 +25,7 @@ namespace Collektive.Headless.Tests.Engine
         [TearDown]
         public void ResetPlayer() => Loop.Reset();
 
-        protected static string Told() => string.Join(" ", Notes);
+        protected static string Events() => string.Join(" ", Notes);
 
         protected static T Add<T>(string name = "object") where T : Component => new GameObject(name).AddComponent<T>();
 

@@ -25,7 +25,7 @@ namespace Collektive.Headless.Tests.Engine
             Loop.Reset();
             Notes.Clear();
             Loop.Start(1, () => Notes.Add("scene"));
-            Assert.That(Told(), Is.EqualTo("subsystems assemblies splash before scene scene after scene"));
+            Assert.That(Events(), Is.EqualTo("subsystems assemblies splash before scene scene after scene"));
         }
 
         [Test]

@@ -21,7 +21,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Whether the JVM would start with these settings.</summary>
-        internal bool IsGood => problems.Count == 0;
+        internal bool IsValid => problems.Count == 0;
 
         /// <summary>A remark on all settings; may be empty.</summary>
         internal string Notice { get; private set; } = "";
@@ -34,7 +34,7 @@ namespace Collektive.Bridge
             var report = new JvmReport(Jvm.TryGetStatus());
             if (Jvm.FindProblem() != null) report.Add(nameof(JvmSettings.location), Jvm.FindProblem());
             foreach (var problem in settings.FindProblems()) report.Add(problem.Key, problem.Message);
-            if (report.IsGood) report.Try(settings, toLaunch);
+            if (report.IsValid) report.Try(settings, toLaunch);
             return report;
         }
 

@@ -60,13 +60,13 @@ namespace Collektive.Bridge
         {
             secondBegan = Stopwatch.GetTimestamp();
             System.Array.Clear(given, 0, given.Length);
-            var overflown = Lost() - lost;
+            var overflowed = Lost() - lost;
             level = HostLogLevel.Warning;
             line = null;
-            if (leftOut == 0 && overflown == 0) return false;
-            line = (leftOut + (long)overflown) + " log lines of the JVM and its programs were skipped: the limit is " + LinesPerSecond +
-                " lines per second and severity" + (overflown > 0 ? "; " + overflown + " of them did not fit into the log buffer" : "");
-            lost += overflown;
+            if (leftOut == 0 && overflowed == 0) return false;
+            line = (leftOut + (long)overflowed) + " log lines of the JVM and its programs were skipped: the limit is " + LinesPerSecond +
+                " lines per second and severity" + (overflowed > 0 ? "; " + overflowed + " of them did not fit into the log buffer" : "");
+            lost += overflowed;
             leftOut = 0;
             return true;
         }

@@ -211,7 +211,7 @@ namespace Collektive.Unity
             // A double: the number of cells may exceed the range of long.
             if ((double)length * rows > count || rows > MaxRows)
             {
-                Test(0, count, centre, squared, false, 0, to);
+                AddNear(0, count, centre, squared, false, 0, to);
                 return;
             }
             for (var y = first.Y; y <= last.Y; y++)
@@ -221,8 +221,8 @@ namespace Collektive.Unity
                     var row = Row(y, z);
                     var start = Bucket(first.X, row);
                     var end = start + (int)length;
-                    Test(starts[start], starts[Math.Min(end, mask + 1)], centre, squared, true, row, to);
-                    if (end > mask + 1) Test(0, starts[end - mask - 1], centre, squared, true, row, to);
+                    AddNear(starts[start], starts[Math.Min(end, mask + 1)], centre, squared, true, row, to);
+                    if (end > mask + 1) AddNear(0, starts[end - mask - 1], centre, squared, true, row, to);
                 }
             }
         }
@@ -231,7 +231,7 @@ namespace Collektive.Unity
         /// Takes the entries of a range that are near enough, of one row alone or of all: others may share its buckets. Most of a search is spent
         /// in this loop; Mono is fastest with locals.
         /// </summary>
-        private void Test(int start, int end, Vector3 centre, float squaredRadius, bool ofRow, int row, NearNodes to)
+        private void AddNear(int start, int end, Vector3 centre, float squaredRadius, bool ofRow, int row, NearNodes to)
         {
             var centreX = centre.x;
             var centreY = centre.y;
