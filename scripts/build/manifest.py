@@ -15,6 +15,10 @@ from build.places import ROOT
 
 SYSTEMS = {"win-x64": "Windows (x64)", "linux-x64": "Linux (x64)", "linux-arm64": "Linux (ARM64)", "mac-x64": "macOS (Intel)",
            "mac-arm64": "macOS (Apple silicon)"}
+JVM_PACKAGE = "org.collektive.unity.jvm."
+# JVM packages that also contain the native library, and the first version of Unity for them. Older versions copy the Linux libraries of all processors
+# to one place in the player, and a build with two of them fails.
+WITH_LIBRARY = {"linux-arm64": "6000.5"}
 
 
 def read(root: str | Path) -> dict[str, Any]:
@@ -41,21 +45,21 @@ def for_jvm(root: str | Path, platform: str) -> dict[str, Any]:
     """Returns the manifest of the package with a platform's JVM."""
     core = read(root)
     return {
-        "name": "org.collektive.unity.jvm." + platform,
+        "name": JVM_PACKAGE + platform,
         "displayName": "Collektive for Unity: JVM for " + SYSTEMS[platform],
         "version": core["version"],
-        "unity": core["unity"],
+        "unity": WITH_LIBRARY.get(platform, core["unity"]),
         "description": "The Java runtime (Eclipse Temurin) that Collektive for Unity runs its programs on. Licences: Jvm~/" + platform + "/legal.",
         "license": "GPL-2.0-only WITH Classpath-exception-2.0",
         "author": core["author"],
-        "files": ["Jvm~", "package.json.meta"],
+        "files": ["Jvm~", *(["Plugins", "Plugins.meta"] if platform in WITH_LIBRARY else []), "package.json.meta"],
     }
 
 
 def write_jvm(root: str | Path, platform: str, folder: Path) -> None:
     """Writes the manifest of a platform's JVM package into a folder, with its meta."""
     (folder / "package.json").write_text(json.dumps(for_jvm(root, platform), indent=2) + "\n")
-    (folder / "package.json.meta").write_text(metas.meta_of(folder, "package.json", "org.collektive.unity.jvm." + platform))
+    (folder / "package.json.meta").write_text(metas.meta_of(folder, "package.json", JVM_PACKAGE + platform))
 
 
 if __name__ == "__main__":

@@ -35,6 +35,11 @@ def jvm(work: Path, out: Path, platform: str) -> Path:
     content = work / platform
     shutil.copytree(jre.reduce_jre(platform), content / "Jvm~" / platform)
     manifest.write_jvm(ROOT, platform, content)
+    if platform in manifest.WITH_LIBRARY:
+        library = f"Plugins/{platform}/{platforms.PLATFORMS[platform].library}"
+        _copy(platforms.shim_of(platform), content / library)
+        for asset in ("Plugins", f"Plugins/{platform}", library):
+            (content / f"{asset}.meta").write_text(metas.meta_of(content, asset, manifest.JVM_PACKAGE + platform))
     return _pack(content, out, "")
 
 
@@ -65,7 +70,7 @@ def _stage(content: Path, all_platforms: bool) -> None:
     _copy(places.compiler_plugin(), tools / "collektive-compiler-plugin.jar")
     _strip(places.FLATC, tools / "linux-x64/flatc")
     if all_platforms:
-        for platform in platforms.PLATFORMS:
+        for platform in platforms.PLATFORMS.keys() - manifest.WITH_LIBRARY.keys():
             library = platforms.shim_of(platform)
             _copy(library, plugins / platform / library.name)
         for platform in platforms.FLATC_PLATFORMS:

@@ -11,7 +11,7 @@ import validate
 
 from build import managed, metas
 from build.places import CSHARP, ROOT
-from validator import assets, guids, serialized_fields
+from validator import assets, guids, plugins, serialized_fields
 
 PREFAB = "unity/Prefabs/Simulation Manager.prefab"
 NODE = "unity/Prefabs/Node.prefab"
@@ -190,3 +190,29 @@ class ValidatorTest(unittest.TestCase):
     def test_finds_an_old_manifest_for_git(self) -> None:
         self.change("package.json", r'"version": "[^"]*"', '"version": "9.9.9"')
         self.assert_problem("unity/package.json", "outdated")
+
+
+class NativeLibrariesTest(unittest.TestCase):
+    """The rule for native libraries of one name: by player, processor and the first version of Unity that installs both."""
+
+    @staticmethod
+    def library(platform: str, unity: str, name: str = "libcollektive_shim.so") -> plugins.Library:
+        return plugins.Library(f"Plugins/{platform}/{name}", metas.native(platform), unity)
+
+    def test_libraries_of_two_processors_collide_in_linux_players_of_old_versions(self) -> None:
+        for unity in "6000.0", "6000.3", "6000.4":
+            found = list(plugins.problems([self.library("linux-x64", "6000.0"), self.library("linux-arm64", unity)]))
+            self.assertEqual(found, ["Plugins/linux-x64/libcollektive_shim.so: collides with Plugins/linux-arm64/libcollektive_shim.so in Linux64 players "
+                                     f"of Unity {unity}"])
+
+    def test_newer_players_have_a_folder_for_each_processor(self) -> None:
+        self.assertEqual(list(plugins.problems([self.library("linux-x64", "6000.0"), self.library("linux-arm64", "6000.5")])), [])
+        self.assertEqual(list(plugins.problems([self.library("mac-x64", "6000.0"), self.library("mac-arm64", "6000.0")])), [])
+
+    def test_two_libraries_for_one_processor_collide_in_each_version(self) -> None:
+        copy = self.library("linux-x64", "6000.5")._replace(path="Other/libcollektive_shim.so")
+        self.assertEqual(len(list(plugins.problems([self.library("linux-x64", "6000.5"), copy]))), 1)
+
+    def test_libraries_of_other_names_or_players_do_not_collide(self) -> None:
+        self.assertEqual(list(plugins.problems([self.library("linux-x64", "6000.0"), self.library("linux-x64", "6000.0", "libother.so")])), [])
+        self.assertEqual(list(plugins.problems([self.library("linux-x64", "6000.0"), self.library("mac-x64", "6000.0")])), [])

@@ -41,13 +41,14 @@ def test_guids_of_native_libraries_stay_and_differ() -> None:
 
 
 @pytest.mark.parametrize("platform", metas.NATIVE)
-def test_a_jvm_package_is_named_after_its_platform_and_holds_nothing_else(platform: str, tmp_path: Path) -> None:
+def test_a_jvm_package_is_named_after_its_platform_and_contains_its_files_only(platform: str, tmp_path: Path) -> None:
     manifest.write_jvm(ROOT, platform, tmp_path)
     assert sorted(os.listdir(tmp_path)) == ["package.json", "package.json.meta"]
     written = manifest.for_jvm(ROOT, platform)
     assert written["name"] == "org.collektive.unity.jvm." + platform
     assert written["version"] == manifest.read(ROOT)["version"]
-    assert written["files"] == ["Jvm~", "package.json.meta"]
+    assert written["files"] == ["Jvm~", *(["Plugins", "Plugins.meta"] if platform in manifest.WITH_LIBRARY else []), "package.json.meta"]
+    assert written["unity"] == ("6000.5" if platform == "linux-arm64" else manifest.read(ROOT)["unity"])
 
 
 def test_metas_and_manifests_name_the_platforms_that_are_built() -> None:

@@ -22,33 +22,14 @@ namespace Collektive.Unity.Editor
             var options = buildPlayerContext.BuildPlayerOptions;
             var simulations = SceneSimulation.FindAll(options.scenes);
             if (simulations.Count == 0) return;
-            var platforms = PlatformsOf(options.target);
-            if (platforms.Length == 0)
-            {
-                Debug.LogWarning("Collektive does not support " + options.target + ": the simulation of " + simulations[0].Scene
-                    + " and all others are disabled in this player");
-                return;
-            }
+            var problem = PlayerPlatforms.Find(options.target, out var platforms);
+            if (problem != null) throw simulations[0].Failure(problem);
 
             var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
             foreach (var simulation in simulations) AddPrograms(simulation, files);
             AddJvms(simulations, platforms, files);
             foreach (var jar in HostJars) Add(Installation.OwnFile(jar), files);
             foreach (var file in files) buildPlayerContext.AddAdditionalPathToStreamingAssets(file.Value, file.Key);
-        }
-
-        /// <summary>Returns the names of the platforms that a build for this target runs on, empty for unsupported targets.</summary>
-        private static string[] PlatformsOf(BuildTarget target)
-        {
-            switch (target)
-            {
-                case BuildTarget.StandaloneWindows64: return new[] { "win-x64" };
-                case BuildTarget.StandaloneOSX: return new[] { "mac-arm64", "mac-x64" };
-                case BuildTarget.StandaloneLinux64:
-                case BuildTarget.LinuxHeadlessSimulation: return new[] { "linux-x64" };
-                case BuildTarget.EmbeddedLinux: return new[] { "linux-arm64", "linux-x64" };
-                default: return new string[0];
-            }
         }
 
         private static void AddPrograms(SceneSimulation simulation, SortedDictionary<string, string> files)

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using UnityEngine;
 
@@ -13,6 +14,21 @@ namespace UnityEditor
         LinuxHeadlessSimulation = 41,
         EmbeddedLinux = 45,
         NoTarget = -2,
+    }
+
+    public class BuildPipeline
+    {
+        public static string GetBuildTargetName(BuildTarget targetPlatform) =>
+            targetPlatform == BuildTarget.StandaloneWindows64 ? "Win64" : targetPlatform == BuildTarget.StandaloneOSX ? "OSXUniversal"
+                : targetPlatform == BuildTarget.StandaloneLinux64 ? "Linux64" : targetPlatform.ToString();
+    }
+
+    public class EditorUserBuildSettings
+    {
+        static readonly Dictionary<(string, string), string> Settings = new Dictionary<(string, string), string>();
+
+        public static string GetPlatformSettings(string platformName, string name) => Settings.TryGetValue((platformName, name), out var value) ? value : "";
+        public static void SetPlatformSettings(string platformName, string name, string value) => Settings[(platformName, name)] = value;
     }
 
     public struct BuildPlayerOptions

@@ -25,7 +25,10 @@ namespace Collektive.Headless.Tests.Editor
         public void InstallJvms()
         {
             foreach (var platform in new[] { "linux-x64", "linux-arm64", "win-x64", "mac-arm64", "mac-x64" })
+            {
                 Write("Packages/org.collektive.unity.jvm." + platform + "/Jvm~/" + platform + "/lib/modules", platform);
+                Write("Packages/org.collektive.unity.jvm." + platform + "/package.json", "{}");
+            }
             Write(Path.Combine(Project.PackageCache, "unity/Jvm~/collektive-samples.jar"), "samples");
             Write("Library/Collektive/swarm.jar", "swarm");
         }
@@ -33,17 +36,22 @@ namespace Collektive.Headless.Tests.Editor
         [TearDown]
         public void LeavePlayer()
         {
+            foreach (var target in new[] { BuildTarget.StandaloneLinux64, BuildTarget.StandaloneWindows64, BuildTarget.StandaloneOSX }) Select(target, "");
             Loop.DataPath = AppDomain.CurrentDomain.BaseDirectory;
             Menus.Load();
         }
 
-        [TestCase(BuildTarget.StandaloneLinux64, "linux-x64")]
-        [TestCase(BuildTarget.LinuxHeadlessSimulation, "linux-x64")]
-        [TestCase(BuildTarget.StandaloneWindows64, "win-x64")]
-        [TestCase(BuildTarget.StandaloneOSX, "mac-arm64 mac-x64")]
-        [TestCase(BuildTarget.EmbeddedLinux, "linux-arm64 linux-x64")]
-        public void A_player_takes_the_JVMs_of_its_platform_along(BuildTarget target, string platforms)
+        [TestCase(BuildTarget.StandaloneLinux64, "", "linux-x64")]
+        [TestCase(BuildTarget.StandaloneLinux64, "x64", "linux-x64")]
+        [TestCase(BuildTarget.StandaloneLinux64, "ARM64", "linux-arm64")]
+        [TestCase(BuildTarget.StandaloneWindows64, "", "win-x64")]
+        [TestCase(BuildTarget.StandaloneWindows64, "x64", "win-x64")]
+        [TestCase(BuildTarget.StandaloneOSX, "x64ARM64", "mac-arm64 mac-x64")]
+        [TestCase(BuildTarget.StandaloneOSX, "ARM64", "mac-arm64")]
+        [TestCase(BuildTarget.StandaloneOSX, "x64", "mac-x64")]
+        public void A_player_takes_the_JVMs_of_its_platform_along(BuildTarget target, string architecture, string platforms)
         {
+            Select(target, architecture);
             Players.Build(target, Assets, Scene("jars.Array.data[0]", Samples));
             var jvms = Array.ConvertAll(Directory.GetDirectories(Assets + "/Collektive/Packages/org.collektive.unity/Jvm"), Path.GetFileName);
             Array.Sort(jvms, StringComparer.Ordinal);
@@ -127,12 +135,27 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Logged("the player has no JVM for mac-x64"), Is.StringEnding("install org.collektive.unity.jvm.mac-x64"));
         }
 
-        [Test]
-        public void On_other_platforms_simulations_stay_off()
+        [TestCase(BuildTarget.StandaloneWindows64, "ARM64", "StandaloneWindows64 on arm64")]
+        [TestCase(BuildTarget.StandaloneWindows, "", "StandaloneWindows")]
+        [TestCase(BuildTarget.EmbeddedLinux, "", "EmbeddedLinux")]
+        [TestCase(BuildTarget.LinuxHeadlessSimulation, "", "LinuxHeadlessSimulation")]
+        [TestCase((BuildTarget)20, "", "20")]
+        public void Other_platforms_fail_the_build_with_one_error(BuildTarget target, string architecture, string name)
         {
-            Players.Build((BuildTarget)20, Assets, Scene("jars.Array.data[0]", Samples));
-            Logged("Warning: Collektive does not support 20: the simulation of Assets/Swarm.unity and all others are disabled in this player");
+            Select(target, architecture);
+            var error = Assert.Throws<BuildFailedException>(() => Players.Build(target, Assets, Scene("jars.Array.data[0]", Samples)));
+            Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: Collektive does not support " + name
+                + ": select "));
             Assert.That(Directory.Exists(Assets), Is.False);
+            Assert.That(Log, Is.Empty);
+        }
+
+        [Test]
+        public void Linux_on_ARM64_needs_the_library_of_its_package()
+        {
+            Select(BuildTarget.StandaloneLinux64, "ARM64");
+            Directory.Delete("Packages/org.collektive.unity.jvm.linux-arm64", true);
+            Fails("players for Linux on ARM64 need the native library in org.collektive.unity.jvm.linux-arm64", "jars.Array.data[0]", Samples);
         }
 
         [Test]
@@ -166,6 +189,9 @@ namespace Collektive.Headless.Tests.Editor
             Players.Build(BuildTarget.StandaloneLinux64, Assets, scene);
             Assert.That(File.Exists(Assets + "/Collektive/Packages/org.collektive.unity/Jvm/collektive-samples.jar"), Is.True);
         }
+
+        private static void Select(BuildTarget target, string architecture) =>
+            EditorUserBuildSettings.SetPlatformSettings(BuildPipeline.GetBuildTargetName(target), "Architecture", architecture);
 
         private static void Fails(string problem, params string[] settings)
         {

@@ -1,0 +1,39 @@
+using System.IO;
+using UnityEditor;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>The platforms of a player, by the package's names.</summary>
+    internal static class PlayerPlatforms
+    {
+        /// <summary>Finds the platforms that a build for this target runs on, with the architecture in the build settings.</summary>
+        /// <returns>The reason why the simulation cannot run there, or null.</returns>
+        internal static string Find(BuildTarget target, out string[] platforms)
+        {
+            var architecture = EditorUserBuildSettings.GetPlatformSettings(BuildPipeline.GetBuildTargetName(target), "Architecture").ToLowerInvariant();
+            platforms = Of(target, architecture);
+            if (platforms == null)
+                return "Collektive does not support " + target + (architecture.Length > 0 ? " on " + architecture : "")
+                    + ": select Windows or Linux on x64, Linux on ARM64 or macOS in the build settings, or remove the Simulation Manager from the scene";
+            // The package has no library for Linux on ARM64, because Unity before 6000.5 would copy it over that for x64.
+            if (platforms[0] == "linux-arm64" && !File.Exists(Installation.ToPhysical("Packages/org.collektive.unity.jvm.linux-arm64/package.json")))
+                return "players for Linux on ARM64 need the native library in org.collektive.unity.jvm.linux-arm64, for Unity 6000.5 or newer: install this package";
+            return null;
+        }
+
+        /// <returns>Null for unsupported targets.</returns>
+        private static string[] Of(BuildTarget target, string architecture)
+        {
+            switch (target)
+            {
+                case BuildTarget.StandaloneWindows64 when architecture != "arm64": return new[] { "win-x64" };
+                case BuildTarget.StandaloneOSX when architecture == "arm64": return new[] { "mac-arm64" };
+                case BuildTarget.StandaloneOSX when architecture == "x64": return new[] { "mac-x64" };
+                case BuildTarget.StandaloneOSX: return new[] { "mac-arm64", "mac-x64" };
+                case BuildTarget.StandaloneLinux64 when architecture == "arm64": return new[] { "linux-arm64" };
+                case BuildTarget.StandaloneLinux64: return new[] { "linux-x64" };
+                default: return null;
+            }
+        }
+    }
+}
