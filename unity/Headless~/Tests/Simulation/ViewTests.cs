@@ -163,6 +163,34 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_replaced_material_of_the_user_is_not_destroyed()
+        {
+            var view = AddLinkView();
+            view.enabled = false;
+            var first = view.Material = new Material(Shader.Find("Collektive/Link"));
+            view.enabled = true;
+            view.Material = null;
+            view.enabled = false;
+            Play(1);
+            Assert.That(first == null, Is.False);
+        }
+
+        [Test]
+        public void Without_compute_shaders_a_view_is_disabled_with_one_message()
+        {
+            Loop.HasComputeShaders = false;
+            var view = AddLinkView();
+            MakeNode(0);
+            MakeNode(0, Vector3.right);
+            Manager.AddLink(0, 1);
+            Play(3);
+            Assert.That(view.enabled, Is.False);
+            Assert.That(Errors, Is.Empty);
+            Assert.That(Log.FindAll(line => line.Contains("Link View on 'Links' is disabled")).Count, Is.EqualTo(1));
+            Assert.That(Manager.Tick, Is.EqualTo(3));
+        }
+
+        [Test]
         public void A_material_that_cannot_draw_links_is_an_error()
         {
             var view = AddLinkView();

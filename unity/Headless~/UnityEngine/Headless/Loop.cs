@@ -23,6 +23,9 @@ namespace UnityEngine.Headless
         /// The value of `Application.dataPath`: the folder of this process's program, unless it plays another one.
         public static string DataPath { get; set; } = AppDomain.CurrentDomain.BaseDirectory;
 
+        /// The value of `SystemInfo.supportsComputeShaders`, false with -nographics.
+        public static bool HasComputeShaders { get; set; } = true;
+
         /// How many threads step physics in a world made later; results do not depend on it.
         public static int PhysicsThreads { get => PhysicsWorld.Threads; set => PhysicsWorld.Threads = value; }
 
@@ -97,6 +100,7 @@ namespace UnityEngine.Headless
             Application.ResetState();
             SceneManagement.SceneManager.ResetState();
             DrawLog.Clear();
+            HasComputeShaders = true;
             QuitRequested = false;
             ExitCode = 0;
         }

@@ -21,11 +21,15 @@ namespace UnityEngine
             Constant = 1 << 9,
         }
 
+        const Target NeedsCompute = Target.Structured | Target.Raw | Target.Append | Target.Counter | Target.IndirectArguments;
+
         readonly byte[] memory;
         bool released;
 
         public GraphicsBuffer(Target target, int count, int stride)
         {
+            if ((target & NeedsCompute) != 0 && !SystemInfo.supportsComputeShaders)
+                throw new ArgumentException("This device has no compute shaders, which a buffer of target " + target + " needs.", nameof(target));
             if (count <= 0) throw new ArgumentException("A buffer must hold at least one element.", nameof(count));
             if (stride <= 0 || stride % 4 != 0) throw new ArgumentException("A buffer's stride must be a multiple of 4.", nameof(stride));
             this.target = target;

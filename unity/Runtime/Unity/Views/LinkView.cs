@@ -47,6 +47,8 @@ namespace Collektive.Unity
         private GraphicsBuffer pairsBuffer;
         private MaterialPropertyBlock properties;
         private Material used;
+        // Created by this component if none was selected.
+        private Material own;
         private Vector4[] places = new Vector4[64];
         private LinkedPair[] pairs = new LinkedPair[64];
         // By link: two for each entry of the table.
@@ -103,6 +105,12 @@ namespace Collektive.Unity
 
         private void OnEnable()
         {
+            if (!SystemInfo.supportsComputeShaders)
+            {
+                Debug.Log("Link View on '" + name + "' is disabled, because this graphics device does not support compute shaders", this);
+                enabled = false;
+                return;
+            }
             var shader = material == null ? Shader.Find("Collektive/Link") : null;
             if (material == null && shader == null)
             {
@@ -118,7 +126,8 @@ namespace Collektive.Unity
                 enabled = false;
                 return;
             }
-            used = material == null ? new Material(shader) : material;
+            if (material == null) own = new Material(shader);
+            used = material == null ? own : material;
             properties = new MaterialPropertyBlock();
             drawn = null;
             count = 0;
@@ -126,7 +135,7 @@ namespace Collektive.Unity
 
         private void OnDisable()
         {
-            if (used != material) Destroy(used);
+            if (own != null) Destroy(own);
             placesBuffer?.Release();
             pairsBuffer?.Release();
             placesBuffer = null;

@@ -1,0 +1,7 @@
+namespace UnityEngine
+{
+    public sealed class SystemInfo
+    {
+        public static bool supportsComputeShaders => Headless.Loop.HasComputeShaders;
+    }
+}
