@@ -187,6 +187,14 @@ class ValidatorTest(unittest.TestCase):
         os.makedirs(os.path.join(self.root, "unity/Samples~/Extra"))
         self.assert_problem("Samples~/Extra", "not in package.json")
 
+    def test_finds_a_primitive_whose_components_are_stripped_from_players(self) -> None:
+        self.change(SCENE, "^--- !u!135 ", "--- !u!136 ")
+        self.assert_problem(SCENE, "scripts create a Sphere", "class 135")
+
+    def test_finds_instancing_that_is_enabled_at_run_time(self) -> None:
+        self.change("unity/Samples~/Swarm/DroneView.cs", r"\{ color = Colors\[i\] \}", "{ color = Colors[i], enableInstancing = true }")
+        self.assert_problem("DroneView.cs", "enables instancing at run time")
+
     def test_finds_an_old_manifest_for_git(self) -> None:
         self.change("package.json", r'"version": "[^"]*"', '"version": "9.9.9"')
         self.assert_problem("unity/package.json", "outdated")

@@ -8,7 +8,7 @@ namespace Collektive.Samples.Swarm
 {
     /// <summary>
     /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers: 10,000 of them would take
-    /// longer than the rest of a frame, and twenty draws of 500 instances do not. It draws nothing in batch mode.
+    /// longer than the rest of a frame, and twenty draws of 500 instances do not. It draws nothing without a model, and in batch mode.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Drone View")]
     public sealed class DroneView : MonoBehaviour
@@ -24,6 +24,7 @@ namespace Collektive.Samples.Swarm
         private readonly Matrix4x4[][] places = new Matrix4x4[Colors.Length][];
         private readonly int[] counts = new int[Colors.Length];
         private readonly Material[] materials = new Material[Colors.Length];
+        private Renderer model;
         private Mesh mesh;
 
         /// <summary>The drones to draw.</summary>
@@ -32,22 +33,28 @@ namespace Collektive.Samples.Swarm
         /// <summary>Metres from the middle of a drone to its skin.</summary>
         public float Radius { get; set; } = 0.3f;
 
-        private void Awake()
+        /// <summary>
+        /// A sphere of which each drone is an instance, with a mesh filter. Its material must be an asset with instancing: Unity removes the instancing
+        /// variants of other shaders from players.
+        /// </summary>
+        public Renderer Model
         {
-            // Takes the mesh and a material for the render pipeline from a primitive.
-            var model = GameObject.CreatePrimitive(PrimitiveType.Sphere);
-            mesh = model.GetComponent<MeshFilter>().sharedMesh;
-            for (var i = 0; i < Colors.Length; i++)
+            get => model;
+            set
             {
-                materials[i] = new Material(model.GetComponent<Renderer>().sharedMaterial) { color = Colors[i], enableInstancing = true };
-                places[i] = new Matrix4x4[MaxInstances];
+                model = value;
+                mesh = value.GetComponent<MeshFilter>().sharedMesh;
+                for (var i = 0; i < Colors.Length; i++)
+                {
+                    materials[i] = new Material(value.sharedMaterial) { color = Colors[i] };
+                    places[i] = new Matrix4x4[MaxInstances];
+                }
             }
-            Destroy(model);
         }
 
         private void LateUpdate()
         {
-            if (Application.isBatchMode) return;
+            if (model == null || Application.isBatchMode) return;
             Draw();
         }
 

@@ -36,6 +36,10 @@ namespace Collektive.Samples.Swarm
         [Min(0.1f)]
         public float speed = 8;
 
+        [SerializeField]
+        [Tooltip("Renderer of which the drones are instances. Its material must have instancing enabled.")]
+        private Renderer droneModel = null;
+
         private readonly List<Node> near = new List<Node>();
         private readonly List<float> distances = new List<float>();
         private readonly HashSet<int> formed = new HashSet<int>();
@@ -96,7 +100,12 @@ namespace Collektive.Samples.Swarm
                     MakeBox("Mast", new Vector3(x * field / 2, 1.75f * radius, z * field / 2), new Vector3(0.5f, 3.5f * radius, 0.5f));
             }
             for (var i = 0; i < drones; i++) MakeDrone(radius, new Vector3(i % side - (side - 1) / 2f, 0, i / side - (side - 1) / 2f) * Pad);
-            new GameObject("Drone View").AddComponent<DroneView>().Drones = manager.Nodes;
+            if (droneModel != null)
+            {
+                var view = new GameObject("Drone View").AddComponent<DroneView>();
+                view.Drones = manager.Nodes;
+                view.Model = droneModel;
+            }
             manager.Ticked += FailWhenDue;
         }
 

@@ -1,0 +1,28 @@
+"""Checks that players contain what scripts of samples create: Unity strips engine components and shader variants that no scene or prefab has."""
+import os
+import re
+from collections.abc import Iterator
+
+from validator import unity_yaml
+from validator.assets import Assets
+
+# The components of a primitive, by Unity's class numbers: a mesh filter, a renderer and a collider.
+PRIMITIVES = {"Sphere": {33, 23, 135}, "Cube": {33, 23, 65}, "Capsule": {33, 23, 136}, "Cylinder": {33, 23, 136}, "Plane": {33, 23, 64}, "Quad": {33, 23, 64}}
+
+
+def problems(assets: Assets) -> Iterator[str]:
+    for path in assets.with_ending(".cs"):
+        if re.search(r"enableInstancing = true", assets.read(path)):
+            yield f"{path}: enables instancing at run time; Unity strips the shader variants unless a material asset enables it"
+    for scene in assets.with_ending(".unity"):
+        folder = os.path.dirname(scene)
+        code = "".join(assets.read(path) for path in assets.with_ending(".cs") if os.path.dirname(path) == folder)
+        names = set(re.findall(r"PrimitiveType\.(\w+)", code)) | ({"Cube"} if "MakeBox(" in code else set())
+        try:
+            present = {document.class_id for document in unity_yaml.read(os.path.join(assets.root, scene))}
+        except unity_yaml.UnityYamlError:
+            # The checks of references report this.
+            continue
+        for name in sorted(names):
+            if missing := PRIMITIVES[name] - present:
+                yield f"{scene}: scripts create a {name}, but the scene has no component of class {', '.join(map(str, sorted(missing)))}"
