@@ -25,7 +25,7 @@ namespace Collektive.Unity.Editor
         }
 
         [MenuItem(Menu + "Node", false, Priority)]
-        private static void CreateNode(MenuCommand command) => Create(NodePrefab, command);
+        internal static void CreateNode(MenuCommand command) => Create(NodePrefab, command);
 
         private static void Create(string guid, MenuCommand command)
         {
@@ -37,9 +37,11 @@ namespace Collektive.Unity.Editor
                 return;
             }
             var created = (GameObject)PrefabUtility.InstantiatePrefab(prefab);
-            // Unity gives no context when the entry is executed by its name.
+            var scale = created.transform.localScale;
             var parent = command.context as GameObject;
-            ObjectFactory.PlaceGameObject(created, parent != null ? parent : Selection.activeGameObject);
+            ObjectFactory.PlaceGameObject(created, parent != null && !EditorUtility.IsPersistent(parent) ? parent : null);
+            // Placing resets it.
+            created.transform.localScale = scale;
             Undo.RegisterCreatedObjectUndo(created, "Create " + created.name);
             Selection.activeGameObject = created;
         }

@@ -21,12 +21,16 @@ namespace UnityEditor
 
     public static class ObjectFactory
     {
-        /// Puts the object below the parent, if any, with a unique name, and selects it.
+        /// Puts the object below the parent, if any, where it loses its position, rotation and scale, with a unique name, and selects it.
         public static void PlaceGameObject(GameObject go, GameObject parent = null)
         {
             if (parent != null)
             {
+                if (EditorUtility.IsPersistent(parent)) throw new System.ArgumentException("'" + parent.name + "' is an asset", nameof(parent));
                 go.transform.SetParent(parent.transform, false);
+                go.transform.localPosition = Vector3.zero;
+                go.transform.localRotation = Quaternion.identity;
+                go.transform.localScale = Vector3.one;
                 go.layer = parent.layer;
             }
             Name(go);
@@ -57,6 +61,7 @@ namespace UnityEditor
         /// Each loading of a prefab creates a new object, which becomes the copy.
         public static Object InstantiatePrefab(Object assetComponentOrGameObject)
         {
+            Headless.PrefabFile.Loaded.Remove(assetComponentOrGameObject);
             ((GameObject)assetComponentOrGameObject).SetActive(true);
             return assetComponentOrGameObject;
         }

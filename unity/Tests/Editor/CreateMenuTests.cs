@@ -50,24 +50,42 @@ namespace Collektive.Unity.Editor.Tests
         }
 
         [Test]
-        public void A_node_is_made_below_the_selected_object()
+        public void A_node_is_created_below_the_clicked_object_in_its_own_size()
         {
             var parent = new GameObject("Parent");
-            Selection.activeGameObject = parent;
-            EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
+            CreateMenu.CreateNode(new MenuCommand(parent));
             Assert.That(parent.transform.childCount, Is.EqualTo(1));
-            Assert.That(parent.transform.GetChild(0).name, Is.EqualTo("Node"));
+            var node = parent.transform.GetChild(0);
+            Assert.That(node.name, Is.EqualTo("Node"));
+            Assert.That(node.localPosition, Is.EqualTo(Vector3.zero));
+            Assert.That(node.localScale, Is.EqualTo(new Vector3(0.5f, 0.5f, 0.5f)));
+        }
+
+        [Test]
+        public void Two_clicks_do_not_nest_nodes()
+        {
+            EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
+            var first = Selection.activeGameObject;
+            EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
+            Assert.That(first.transform.childCount, Is.EqualTo(0));
+            Assert.That(Selection.activeGameObject.transform.parent == null, Is.True);
+            Object.DestroyImmediate(Selection.activeGameObject);
+        }
+
+        [Test]
+        public void An_asset_does_not_become_the_parent()
+        {
+            var prefab = AssetDatabase.LoadAssetAtPath<GameObject>(AssetDatabase.GUIDToAssetPath(CreateMenu.NodePrefab));
+            CreateMenu.CreateNode(new MenuCommand(prefab));
+            Assert.That(Selection.activeGameObject.transform.parent == null, Is.True);
+            Object.DestroyImmediate(Selection.activeGameObject);
         }
 
         [Test]
         public void Siblings_have_names_of_their_own()
         {
             var parent = new GameObject("Parent");
-            for (var i = 0; i < 2; i++)
-            {
-                Selection.activeGameObject = parent;
-                EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
-            }
+            for (var i = 0; i < 2; i++) CreateMenu.CreateNode(new MenuCommand(parent));
             Assert.That(parent.transform.GetChild(0).name, Is.Not.EqualTo(parent.transform.GetChild(1).name));
         }
 

@@ -17,9 +17,13 @@ namespace UnityEditor.Headless
             ["Rigidbody"] = typeof(Rigidbody),
         };
 
+        /// Prefabs that are loaded and were not instantiated.
+        internal static readonly HashSet<UnityEngine.Object> Loaded = new HashSet<UnityEngine.Object>();
+
         internal static GameObject Load(string path)
         {
             var made = new GameObject();
+            Loaded.Add(made);
             // Like an asset it takes part in nothing; its copies do.
             made.SetActive(false);
             foreach (var part in Regex.Split(File.ReadAllText(path), @"^--- !u!\d+ &-?\d+\n", RegexOptions.Multiline))
