@@ -28,6 +28,25 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Sensors_batches_begin_before_the_rules_are_called()
+        {
+            MakeSwarm(30);
+            Play(1);
+            var before = QueryLog.BatchesStartedEarly;
+            Manager.Step();
+            Assert.That(QueryLog.BatchesStartedEarly - before, Is.EqualTo(2), "rays, spheres");
+        }
+
+        [Test]
+        public void Nodes_at_one_place_see_each_other()
+        {
+            for (var i = 0; i < 2; i++) MakeNode(0).Node.gameObject.AddComponent<LineOfSightNeighbourhood>().Radius = 1;
+            Play(3);
+            Assert.That(Manager.LinkCount, Is.EqualTo(2));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void What_a_batch_finds_is_what_a_sensor_finds_alone()
         {
             MakeSwarm(30);

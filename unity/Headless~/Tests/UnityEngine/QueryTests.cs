@@ -1,6 +1,8 @@
+using System;
 using System.Collections.Generic;
 using NUnit.Framework;
 using Unity.Collections;
+using Unity.Jobs;
 using UnityEngine;
 using UnityEngine.Headless;
 
@@ -197,6 +199,9 @@ namespace Collektive.Headless.Tests.Engine
             for (var way = 0; way < 2; way++)
             {
                 var handle = OverlapSphereCommand.ScheduleBatch(commands, hits, 1, 2);
+                Assert.That(QueryLog.IsRunning, Is.False, "scheduled, not started");
+                JobHandle.ScheduleBatchedJobs();
+                Assert.That(QueryLog.IsRunning, Is.True);
                 Assert.That(handle.IsCompleted, Is.False);
                 if (way == 0) handle.Complete();
                 else Physics.CheckSphere(Vector3.zero, 1);
@@ -210,6 +215,20 @@ namespace Collektive.Headless.Tests.Engine
             commands.Dispose();
             hits.Dispose();
             Loop.PhysicsThreads = 1;
+        }
+
+        [Test]
+        public void A_direction_of_a_batch_has_length_1()
+        {
+            using (var commands = new NativeArray<RaycastCommand>(1, Allocator.TempJob))
+            using (var hits = new NativeArray<RaycastHit>(1, Allocator.TempJob))
+            {
+                foreach (var direction in new[] { Vector3.zero, new Vector3(0, 0, 2), new Vector3(0.9f, 0, 0) })
+                {
+                    commands.AsSpan()[0] = new RaycastCommand(Vector3.zero, direction, QueryParameters.Default);
+                    Assert.Throws<ArgumentException>(() => RaycastCommand.ScheduleBatch(commands, hits, 1, 1));
+                }
+            }
         }
     }
 }

@@ -168,10 +168,11 @@ namespace Collektive.Headless.Tests.Engine
             using (var rays = new NativeArray<RaycastCommand>(bodies.Count, Allocator.TempJob))
             using (var hits = new NativeArray<RaycastHit>(bodies.Count, Allocator.TempJob))
             {
+                var directions = new[] { Vector3.left, Vector3.right, Vector3.forward, Vector3.back, Vector3.down };
                 for (var index = 0; index < bodies.Count; index++)
                 {
                     spheres.AsSpan()[index] = new OverlapSphereCommand(bodies[index].position, index % 10 * 0.2f, parameters);
-                    rays.AsSpan()[index] = new RaycastCommand(bodies[index].position, new Vector3(index % 3 - 1, 0f, index % 5 - 2), parameters, 5f);
+                    rays.AsSpan()[index] = new RaycastCommand(bodies[index].position, directions[index % directions.Length], parameters, 5f);
                 }
                 spheres.AsSpan()[7] = new OverlapSphereCommand(new Vector3(float.NaN, 0f, 0f), 1f, parameters);
                 rays.AsSpan()[7] = new RaycastCommand(Vector3.zero, new Vector3(float.NaN, 0f, 0f), parameters, 5f);

@@ -2,20 +2,32 @@ using UnityEngine;
 
 namespace Unity.Jobs
 {
-    /// Of jobs that are done when they are scheduled, or of a batch of overlaps.
+    /// Of a batch of physics queries. Scheduled batches wait until `ScheduleBatchedJobs`, `IsCompleted` or `Complete` of any handle.
     public struct JobHandle
     {
-        readonly int batch;
+        readonly int number;
 
-        internal JobHandle(int batch) => this.batch = batch;
+        internal JobHandle(int number) => this.number = number;
 
-        bool IsRunning => OverlapBatch.IsRunning && batch == OverlapBatch.Number;
+        public bool IsCompleted
+        {
+            get
+            {
+                QueryJobs.Start();
+                return !QueryJobs.IsRunning(number);
+            }
+        }
 
-        public bool IsCompleted => !IsRunning;
+        public static void ScheduleBatchedJobs()
+        {
+            UnityEngine.Headless.QueryLog.BatchesStartedEarly += QueryJobs.Count;
+            QueryJobs.Start();
+        }
 
         public void Complete()
         {
-            if (IsRunning) OverlapBatch.Finish();
+            QueryJobs.Start();
+            if (QueryJobs.IsRunning(number)) OverlapBatch.Finish();
         }
     }
 }

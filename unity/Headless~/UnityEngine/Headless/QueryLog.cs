@@ -9,6 +9,9 @@ namespace UnityEngine.Headless
         /// Batches of queries since the process began.
         public static long Batches { get; internal set; }
 
+        /// Those that began before their results were needed.
+        public static long BatchesStartedEarly { get; internal set; }
+
         /// Whether a batch runs while the main thread does something else.
         public static bool IsRunning => OverlapBatch.IsRunning;
     }

@@ -16,12 +16,10 @@ namespace UnityEngine
         static int count, places;
         static IntPtr world;
 
-        /// Grows with each batch.
-        public static int Number { get; private set; }
         public static bool IsRunning { get; private set; }
 
         /// Puts colliders that touch each sphere into the results as far as its places go, and after them one that is null.
-        public static int Begin(Span<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int placesOfEach)
+        public static void Begin(Span<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int placesOfEach)
         {
             PhysicsWorld.Flush();
             world = PhysicsWorld.Handle;
@@ -42,7 +40,6 @@ namespace UnityEngine
             }
             Physx.physics_begin_overlaps(world, spheres, filters, count, shapes, places);
             IsRunning = true;
-            return ++Number;
         }
 
         public static void Finish()

@@ -63,6 +63,7 @@ namespace UnityEngine
         public static void ResetState()
         {
             OverlapBatch.Finish();
+            QueryJobs.ResetState();
             Moved.Clear();
             Unpublished.Clear();
             Nested.Clear();

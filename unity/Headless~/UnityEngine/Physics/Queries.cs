@@ -33,9 +33,13 @@ namespace UnityEngine
         }
 
         /// False for a query without a direction, or with NaN.
-        static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
+        static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line) =>
+            UnitLine(origin, direction.normalized, maxDistance, out line);
+
+        /// The direction has length 1.
+        static bool UnitLine(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
         {
-            line = new Physx.RayLine { Origin = origin, Direction = direction.normalized, Distance = maxDistance };
+            line = new Physx.RayLine { Origin = origin, Direction = direction, Distance = maxDistance };
             return line.Direction.sqrMagnitude > 0f && maxDistance > 0f && IsFinite(origin) && IsFinite(direction);
         }
 
@@ -66,7 +70,7 @@ namespace UnityEngine
             for (var index = 0; index < count; index++)
             {
                 ref var command = ref commands[index];
-                var asks = Line(command.from, command.direction, command.distance, out lines[index]);
+                var asks = UnitLine(command.from, command.direction, command.distance, out lines[index]);
                 filters[index] = asks ? Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers) : default;
                 if (!asks) lines[index] = new Physx.RayLine { Direction = Vector3.right, Distance = 1f };
             }
@@ -78,10 +82,14 @@ namespace UnityEngine
 
         /// Fills the array up to its length, and returns the number of results.
         public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
+            QueryTriggerInteraction triggers) => UnitRaycastAll(origin, direction.normalized, results, maxDistance, layerMask, triggers);
+
+        /// The direction has length 1.
+        public static int UnitRaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
             Headless.QueryLog.Rays++;
-            if (!Line(origin, direction, maxDistance, out var line)) return 0;
+            if (!UnitLine(origin, direction, maxDistance, out var line)) return 0;
             Reserve(ref hits, results.Length);
             var filter = Filter(layerMask, triggers);
             int count;

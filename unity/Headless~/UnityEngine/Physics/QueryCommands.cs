@@ -28,7 +28,7 @@ namespace UnityEngine
         public Collider collider { get; internal set; }
     }
 
-    /// A batch with one hit for each ray runs on all threads of physics, one with more on the calling thread; both are complete on return.
+    /// A batch with one hit for each ray runs on all threads of physics, one with more on the calling thread.
     public struct RaycastCommand
     {
         static RaycastHit[] found = Array.Empty<RaycastHit>();
@@ -51,30 +51,40 @@ namespace UnityEngine
             JobHandle dependsOn = new JobHandle())
         {
             if (results.Length < commands.Length * maxHits) throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
+            foreach (var command in commands.AsSpan())
+            {
+                // Unity passes the direction to PhysX as it is, which requires a unit vector.
+                if (Mathf.Abs(command.direction.sqrMagnitude - 1f) > 1e-3f)
+                    throw new ArgumentException("A ray's direction must have length 1, not " + command.direction.magnitude + ".", nameof(commands));
+            }
             Headless.QueryLog.Batches++;
+            return QueryJobs.Schedule(commands, results, maxHits);
+        }
+
+        internal static void Run(NativeArray<RaycastCommand> commands, NativeArray<RaycastHit> results, int maxHits)
+        {
             var all = commands.AsSpan();
             if (maxHits == 1)
             {
                 Queries.Raycast(all, results.AsSpan());
-                return default;
+                return;
             }
             if (found.Length < maxHits) found = new RaycastHit[maxHits];
             for (var index = 0; index < all.Length; index++)
             {
                 ref var command = ref all[index];
                 var query = command.queryParameters;
-                var count = Queries.RaycastAll(command.from, command.direction, found, command.distance, query.layerMask, query.hitTriggers);
+                var count = Queries.UnitRaycastAll(command.from, command.direction, found, command.distance, query.layerMask, query.hitTriggers);
                 count = Math.Min(maxHits, count);
                 var hits = results.AsSpan().Slice(index * maxHits, maxHits);
                 new Span<RaycastHit>(found, 0, count).CopyTo(hits);
                 // The first hit without a collider is the end; those behind it are what they were.
                 if (count < maxHits) hits[count] = default;
             }
-            return default;
         }
     }
 
-    /// A batch runs on physics' other threads until its handle, or anything else, asks for the results.
+    /// A started batch runs on physics' other threads until its handle, or anything else, asks for the results.
     public struct OverlapSphereCommand
     {
         public QueryParameters queryParameters;
@@ -94,7 +104,7 @@ namespace UnityEngine
         {
             if (results.Length < commands.Length * maxHits) throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
             Headless.QueryLog.Batches++;
-            return new JobHandle(OverlapBatch.Begin(commands.AsSpan(), results, maxHits));
+            return QueryJobs.Schedule(commands, results, maxHits);
         }
     }
 }

@@ -55,6 +55,16 @@ namespace Collektive.Unity
 
             internal Vector3 Vector => To.Position - From.Position;
 
+            /// <summary>Length 1, also if both nodes are at one place.</summary>
+            internal Vector3 Direction
+            {
+                get
+                {
+                    var direction = Vector.normalized;
+                    return direction == Vector3.zero ? Vector3.up : direction;
+                }
+            }
+
             internal bool IsForeign(Collider collider)
             {
                 var hit = collider.transform;
@@ -83,7 +93,7 @@ namespace Collektive.Unity
             if (!isNew) return number;
             var pair = new Pair(a, b, layers, distance);
             requested[rays.Count] = pair;
-            rays.Add(new RaycastCommand(pair.From.Position, pair.Vector, new QueryParameters(layers, false, QueryTriggerInteraction.Ignore), distance));
+            rays.Add(new RaycastCommand(pair.From.Position, pair.Direction, new QueryParameters(layers, false, QueryTriggerInteraction.Ignore), distance));
             return number;
         }
 

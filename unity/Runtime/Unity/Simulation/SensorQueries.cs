@@ -1,4 +1,5 @@
 using System;
+using Unity.Jobs;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -32,6 +33,8 @@ namespace Collektive.Unity
             Sensors.Begin(now);
             Rays.Begin();
             Spheres.Begin();
+            // Unity keeps scheduled jobs back until then.
+            JobHandle.ScheduleBatchedJobs();
         }
 
         /// <summary>Waits for the results.</summary>

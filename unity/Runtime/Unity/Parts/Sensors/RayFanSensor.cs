@@ -95,7 +95,8 @@ namespace Collektive.Unity
             var fans = Node.Simulation.Queries.Rays;
             query = fans.Count;
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
-            for (var i = 0; i < worldDirections.Length; i++) fans.Add(new RaycastCommand(Node.Position, worldDirections[i], parameters, range));
+            // A command requires a unit vector, and a rotated one is not exactly that.
+            for (var i = 0; i < worldDirections.Length; i++) fans.Add(new RaycastCommand(Node.Position, worldDirections[i].normalized, parameters, range));
         }
 
         /// <summary>Writes the hits from left to right, clockwise seen from above. The span is valid during the call only.</summary>

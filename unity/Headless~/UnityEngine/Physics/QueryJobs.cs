@@ -1,0 +1,62 @@
+using System.Collections.Generic;
+using Unity.Collections;
+using Unity.Jobs;
+
+namespace UnityEngine
+{
+    /// Batches of queries that are scheduled and not started yet, in their order.
+    static class QueryJobs
+    {
+        struct Job
+        {
+            internal int Number;
+            internal int MaxHits;
+            // Of a batch of rays; otherwise of spheres.
+            internal NativeArray<RaycastCommand> Rays;
+            internal NativeArray<RaycastHit> RayHits;
+            internal NativeArray<OverlapSphereCommand> Spheres;
+            internal NativeArray<ColliderHit> SphereHits;
+        }
+
+        static readonly List<Job> Waiting = new List<Job>();
+        static int scheduled;
+
+        /// The batch of spheres that was started last.
+        static int running;
+
+        internal static JobHandle Schedule(NativeArray<RaycastCommand> rays, NativeArray<RaycastHit> hits, int maxHits)
+        {
+            Waiting.Add(new Job { Number = ++scheduled, MaxHits = maxHits, Rays = rays, RayHits = hits });
+            return new JobHandle(scheduled);
+        }
+
+        internal static JobHandle Schedule(NativeArray<OverlapSphereCommand> spheres, NativeArray<ColliderHit> hits, int maxHits)
+        {
+            Waiting.Add(new Job { Number = ++scheduled, MaxHits = maxHits, Spheres = spheres, SphereHits = hits });
+            return new JobHandle(scheduled);
+        }
+
+        internal static int Count => Waiting.Count;
+
+        /// Starts all batches. Those of rays are complete on return.
+        internal static void Start()
+        {
+            for (var i = 0; i < Waiting.Count; i++)
+            {
+                var job = Waiting[i];
+                if (job.Rays.IsCreated)
+                {
+                    RaycastCommand.Run(job.Rays, job.RayHits, job.MaxHits);
+                    continue;
+                }
+                OverlapBatch.Begin(job.Spheres.AsSpan(), job.SphereHits, job.MaxHits);
+                running = job.Number;
+            }
+            Waiting.Clear();
+        }
+
+        internal static bool IsRunning(int number) => OverlapBatch.IsRunning && number == running;
+
+        internal static void ResetState() => Waiting.Clear();
+    }
+}
