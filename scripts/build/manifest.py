@@ -32,6 +32,20 @@ def sources(root: Path) -> list[str]:
     return ["package.json"] + [path for path in read(root)["files"] if (root / path).exists()]
 
 
+def links(repository: str, version: str) -> dict[str, str]:
+    """Returns the addresses in the manifest of a release: pages of its tag in a repository such as https://github.com/OWNER/NAME."""
+    pages = f"{repository.rstrip('/')}/blob/v{version}"
+    return {"documentationUrl": f"{pages}/Documentation~/index.md", "changelogUrl": f"{pages}/CHANGELOG.md", "licensesUrl": f"{pages}/LICENSE"}
+
+
+def write_links(folder: Path, repository: str) -> None:
+    """Adds the addresses of a release to the manifests of a staged package."""
+    for path in (folder / "package.json", folder / "unity/package.json"):
+        if path.exists():
+            manifest = json.loads(path.read_text())
+            path.write_text(json.dumps({**manifest, **links(repository, manifest["version"])}, indent=2) + "\n")
+
+
 def for_git(root: str | Path) -> str:
     """Returns the manifest for a package whose root is the folder unity."""
     manifest = read(root)

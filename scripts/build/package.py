@@ -19,22 +19,26 @@ def build_parts(all_platforms: bool) -> None:
             platforms.fetch_flatc(platform)
 
 
-def core(work: Path, out: Path, with_jre: bool = False, all_platforms: bool = False) -> Path:
-    """Packs the package into a folder and returns the archive; `work` is an empty folder."""
+def core(work: Path, out: Path, with_jre: bool = False, all_platforms: bool = False, repository: str = "") -> Path:
+    """Packs the package into a folder and returns the archive; `work` is an empty folder. The manifest links to pages of `repository`, if given."""
     print_progress("stage-package ...")
     content = work / "content"
     _stage(content, all_platforms)
+    if repository:
+        manifest.write_links(content, repository)
     if with_jre:
         # npm drops links, so the licences that jlink links to are copied.
         shutil.copytree(jre.link_jre(), content / "unity/Jvm~/linux-x64")
     return _pack(content, out, "-jre" if with_jre else "")
 
 
-def jvm(work: Path, out: Path, platform: str) -> Path:
+def jvm(work: Path, out: Path, platform: str, repository: str = "") -> Path:
     """Packs the package with a platform's JVM into a folder and returns the archive."""
     content = work / platform
     shutil.copytree(jre.reduce_jre(platform), content / "Jvm~" / platform)
     manifest.write_jvm(ROOT, platform, content)
+    if repository:
+        manifest.write_links(content, repository)
     if platform in manifest.WITH_LIBRARY:
         library = f"Plugins/{platform}/{platforms.PLATFORMS[platform].library}"
         _copy(platforms.shim_of(platform), content / library)

@@ -16,6 +16,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--all", action="store_true",
                         help="build the published packages: the package with the native libraries of all platforms, and a JVM package for each platform, "
                              "org.collektive.unity.jvm.PLATFORM-VERSION.tgz. Needs JDK 25, and downloads a compiler and JREs from PyPI (0.6 GB)")
+    parser.add_argument("--repository", default="", metavar="URL",
+                        help="address of the source repository, for the manifests' links to documentation, changelog and licence")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -24,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
     package.build_parts(arguments.all)
     # Each command stages the packages in its own folder, so that several can run at once.
     with tempfile.TemporaryDirectory() as work:
-        print(package.core(Path(work), arguments.out, arguments.jre, arguments.all), flush=True)
+        print(package.core(Path(work), arguments.out, arguments.jre, arguments.all, arguments.repository), flush=True)
         for platform in platforms.PLATFORMS if arguments.all else ():
-            print(package.jvm(Path(work), arguments.out, platform), flush=True)
+            print(package.jvm(Path(work), arguments.out, platform, arguments.repository), flush=True)
     return 0

@@ -54,5 +54,61 @@ Shader "Collektive/Surface"
             }
             ENDCG
         }
+        // Depth texture of the universal pipeline.
+        Pass
+        {
+            Tags { "LightMode" = "DepthOnly" }
+            ColorMask R
+
+            CGPROGRAM
+            #pragma vertex vert
+            #pragma fragment frag
+            #pragma multi_compile_instancing
+            #include "UnityCG.cginc"
+
+            float4 vert(appdata_base v) : SV_POSITION
+            {
+                UNITY_SETUP_INSTANCE_ID(v);
+                return UnityObjectToClipPos(v.vertex);
+            }
+
+            float4 frag() : SV_Target
+            {
+                return 0;
+            }
+            ENDCG
+        }
+        // Shadows, and the depth texture of the built-in pipeline.
+        Pass
+        {
+            Tags { "LightMode" = "ShadowCaster" }
+
+            CGPROGRAM
+            #pragma vertex vert
+            #pragma fragment frag
+            #pragma multi_compile_shadowcaster
+            #pragma multi_compile_instancing
+            #include "UnityCG.cginc"
+
+            struct Point
+            {
+                V2F_SHADOW_CASTER;
+            };
+
+            // The macro reads a parameter of this name.
+            Point vert(appdata_base v)
+            {
+                Point result;
+                UNITY_SETUP_INSTANCE_ID(v);
+                TRANSFER_SHADOW_CASTER_NORMALOFFSET(result)
+                return result;
+            }
+
+            float4 frag(Point surface) : SV_Target
+            {
+                SHADOW_CASTER_FRAGMENT(surface)
+            }
+            ENDCG
+        }
     }
 }

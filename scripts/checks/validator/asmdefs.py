@@ -52,7 +52,8 @@ def check_definition(path: str, definition: dict[str, Any], definitions: Definit
         yield f"{path}: its platforms are {sorted(platforms)}: allowed are {sorted(PLATFORMS)}"
     if platforms not in (set(), {"Editor"}) and not is_test:
         yield f"{path}: its platforms are {sorted(platforms)}: runtime code must compile for all platforms, so that unsupported players report an error"
-    if ("Editor" in folders) != (platforms == {"Editor"}):
+    # Tests of edit mode may be anywhere.
+    if ("Editor" in folders) != (platforms == {"Editor"}) and ("Editor" in folders or not is_test):
         yield f"{path}: editor code must be in a folder Editor and have only the platform Editor"
     if is_test != ("UNITY_INCLUDE_TESTS" in definition.get("defineConstraints", [])):
         yield f"{path}: tests must be in a folder Tests and have the constraint UNITY_INCLUDE_TESTS"

@@ -1,4 +1,4 @@
-"""Checks that players contain what scripts of samples create: Unity strips engine components and shader variants that no scene or prefab has."""
+"""Checks shaders, and that players contain what scripts of samples create: Unity strips engine components and shader variants that no scene or prefab has."""
 import os
 import re
 from collections.abc import Iterator
@@ -14,6 +14,10 @@ def problems(assets: Assets) -> Iterator[str]:
     for path in assets.with_ending(".cs"):
         if re.search(r"enableInstancing = true", assets.read(path)):
             yield f"{path}: enables instancing at run time; Unity strips the shader variants unless a material asset enables it"
+    for path in assets.with_ending(".shader"):
+        for light_mode in ("DepthOnly", "ShadowCaster"):
+            if f'"LightMode" = "{light_mode}"' not in assets.read(path):
+                yield f"{path}: has no pass {light_mode}, so its surfaces are missing in depth textures or shadows"
     for scene in assets.with_ending(".unity"):
         folder = os.path.dirname(scene)
         code = "".join(assets.read(path) for path in assets.with_ending(".cs") if os.path.dirname(path) == folder)

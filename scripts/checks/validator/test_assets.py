@@ -1,5 +1,6 @@
 """Validates the package's assets, and tests that the validator finds each kind of error."""
 import functools
+import json
 import os
 import re
 import shutil
@@ -28,6 +29,11 @@ def classes() -> dict[str, serialized_fields.ScriptClass]:
 
 
 class AssetsTest(unittest.TestCase):
+    def test_tests_of_edit_mode_are_for_the_editor_only(self) -> None:
+        for name in "unity/Tests/PublicApi/Collektive.Unity.PublicApi.Tests", "unity/Tests/Editor/Collektive.Unity.Editor.Tests":
+            with open(os.path.join(ROOT, name + ".asmdef")) as file:
+                self.assertEqual(json.load(file)["includePlatforms"], ["Editor"])
+
     def test_assets_are_valid(self) -> None:
         self.assertEqual(list(validate.problems(ROOT, classes())), [])
 
@@ -194,6 +200,10 @@ class ValidatorTest(unittest.TestCase):
     def test_finds_instancing_that_is_enabled_at_run_time(self) -> None:
         self.change("unity/Samples~/Swarm/DroneView.cs", r"\{ color = Colors\[i\] \}", "{ color = Colors[i], enableInstancing = true }")
         self.assert_problem("DroneView.cs", "enables instancing at run time")
+
+    def test_finds_a_shader_without_depth(self) -> None:
+        self.change("unity/Materials/Surface.shader", '"LightMode" = "DepthOnly"', '"LightMode" = "Always"')
+        self.assert_problem("Surface.shader", "DepthOnly")
 
     def test_finds_an_old_manifest_for_git(self) -> None:
         self.change("package.json", r'"version": "[^"]*"', '"version": "9.9.9"')

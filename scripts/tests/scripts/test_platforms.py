@@ -51,6 +51,15 @@ def test_a_jvm_package_is_named_after_its_platform_and_contains_its_files_only(p
     assert written["unity"] == ("6000.5" if platform == "linux-arm64" else manifest.read(ROOT)["unity"])
 
 
+def test_manifests_of_a_release_link_to_pages_of_its_tag(tmp_path: Path) -> None:
+    manifest.write_jvm(ROOT, "mac-x64", tmp_path)
+    manifest.write_links(tmp_path, "https://example.org/owner/name")
+    written = manifest.read(tmp_path)
+    pages = f"https://example.org/owner/name/blob/v{written['version']}/"
+    assert written["documentationUrl"] == pages + "Documentation~/index.md"
+    assert (written["changelogUrl"], written["licensesUrl"]) == (pages + "CHANGELOG.md", pages + "LICENSE")
+
+
 def test_metas_and_manifests_name_the_platforms_that_are_built() -> None:
     assert set(platforms.PLATFORMS) == set(metas.NATIVE) == set(manifest.SYSTEMS)
 

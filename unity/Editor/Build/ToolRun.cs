@@ -1,5 +1,7 @@
 using System.Diagnostics;
+using System.IO;
 using System.Text;
+using System.Text.RegularExpressions;
 
 namespace Collektive.Unity.Editor
 {
@@ -57,8 +59,16 @@ namespace Collektive.Unity.Editor
         private static string Quoted(string[] arguments)
         {
             var text = new StringBuilder();
-            foreach (var argument in arguments) text.Append('"').Append(argument.Replace("\\", "\\\\").Replace("\"", "\\\"")).Append("\" ");
+            foreach (var argument in arguments) text.Append(Quoted(argument, Path.DirectorySeparatorChar == '\\')).Append(' ');
             return text.ToString();
+        }
+
+        /// <summary>Quotes an argument. On Windows, a backslash is doubled only before a quote, so that <c>\\server\share</c> stays as it is.</summary>
+        internal static string Quoted(string argument, bool isWindows)
+        {
+            var escaped = isWindows ? Regex.Replace(argument, "(\\\\*)(\"|$)", match => match.Groups[1].Value + match.Groups[1].Value
+                + (match.Groups[2].Length > 0 ? "\\\"" : "")) : argument.Replace("\\", "\\\\").Replace("\"", "\\\"");
+            return "\"" + escaped + "\"";
         }
     }
 }

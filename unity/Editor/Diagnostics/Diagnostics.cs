@@ -12,8 +12,7 @@ namespace Collektive.Unity.Editor
         private readonly List<LinkRecord> links = new List<LinkRecord>();
         private readonly List<NodeRow> rows = new List<NodeRow>();
         // By node id.
-        private int[] senderCounts = Array.Empty<int>();
-        private int[] receiverCounts = Array.Empty<int>();
+        private readonly PagedArray<(int Senders, int Receivers)> counts = new PagedArray<(int Senders, int Receivers)>();
         private readonly Queue<string> log = new Queue<string>();
 
         internal Diagnostics(SimulationManager manager)
@@ -46,7 +45,9 @@ namespace Collektive.Unity.Editor
             {
                 var node = Manager.Nodes[i];
                 var program = node.Program.Length > 0 ? node.Program : Manager.Settings.program;
-                if (Matches(node, program, filter)) rows.Add(new NodeRow(node, program, senderCounts[node.Id], receiverCounts[node.Id]));
+                if (!Matches(node, program, filter)) continue;
+                var (senders, receivers) = counts[node.Id];
+                rows.Add(new NodeRow(node, program, senders, receivers));
             }
             return rows;
         }
@@ -91,13 +92,7 @@ namespace Collektive.Unity.Editor
 
         private void CountLinks()
         {
-            if (senderCounts.Length < Manager.Simulation.IdCapacity)
-            {
-                senderCounts = new int[Manager.Simulation.IdCapacity];
-                receiverCounts = new int[Manager.Simulation.IdCapacity];
-            }
-            Array.Clear(senderCounts, 0, senderCounts.Length);
-            Array.Clear(receiverCounts, 0, receiverCounts.Length);
+            for (var i = 0; i < Manager.Nodes.Count; i++) counts[Manager.Nodes[i].Id] = default;
             var pairs = Manager.Simulation.PresentLinks.Pairs;
             for (var i = 0; i < pairs.Length; i++)
             {
@@ -109,8 +104,8 @@ namespace Collektive.Unity.Editor
 
         private void Count(int from, int to)
         {
-            receiverCounts[from]++;
-            senderCounts[to]++;
+            counts[from].Receivers++;
+            counts[to].Senders++;
         }
 
         private void Ticked(SimulationManager manager) => Times.Add(manager.Times, manager.HostMicros.Rounds / 1000.0);

@@ -92,10 +92,16 @@ namespace Collektive.Samples.Channel
             source = MakeNode(SourcePlace, true, false);
             target = MakeNode(TargetPlace, false, true);
             for (var i = 2; i < nodes; i++) MakeNode(FreePlace(manager), false, false);
-            manager.Ticked += FailWhenDue;
         }
 
-        private void OnDestroy()
+        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        private void OnEnable()
+        {
+            manager = SimulationManager.Current;
+            if (manager != null) manager.Ticked += FailWhenDue;
+        }
+
+        private void OnDisable()
         {
             if (manager != null) manager.Ticked -= FailWhenDue;
         }

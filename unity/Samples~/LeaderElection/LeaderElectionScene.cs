@@ -84,10 +84,16 @@ namespace Collektive.Samples.LeaderElection
             this.manager = manager;
             MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(104, 1, 64));
             for (var i = 0; i < nodes; i++) MakeNode(new Vector3(manager.Random.Range(-50f, 50f), 0.5f, manager.Random.Range(-30f, 30f)));
-            manager.Ticked += FailWhenDue;
         }
 
-        private void OnDestroy()
+        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        private void OnEnable()
+        {
+            manager = SimulationManager.Current;
+            if (manager != null) manager.Ticked += FailWhenDue;
+        }
+
+        private void OnDisable()
         {
             if (manager != null) manager.Ticked -= FailWhenDue;
         }

@@ -125,10 +125,16 @@ namespace Collektive.Samples.Rescue
                 var place = new Vector3(-35 + Spacing * (i / PerRow) * 0.8f, 0.5f, Spacing * (i % PerRow - (PerRow - 1) / 2f));
                 MakeRobot(place + new Vector3(manager.Random.Range(-0.2f, 0.2f), 0, manager.Random.Range(-0.2f, 0.2f)), false);
             }
-            manager.Ticked += FailWhenDue;
         }
 
-        private void OnDestroy()
+        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        private void OnEnable()
+        {
+            manager = SimulationManager.Current;
+            if (manager != null) manager.Ticked += FailWhenDue;
+        }
+
+        private void OnDisable()
         {
             if (manager != null) manager.Ticked -= FailWhenDue;
         }

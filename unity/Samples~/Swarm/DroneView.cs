@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using Collektive.Unity;
 using drones;
@@ -21,14 +20,14 @@ namespace Collektive.Samples.Swarm
             new Color(0.6f, 0.6f, 0.6f), new Color(0.34f, 0.71f, 0.91f), new Color(0.9f, 0.62f, 0), new Color(0, 0.62f, 0.45f), new Color(0.8f, 0.47f, 0.65f),
         };
 
+        [SerializeField]
+        [Tooltip("A sphere of which each drone is an instance.")]
+        private Renderer model;
+
         private readonly Matrix4x4[][] places = new Matrix4x4[Colors.Length][];
         private readonly int[] counts = new int[Colors.Length];
         private readonly Material[] materials = new Material[Colors.Length];
-        private Renderer model;
         private Mesh mesh;
-
-        /// <summary>The drones to draw.</summary>
-        public IReadOnlyList<Node> Drones { get; set; } = Array.Empty<Node>();
 
         /// <summary>Metres from the middle of a drone to its skin.</summary>
         public float Radius { get; set; } = 0.3f;
@@ -40,36 +39,40 @@ namespace Collektive.Samples.Swarm
         public Renderer Model
         {
             get => model;
-            set
-            {
-                model = value;
-                mesh = value.GetComponent<MeshFilter>().sharedMesh;
-                for (var i = 0; i < Colors.Length; i++)
-                {
-                    materials[i] = new Material(value.sharedMaterial) { color = Colors[i] };
-                    places[i] = new Matrix4x4[MaxInstances];
-                }
-            }
+            set => model = value;
         }
 
         private void LateUpdate()
         {
-            if (model == null || Application.isBatchMode) return;
-            Draw();
+            var manager = SimulationManager.Current;
+            if (manager == null || model == null || Application.isBatchMode) return;
+            // Not in OnEnable, which is called before the model is set.
+            if (mesh == null) Prepare();
+            Draw(manager.Nodes);
         }
 
         private void OnDestroy()
         {
-            foreach (var material in materials) Destroy(material);
+            foreach (var material in materials)
+                if (material != null) Destroy(material);
         }
 
-        private void Draw()
+        private void Prepare()
+        {
+            mesh = model.GetComponent<MeshFilter>().sharedMesh;
+            for (var i = 0; i < Colors.Length; i++)
+            {
+                materials[i] = new Material(model.sharedMaterial) { color = Colors[i] };
+                places[i] = new Matrix4x4[MaxInstances];
+            }
+        }
+
+        private void Draw(IReadOnlyList<Node> drones)
         {
             var place = Matrix4x4.Scale(2 * Radius * Vector3.one);
-            for (var i = 0; i < Drones.Count; i++)
+            for (var i = 0; i < drones.Count; i++)
             {
-                var drone = Drones[i];
-                if (drone.Id < 0) continue;
+                var drone = drones[i];
                 var position = drone.transform.position;
                 place.m03 = position.x;
                 place.m13 = position.y;

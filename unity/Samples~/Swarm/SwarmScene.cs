@@ -100,16 +100,17 @@ namespace Collektive.Samples.Swarm
                     MakeBox("Mast", new Vector3(x * field / 2, 1.75f * radius, z * field / 2), new Vector3(0.5f, 3.5f * radius, 0.5f));
             }
             for (var i = 0; i < drones; i++) MakeDrone(radius, new Vector3(i % side - (side - 1) / 2f, 0, i / side - (side - 1) / 2f) * Pad);
-            if (droneModel != null)
-            {
-                var view = new GameObject("Drone View").AddComponent<DroneView>();
-                view.Drones = manager.Nodes;
-                view.Model = droneModel;
-            }
-            manager.Ticked += FailWhenDue;
+            if (droneModel != null) new GameObject("Drone View").AddComponent<DroneView>().Model = droneModel;
         }
 
-        private void OnDestroy()
+        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        private void OnEnable()
+        {
+            manager = SimulationManager.Current;
+            if (manager != null) manager.Ticked += FailWhenDue;
+        }
+
+        private void OnDisable()
         {
             if (manager != null) manager.Ticked -= FailWhenDue;
         }

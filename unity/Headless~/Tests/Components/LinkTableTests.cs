@@ -22,7 +22,7 @@ namespace Collektive.Headless.Tests.Components
             var holds = new List<(int From, int To, LinkHandle Handle)>();
             var model = new Dictionary<(int, int), int>();
             var engine = new HashSet<(int, int)>();
-            var known = new bool[Nodes];
+            var known = new PagedArray<bool>();
             for (var i = 0; i < Nodes; i++) known[i] = i % 3 != 0;
             for (var step = 0; step < 5000; step++)
             {
@@ -49,7 +49,7 @@ namespace Collektive.Headless.Tests.Components
                         Release(model, (hold.From, hold.To));
                         break;
                     case 8:
-                        var gone = new bool[Nodes];
+                        var gone = new PagedArray<bool>();
                         gone[from] = true;
                         table.DropLinksOf(gone);
                         // Holds on dropped links are stale: releasing them must change nothing. The engine drops its own.
@@ -76,7 +76,7 @@ namespace Collektive.Headless.Tests.Components
         {
             var table = new LinkTable();
             var handle = table.AddReference(0, 1, false, 10, 0);
-            var known = new[] { true, true };
+            var known = new PagedArray<bool> { [0] = true, [1] = true };
             Assert.That(Sent(table, known), Is.EqualTo(1));
             Assert.That(Sent(table, known), Is.EqualTo(0));
             table.Update(handle, 12, 0);
@@ -101,14 +101,14 @@ namespace Collektive.Headless.Tests.Components
             Assert.That(table.Count, Is.EqualTo(0));
         }
 
-        private static int Sent(LinkTable table, bool[] known)
+        private static int Sent(LinkTable table, PagedArray<bool> known)
         {
             var request = new StepRequest(null, null);
             table.Flush(request, known);
             return request.Links.Count;
         }
 
-        private static void Flush(LinkTable table, HashSet<(int, int)> engine, bool[] known)
+        private static void Flush(LinkTable table, HashSet<(int, int)> engine, PagedArray<bool> known)
         {
             var request = new StepRequest(null, null);
             table.Flush(request, known);

@@ -259,6 +259,20 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void The_inspector_does_not_wait_for_a_busy_JVM()
+        {
+            MakeThree();
+            var inspector = UnityEditor.Editor.CreateEditor(Manager);
+            lock (JvmControl.Gate)
+            {
+                Gui.Passes(inspector.OnInspectorGUI);
+                System.Threading.Thread.Sleep(600);
+                Gui.Passes(inspector.OnInspectorGUI);
+            }
+            Inspect(inspector, "button Start Recording");
+        }
+
+        [Test]
         public void A_flight_recording_is_started_dumped_stopped_and_found_in_the_inspector()
         {
             MakeThree();

@@ -16,6 +16,9 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void A_list_is_read_only_as_a_whole() => Assert.That(new ReadOnlyAttribute().applyToCollection, Is.True);
+
+        [Test]
         public void The_field_is_drawn_but_disabled()
         {
             Gui.Clear();

@@ -247,14 +247,71 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_without_a_manager_say_so_once()
+        public void Nodes_without_a_manager_are_reported_once_after_a_frame()
         {
             Object.DestroyImmediate(Manager.gameObject);
             MakeNode(1).Node.name = "lonely";
             MakeNode(1);
+            Log.Clear();
+            for (var i = 0; i < 3; i++) UnityEngine.Headless.Loop.Frame(0.05f);
+            Assert.That(Errors, Is.Empty);
+            Assert.That(Log.Count, Is.EqualTo(1));
+            Assert.That(Log[0], Is.StringContaining("lonely").And.StringContaining("no loaded scene has a Simulation Manager"));
+        }
+
+        [Test]
+        public void Nodes_whose_manager_comes_with_a_later_scene_are_not_reported()
+        {
+            Object.DestroyImmediate(Manager.gameObject);
+            var node = MakeNode(1);
+            Log.Clear();
             UnityEngine.Headless.Loop.Frame(0.05f);
-            Assert.That(Errors.Count, Is.EqualTo(1));
-            Assert.That(Errors[0], Is.StringContaining("lonely").And.StringContaining("no Simulation Manager"));
+            MakeManager("double");
+            for (var i = 0; i < 3; i++) UnityEngine.Headless.Loop.Frame(0.05f);
+            Assert.That(Log.FindAll(line => line.Contains("Simulation Manager")), Is.Empty);
+            Assert.That(node.Answer, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void A_part_that_moves_to_another_node_works_for_that_node()
+        {
+            Configure("double");
+            var first = MakeNode(1);
+            var second = MakeNode(2);
+            var arm = new GameObject("Arm");
+            arm.transform.SetParent(first.Node.transform);
+            var sensor = arm.AddComponent<ProbeSensor>();
+            sensor.Value = 10;
+            Play(1);
+            Assert.That((first.Answer, second.Answer), Is.EqualTo((20f, 4f)));
+            new GameObject("Shoulder").transform.SetParent(second.Node.transform);
+            arm.transform.SetParent(second.Node.transform.GetChild(0));
+            Play(1);
+            Assert.That(sensor.Node, Is.SameAs(second.Node));
+            Assert.That((first.Answer, second.Answer), Is.EqualTo((2f, 20f)));
+            second.Node.transform.GetChild(0).SetParent(first.Node.transform);
+            Play(1);
+            Assert.That((first.Answer, second.Answer), Is.EqualTo((20f, 4f)), "with its parent");
+            arm.transform.SetParent(null);
+            Assert.That(sensor.enabled, Is.False);
+            Assert.That(Errors[0], Is.StringContaining("has no Node on its GameObject or its parents"));
+        }
+
+        [Test]
+        public void An_exception_in_a_Logged_handler_stops_no_tick()
+        {
+            Configure("trouble");
+            MakeNode(20);
+            var lines = 0;
+            Manager.Logged += (level, line) =>
+            {
+                lines++;
+                throw new System.InvalidOperationException("log me");
+            };
+            Play(4);
+            Assert.That(Manager.Tick, Is.EqualTo(4));
+            Assert.That(lines, Is.GreaterThan(1));
+            Assert.That(Errors, Has.Some.Contains("log me"));
         }
 
         [Test]
@@ -525,8 +582,9 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 lonely = MakeNode(1).Node;
                 UnityEngine.Headless.Loop.Frame(0.05f);
+                UnityEngine.Headless.Loop.Frame(0.05f);
             });
-            Assert.That(selected.By("no Simulation Manager"), Is.SameAs(lonely));
+            Assert.That(selected.By("a Simulation Manager"), Is.SameAs(lonely));
         }
 
         [Test]

@@ -302,6 +302,17 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Global_data_can_be_set_in_each_frame_of_a_long_pause()
+        {
+            Configure("windy");
+            var node = MakeNode(0);
+            Play(1);
+            for (var i = 0; i < 200000; i++) Manager.SetGlobals<probe.GlobalData>(data => data.Wind = i);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(200000));
+        }
+
+        [Test]
         public void Global_data_of_another_type_or_that_are_not_finite_stop_the_simulation()
         {
             Configure("windy");

@@ -176,6 +176,35 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Legends_of_two_views_do_not_overlap()
+        {
+            var views = new[] { new GameObject("A").AddComponent<DoubleView>(), new GameObject("B").AddComponent<DoubleView>() };
+            views[0].Title = "first";
+            views[1].Title = "second";
+            Gui.Placed.Clear();
+            foreach (var view in views) UnityEditor.Headless.Menus.Send(view, "OnGUI");
+            Assert.That(Gui.Placed.ConvertAll(label => label.Text.Substring(0, label.Text.IndexOf(' '))), Is.EqualTo(new[] { "first", "first", "second", "second" }));
+            Assert.That(Gui.Placed[3].Place.y, Is.GreaterThanOrEqualTo(Gui.Placed[0].Place.y + Gui.Placed[0].Place.height));
+            views[0].enabled = false;
+            Gui.Placed.Clear();
+            UnityEditor.Headless.Menus.Send(views[1], "OnGUI");
+            Assert.That(Gui.Placed[0].Place.y, Is.EqualTo(10), "in the first place");
+        }
+
+        [Test]
+        public void Views_of_nodes_with_large_ids_need_little_memory()
+        {
+            AddLinkView();
+            new GameObject("View").AddComponent<DoubleView>();
+            var before = GC.GetTotalMemory(true);
+            MakeNode(1, Vector3.zero, 5).Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            MakeNode(2, Vector3.right, (1 << 24) - 1).Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            Play(2);
+            Assert.That(Bars().Count, Is.EqualTo(2));
+            Assert.That(GC.GetTotalMemory(true) - before, Is.LessThan(16 << 20));
+        }
+
+        [Test]
         public void Without_compute_shaders_a_view_is_disabled_with_one_message()
         {
             Loop.HasComputeShaders = false;

@@ -12,7 +12,7 @@ namespace UnityEngine
         static readonly Dictionary<Type, Messages> Tables = new Dictionary<Type, Messages>();
 
         public readonly int Order;
-        public readonly Action<Object> Awake, OnEnable, Start, FixedUpdate, Update, LateUpdate, OnDisable, OnDestroy, OnApplicationQuit;
+        public readonly Action<Object> Awake, OnEnable, Start, FixedUpdate, Update, LateUpdate, OnDisable, OnDestroy, OnApplicationQuit, OnTransformParentChanged;
         public readonly Action<Object, Collider> OnTriggerEnter, OnTriggerStay, OnTriggerExit;
         public readonly Action<Object, Collision> OnCollisionEnter, OnCollisionStay, OnCollisionExit;
 
@@ -32,6 +32,7 @@ namespace UnityEngine
             OnDisable = Compile(type, nameof(OnDisable));
             OnDestroy = Compile(type, nameof(OnDestroy));
             OnApplicationQuit = Compile(type, nameof(OnApplicationQuit));
+            OnTransformParentChanged = Compile(type, nameof(OnTransformParentChanged));
             OnTriggerEnter = Compile<Collider>(type, nameof(OnTriggerEnter));
             OnTriggerStay = Compile<Collider>(type, nameof(OnTriggerStay));
             OnTriggerExit = Compile<Collider>(type, nameof(OnTriggerExit));

@@ -319,6 +319,7 @@ namespace UnityEngine
             owner.RefreshActivity();
             PhysicsWorld.HierarchyChanged(this);
             Changed();
+            foreach (var script in owner.GetComponentsInChildren<MonoBehaviour>()) Messages.Send(script.messages.OnTransformParentChanged, script);
         }
 
         /// Takes the object out of the list that holds it: its parent's children, or the scene's roots.

@@ -14,6 +14,9 @@ namespace UnityEngine.Headless
         /// One line for each control: "KIND NAME: VALUE", controls that are disabled with "(disabled) " in front.
         public static IReadOnlyList<string> Lines => Drawn;
 
+        /// Labels that scripts placed themselves, for the test to empty.
+        public static List<(Rect Place, string Text)> Placed { get; } = new List<(Rect Place, string Text)>();
+
         public static int DisabledDepth { get; set; }
 
         /// The next time a control of that name is drawn, the user changes it to `value`; `true` presses a button.

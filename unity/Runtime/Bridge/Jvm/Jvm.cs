@@ -62,7 +62,7 @@ namespace Collektive.Bridge
         internal static void Start(JvmLaunch launch)
         {
             ShimLibrary.Check();
-            Configured(launch, config => Shim.clk_jvm_start((Shim.JvmConfig*)config));
+            lock (JvmControl.Gate) Configured(launch, config => Shim.clk_jvm_start((Shim.JvmConfig*)config));
         }
 
         /// <summary>
@@ -76,7 +76,7 @@ namespace Collektive.Bridge
             Configured(launch, config => Shim.clk_jvm_check((Shim.JvmConfig*)config));
         }
 
-        /// <summary>Returns the status of the running JVM. Call it from the main thread; it takes a few milliseconds, about 50 the first time.</summary>
+        /// <summary>Returns the status of the running JVM. Takes a few milliseconds, about 50 the first time, and up to 10 s while a tick runs.</summary>
         /// <param name="collect">Collect garbage first, so that the numbers count only what is in use.</param>
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
@@ -125,7 +125,8 @@ namespace Collektive.Bridge
         /// <exception cref="BridgeException">It did not end within <paramref name="limitMs"/> milliseconds.</exception>
         internal static void Stop(int limitMs)
         {
-            if (ShimLibrary.Problem == null) Shim.Check(Shim.clk_jvm_stop(limitMs));
+            if (ShimLibrary.Problem != null) return;
+            lock (JvmControl.Gate) Shim.Check(Shim.clk_jvm_stop(limitMs));
         }
 
         private static byte* Text(List<IntPtr> strings, string text)

@@ -4,9 +4,12 @@ using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Asks the host about the JVM itself, in frames that belong to no session. From one thread at a time; allocates.</summary>
+    /// <summary>Asks the host about the JVM itself, in frames that belong to no session. From any thread; allocates.</summary>
     internal static unsafe class JvmControl
     {
+        /// <summary>Held while an answer is read: the next question, and the end of the JVM, would overwrite it.</summary>
+        internal static readonly object Gate = new object();
+
         private const int FirstCapacity = 4096;
         private const int LimitMs = 10000;
 
@@ -17,6 +20,11 @@ namespace Collektive.Bridge
         };
 
         internal static JvmStatus Ask(Question question)
+        {
+            lock (Gate) return AskNow(question);
+        }
+
+        private static JvmStatus AskNow(Question question)
         {
             var slot = new SlotAllocator(FirstCapacity);
             try

@@ -6,8 +6,8 @@ namespace Collektive.Bridge
 {
     /// <summary>
     /// Controls the JVM's flight recording at any time while the JVM runs, also between two ticks.
-    /// Each member returns at once. Starting and writing run in the background; <see cref="Jvm.GetStatus"/> reports their progress.
-    /// When the JVM exits, a running recording is written. Call all members from the main thread.
+    /// Each member returns when no tick runs, within 10 s. Starting and writing run in the background; <see cref="Jvm.GetStatus"/> reports their progress.
+    /// When the JVM exits, a running recording is written. Call all members from any thread.
     /// </summary>
     public static class JvmRecording
     {

@@ -7,7 +7,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>Locates the package's files, the host's jar and the JVM.</summary>
-    public static class Installation
+    internal static class Installation
     {
         private const string Package = "Packages/org.collektive.unity";
 
@@ -18,7 +18,7 @@ namespace Collektive.Unity
         private static string javaHome;
 
         /// <summary>Path of the host's jar: the set one, or the package's.</summary>
-        public static string HostJar
+        internal static string HostJar
         {
             get => hostJar ?? PathOf(OwnFile("collektive-host.jar"));
             set => hostJar = value;
@@ -28,7 +28,7 @@ namespace Collektive.Unity
         internal static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
         /// <summary>Root of the JVM for the location Automatic: the set one, the JVM package, or <c>JAVA_HOME</c>; otherwise empty.</summary>
-        public static string JavaHome
+        internal static string JavaHome
         {
             get => javaHome ?? (Directory.Exists(Bundled) ? Bundled : FromEnvironment);
             set => javaHome = value;

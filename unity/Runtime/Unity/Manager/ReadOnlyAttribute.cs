@@ -5,5 +5,9 @@ namespace Collektive.Unity
     /// <summary>Makes a serialised field read-only in the inspector, for values that a script computes.</summary>
     public sealed class ReadOnlyAttribute : PropertyAttribute
     {
+        /// <summary>Creates the attribute. On a list, it applies to the list as a whole, which then cannot be resized.</summary>
+        public ReadOnlyAttribute() : base(true)
+        {
+        }
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Collektive.Bridge;
 
 namespace Collektive.Unity
@@ -6,24 +7,24 @@ namespace Collektive.Unity
     /// <summary>Global data for the next tick. It is written once the session is open.</summary>
     internal sealed class SceneGlobals
     {
-        private Func<GlobalBuffer, string> pending;
+        private List<Func<GlobalBuffer, string>> pending = new List<Func<GlobalBuffer, string>>();
+        private List<Func<GlobalBuffer, string>> writing = new List<Func<GlobalBuffer, string>>();
 
-        internal void Set<T>(Action<T> write)
-        {
-            var earlier = pending;
-            pending = buffer => earlier?.Invoke(buffer) ?? Write(buffer, write);
-        }
+        internal void Set<T>(Action<T> write) => pending.Add(buffer => Write(buffer, write));
 
-        internal void Clear() => pending = null;
+        internal void Clear() => pending.Clear();
 
         /// <summary>Writes the data set since the last tick to the request, and returns its error or null.</summary>
         internal string Flush(StepRequest request)
         {
-            if (pending == null) return null;
-            var write = pending;
-            pending = null;
+            if (pending.Count == 0) return null;
+            // What users' code sets from now on is for the next tick.
+            (pending, writing) = (writing, pending);
             request.GlobalsChanged = true;
-            return write(request.Globals);
+            string problem = null;
+            for (var i = 0; i < writing.Count && problem == null; i++) problem = writing[i](request.Globals);
+            writing.Clear();
+            return problem;
         }
 
         private static string Write<T>(GlobalBuffer buffer, Action<T> write)

@@ -50,7 +50,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Called after each tick, when physics have advanced. An exception in a handler counts as an error, and the simulation goes on. A handler
-        /// that fails 10 times in a row is removed.
+        /// that fails 10 times in a row is removed. Add handlers in <c>OnEnable</c>: they are lost when scripts are compiled during play.
         /// </summary>
         public event Action<SimulationManager> Ticked
         {
@@ -58,7 +58,7 @@ namespace Collektive.Unity
             remove => handlers.Remove(value);
         }
 
-        /// <summary>Raised for each line of the JVM's log after it was written to Unity's log.</summary>
+        /// <summary>Raised for each line of the JVM's log after it was written to Unity's log. An exception in a handler is logged.</summary>
         public event Action<HostLogLevel, string> Logged;
 
         /// <summary>The scene's manager, or null.</summary>

@@ -145,7 +145,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Removes all links of nodes that left (<paramref name="isGone"/> by id); the JVM removes its own with the node.</summary>
-        internal void DropLinksOf(bool[] isGone)
+        internal void DropLinksOf(PagedArray<bool> isGone)
         {
             RemovalCount++;
             for (var index = 0; index < used; index++)
@@ -164,7 +164,7 @@ namespace Collektive.Unity
         /// Writes to the request what changed since the last call. Links of nodes that were not sent to the JVM (<paramref name="isKnown"/>
         /// by id) are written by a later call.
         /// </summary>
-        internal void Flush(StepRequest request, bool[] isKnown)
+        internal void Flush(StepRequest request, PagedArray<bool> isKnown)
         {
             ApplyChanges();
             var waiting = 0;

@@ -14,7 +14,7 @@ namespace Collektive.Unity
         private readonly Simulation simulation;
         private Neighbour[] all = new Neighbour[64];
         // By node id: 1 + place in the list, 0 for those that are not in it.
-        private int[] places = Array.Empty<int>();
+        private readonly PagedArray<int> places = new PagedArray<int>();
         // Whose neighbours are collected; null outside of a rule's call.
         private Node node;
         private int self;
@@ -35,7 +35,7 @@ namespace Collektive.Unity
 
         internal Neighbour[] All => all;
 
-        internal int[] Places => places;
+        internal PagedArray<int> Places => places;
 
         /// <summary>Adds a node. The link's length is the distance of the nodes, and its attenuation 0.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
@@ -82,12 +82,13 @@ namespace Collektive.Unity
             {
                 ref var near = ref found[i];
                 var id = near.IdOfNode;
-                if (id == own || marks[id] != 0) continue;
+                ref var mark = ref marks[id];
+                if (id == own || mark != 0) continue;
                 ref var neighbour = ref list[count];
                 neighbour.Id = id;
                 neighbour.Length = near.Metres;
                 neighbour.Attenuation = 0;
-                marks[id] = ++count;
+                mark = ++count;
             }
             Count = count;
         }
@@ -119,7 +120,6 @@ namespace Collektive.Unity
         {
             node = collecting;
             self = collecting.Id;
-            if (places.Length < simulation.IdCapacity) Array.Resize(ref places, simulation.IdCapacity);
         }
 
         internal void End()
@@ -131,12 +131,12 @@ namespace Collektive.Unity
 
         internal void Add(int id, float length, float attenuation)
         {
-            // Nodes may have joined since the update began.
-            if (id >= places.Length) Array.Resize(ref places, simulation.IdCapacity);
-            if (id < 0 || id == self || places[id] != 0) return;
+            if (id < 0 || id == self) return;
+            ref var mark = ref places[id];
+            if (mark != 0) return;
             EnsureCapacity(Count + 1);
             all[Count] = new Neighbour { Id = id, Length = length, Attenuation = attenuation };
-            places[id] = ++Count;
+            mark = ++Count;
         }
 
         private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);

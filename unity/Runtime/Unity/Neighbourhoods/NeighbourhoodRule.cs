@@ -94,7 +94,8 @@ namespace Collektive.Unity
             for (var h = 0; h < left;)
             {
                 ref var old = ref kept[h];
-                var place = marks[old.Id] - 1;
+                ref var mark = ref marks[old.Id];
+                var place = mark - 1;
                 if (place < 0)
                 {
                     table.Release(links[h]);
@@ -102,7 +103,7 @@ namespace Collektive.Unity
                     links[h] = links[left];
                     continue;
                 }
-                marks[old.Id] = 0;
+                mark = 0;
                 ref var now = ref all[place];
                 var change = now.Length - old.Length;
                 // The usual case: nothing to look up, nothing to send.

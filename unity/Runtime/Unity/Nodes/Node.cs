@@ -1,4 +1,5 @@
 using System;
+using System.Collections;
 using System.Collections.Generic;
 using Collektive.Bridge;
 using UnityEngine;
@@ -260,7 +261,15 @@ namespace Collektive.Unity
             }
             if (SimulationManager.Current != null || hasReportedNoManager) return;
             hasReportedNoManager = true;
-            Debug.LogError("node '" + name + "' does not run because the scene has no Simulation Manager: add one (GameObject > Collektive > "
+            StartCoroutine(WarnWithoutManager());
+        }
+
+        /// <summary>After a frame: an additive scene may bring the manager.</summary>
+        private IEnumerator WarnWithoutManager()
+        {
+            yield return null;
+            if (SimulationManager.Current != null) yield break;
+            Debug.LogWarning("node '" + name + "' does not run because no loaded scene has a Simulation Manager: add one (GameObject > Collektive > "
                 + "Simulation Manager)", this);
         }
 

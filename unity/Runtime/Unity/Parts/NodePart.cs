@@ -26,27 +26,17 @@ namespace Collektive.Unity
         internal ulong BatchedAt { get; set; }
 
         /// <summary>Joins the node.</summary>
-        protected virtual void OnEnable()
-        {
-            Node = GetComponentInParent<Node>();
-            if (Node == null)
-            {
-                Debug.LogError(
-                    GetType().Name + " on '" + name + "' has no Node on its GameObject or its parents: add the component Collektive/Node", this);
-                enabled = false;
-                return;
-            }
-            ListOf(Node).Add(this);
-            IsAttached = true;
-        }
+        protected virtual void OnEnable() => Attach();
 
         /// <summary>Leaves the node.</summary>
-        protected virtual void OnDisable()
+        protected virtual void OnDisable() => Detach();
+
+        /// <summary>Joins the node of the new parents, if it is another one.</summary>
+        protected virtual void OnTransformParentChanged()
         {
-            if (ReferenceEquals(Node, null)) return;
-            ListOf(Node).Remove(this);
-            IsAttached = false;
-            Detached();
+            if (!IsAttached || ReferenceEquals(GetComponentInParent<Node>(), Node)) return;
+            Detach();
+            Attach();
         }
 
         internal void Succeeded()
@@ -87,6 +77,28 @@ namespace Collektive.Unity
         /// <summary>Called when the part has left the node's list.</summary>
         internal virtual void Detached()
         {
+        }
+
+        private void Attach()
+        {
+            Node = GetComponentInParent<Node>();
+            if (Node == null)
+            {
+                Debug.LogError(
+                    GetType().Name + " on '" + name + "' has no Node on its GameObject or its parents: add the component Collektive/Node", this);
+                enabled = false;
+                return;
+            }
+            ListOf(Node).Add(this);
+            IsAttached = true;
+        }
+
+        private void Detach()
+        {
+            if (!IsAttached) return;
+            ListOf(Node).Remove(this);
+            IsAttached = false;
+            Detached();
         }
     }
 }

@@ -35,7 +35,15 @@ namespace Collektive.Unity
             if (level == HostLogLevel.Error) Debug.LogError(line, context);
             else if (level == HostLogLevel.Warning) Debug.LogWarning(line, context);
             else Debug.Log(line, context);
-            shown?.Invoke(level, line);
+            try
+            {
+                shown?.Invoke(level, line);
+            }
+            catch (Exception error)
+            {
+                // A handler of users must not stop the frame.
+                Debug.LogException(error, context);
+            }
         }
     }
 }

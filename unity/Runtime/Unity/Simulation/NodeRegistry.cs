@@ -8,15 +8,14 @@ namespace Collektive.Unity
     /// <summary>The nodes of a simulation, and those that joined and left since the last tick.</summary>
     internal sealed class NodeRegistry
     {
-        /// <summary>Ids index arrays.</summary>
+        /// <summary>The link view has 24 bits for a node.</summary>
         private const int MaxId = (1 << 24) - 1;
 
         private readonly List<Node> nodes = new List<Node>();
         private readonly List<Node> joining = new List<Node>();
         private readonly GrowingArray<int> leaving = new GrowingArray<int>();
-        private bool[] isKnown = new bool[64];
-        private bool[] isGone = new bool[64];
-        private bool anyGone;
+        private readonly GrowingArray<int> gone = new GrowingArray<int>();
+        private readonly PagedArray<bool> isGone = new PagedArray<bool>();
         private int nextId;
 
         /// <summary>The participating nodes, ascending by id.</summary>
@@ -26,10 +25,10 @@ namespace Collektive.Unity
         internal IReadOnlyList<Node> Joining => joining;
 
         /// <summary>All ids are below it.</summary>
-        internal int IdCapacity => isKnown.Length;
+        internal int IdCapacity => nextId;
 
         /// <summary>By id: whether the node was sent to the JVM.</summary>
-        internal bool[] IsKnown => isKnown;
+        internal PagedArray<bool> IsKnown { get; } = new PagedArray<bool>();
 
         /// <summary>Returns the node with that id, or null.</summary>
         internal Node Find(int id)
@@ -48,11 +47,6 @@ namespace Collektive.Unity
             if (place < 0) return "node '" + node.name + "' has id " + id + ", which node '" + nodes[~place].name
                 + "' already uses: give each node its own id, or -1";
             nextId = Math.Max(nextId, id + 1);
-            if (id >= isKnown.Length)
-            {
-                Array.Resize(ref isKnown, Math.Max(id + 1, isKnown.Length * 2));
-                Array.Resize(ref isGone, isKnown.Length);
-            }
             if (isGone[id]) DropLinksOfGone(simulation.Links);
             node.OnJoined(simulation, id);
             nodes.Insert(place, node);
@@ -65,20 +59,20 @@ namespace Collektive.Unity
         {
             var id = node.Id;
             nodes.RemoveAt(IndexOf(id));
-            if (isKnown[id]) leaving.Add(id);
+            if (IsKnown[id]) leaving.Add(id);
             else joining.Remove(node);
-            isKnown[id] = false;
+            IsKnown[id] = false;
             isGone[id] = true;
-            anyGone = true;
+            gone.Add(id);
         }
 
         /// <summary>Drops the links of all nodes that left, in one pass over the links.</summary>
         internal void DropLinksOfGone(LinkTable links)
         {
-            if (!anyGone) return;
+            if (gone.Count == 0) return;
             links.DropLinksOf(isGone);
-            Array.Clear(isGone, 0, isGone.Length);
-            anyGone = false;
+            for (var i = 0; i < gone.Count; i++) isGone[gone.Items[i]] = false;
+            gone.Clear();
         }
 
         /// <summary>Writes to the request the nodes that left and joined since the last call.</summary>
@@ -91,7 +85,7 @@ namespace Collektive.Unity
             for (var i = 0; i < joining.Count; i++)
             {
                 request.AddNode(joining[i].Id, joining[i].Program, ParametersOf(joining[i]));
-                isKnown[joining[i].Id] = true;
+                IsKnown[joining[i].Id] = true;
             }
             joining.Clear();
         }

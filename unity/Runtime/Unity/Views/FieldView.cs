@@ -25,7 +25,7 @@ namespace Collektive.Unity
         private bool legend = true;
 
         // By node id.
-        private Painted[] painted = Array.Empty<Painted>();
+        private readonly PagedArray<Painted> painted = new PagedArray<Painted>();
         private SimulationManager shown;
         private ulong tick;
         private Color paintedLow;
@@ -70,6 +70,9 @@ namespace Collektive.Unity
         /// <summary>The legend has its place; Unity's layout would allocate with each event.</summary>
         protected virtual void OnEnable() => useGUILayout = false;
 
+        /// <summary>Frees the place of the legend.</summary>
+        protected virtual void OnDisable() => Legends.Remove(this);
+
         /// <summary>Colours the nodes, once a tick.</summary>
         protected virtual void LateUpdate()
         {
@@ -83,7 +86,6 @@ namespace Collektive.Unity
 
         private void TakeNumbers(SimulationManager manager)
         {
-            if (painted.Length < manager.Simulation.IdCapacity) Array.Resize(ref painted, manager.Simulation.IdCapacity);
             scale.Begin();
             for (var i = 0; i < manager.Nodes.Count; i++)
             {
@@ -134,7 +136,8 @@ namespace Collektive.Unity
         /// <summary>Shows the legend.</summary>
         protected virtual void OnGUI()
         {
-            if (legend) GUI.Label(new Rect(10, 10, 600, 24), Legend);
+            if (legend) GUI.Label(Legends.PlaceOf(this), Legend);
+            else Legends.Remove(this);
         }
     }
 }

@@ -54,7 +54,7 @@ namespace Collektive.Unity
         // By link: two for each entry of the table.
         private float[] numbers = Array.Empty<float>();
         // By node id: where in places the node is.
-        private int[] placeOf = Array.Empty<int>();
+        private readonly PagedArray<int> placeOf = new PagedArray<int>();
         private Bounds bounds;
         private int count;
         private bool hasReportedLimit;
@@ -240,7 +240,6 @@ namespace Collektive.Unity
         private void TakePlaces(SimulationManager manager)
         {
             var nodes = manager.Nodes;
-            if (placeOf.Length < manager.Simulation.IdCapacity) Array.Resize(ref placeOf, manager.Simulation.IdCapacity);
             if (places.Length < nodes.Count) Array.Resize(ref places, Math.Max(nodes.Count, 2 * places.Length));
             var least = Vector3.positiveInfinity;
             var most = Vector3.negativeInfinity;
