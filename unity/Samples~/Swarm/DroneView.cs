@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Collektive.Unity;
 using drones;
@@ -29,6 +30,11 @@ namespace Collektive.Samples.Swarm
         private readonly Material[] materials = new Material[Colors.Length];
         private Mesh mesh;
 
+        // By node id: positions before and after the last tick.
+        private Vector3[] before = new Vector3[0];
+        private Vector3[] after = new Vector3[0];
+        private ulong tick;
+
         /// <summary>Metres from the middle of a drone to its skin.</summary>
         public float Radius { get; set; } = 0.3f;
 
@@ -48,7 +54,8 @@ namespace Collektive.Samples.Swarm
             if (manager == null || model == null || Application.isBatchMode) return;
             // Not in OnEnable, which is called before the model is set.
             if (mesh == null) Prepare();
-            Draw(manager.Nodes);
+            if (tick != manager.Tick) Take(manager);
+            Draw(manager.Nodes, manager.TickFraction);
         }
 
         private void OnDestroy()
@@ -67,13 +74,29 @@ namespace Collektive.Samples.Swarm
             }
         }
 
-        private void Draw(IReadOnlyList<Node> drones)
+        private void Take(SimulationManager manager)
+        {
+            tick = manager.Tick;
+            (before, after) = (after, before);
+            var drones = manager.Nodes;
+            var capacity = drones.Count == 0 ? 0 : drones[drones.Count - 1].Id + 1;
+            if (before.Length < capacity) Array.Resize(ref before, capacity);
+            if (after.Length < capacity) Array.Resize(ref after, capacity);
+            for (var i = 0; i < drones.Count; i++)
+            {
+                var position = drones[i].transform.position;
+                if (tick <= 1) before[drones[i].Id] = position;
+                after[drones[i].Id] = position;
+            }
+        }
+
+        private void Draw(IReadOnlyList<Node> drones, float fraction)
         {
             var place = Matrix4x4.Scale(2 * Radius * Vector3.one);
             for (var i = 0; i < drones.Count; i++)
             {
                 var drone = drones[i];
-                var position = drone.transform.position;
+                var position = Vector3.Lerp(before[drone.Id], after[drone.Id], fraction);
                 place.m03 = position.x;
                 place.m13 = position.y;
                 place.m23 = position.z;

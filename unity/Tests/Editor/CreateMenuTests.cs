@@ -45,7 +45,7 @@ namespace Collektive.Unity.Editor.Tests
             Assert.That(made.GetComponent<RadiusNeighbourhood>() != null, Is.True);
             Assert.That(made.GetComponent<Rigidbody>() != null, Is.True);
             Assert.That(made.GetComponent<SphereCollider>() != null, Is.True);
-            Assert.That(made.GetComponent<MeshRenderer>() != null, Is.True);
+            Assert.That(made.GetComponentInChildren<MeshRenderer>().GetComponent<SmoothView>() != null, Is.True);
             Assert.That(made.transform.localScale, Is.EqualTo(new Vector3(0.5f, 0.5f, 0.5f)));
         }
 
@@ -67,7 +67,7 @@ namespace Collektive.Unity.Editor.Tests
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
             var first = Selection.activeGameObject;
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
-            Assert.That(first.transform.childCount, Is.EqualTo(0));
+            Assert.That(first.GetComponentsInChildren<Node>().Length, Is.EqualTo(1));
             Assert.That(Selection.activeGameObject.transform.parent == null, Is.True);
             Object.DestroyImmediate(Selection.activeGameObject);
         }

@@ -176,6 +176,54 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_smooth_view_moves_what_is_drawn_between_ticks_and_nothing_else()
+        {
+            Configure("double", settings => settings.deltaTime = 0.1f);
+            var node = MakeNode(0).Node;
+            var visual = new GameObject("Visual").transform;
+            visual.SetParent(node.transform, false);
+            visual.localPosition = Vector3.up;
+            var view = visual.gameObject.AddComponent<SmoothView>();
+            var seen = new List<float>();
+            Manager.Ticked += manager =>
+            {
+                seen.Add(node.Position.x);
+                node.transform.position += 4 * Vector3.right;
+            };
+            Play(1);
+            var drawn = new List<Vector3>();
+            for (var frame = 0; frame < 8; frame++)
+            {
+                Loop.Frame(0.025f);
+                drawn.Add(visual.position);
+                Assert.That(node.transform.position.x, Is.EqualTo(4 * (float)Manager.Tick), "the node is at the pose of the tick");
+            }
+            Assert.That(drawn.ConvertAll(place => Mathf.Round(place.x)), Is.EqualTo(new float[] { 4, 4, 4, 4, 5, 6, 7, 8 }));
+            Assert.That(drawn.TrueForAll(place => Mathf.Abs(place.y - 1) < 1e-5f), Is.True);
+            Assert.That(seen, Is.EqualTo(new float[] { 0, 4, 8 }), "rules and sensors see it there too");
+            Manager.Paused = true;
+            Loop.Frame(0.025f);
+            Assert.That(visual.localPosition, Is.EqualTo(Vector3.up), "while paused, the state after the last tick");
+            view.enabled = false;
+            Manager.Paused = false;
+            Loop.Frame(0.025f);
+            Assert.That(visual.localPosition, Is.EqualTo(Vector3.up));
+        }
+
+        [Test]
+        public void A_smooth_view_that_would_move_a_collider_is_an_error()
+        {
+            var node = MakeNode(0).Node;
+            Assert.That(node.gameObject.AddComponent<SmoothView>().enabled, Is.False);
+            var child = new GameObject("Arm");
+            child.transform.SetParent(node.transform);
+            child.AddComponent<SphereCollider>();
+            Assert.That(child.AddComponent<SmoothView>().enabled, Is.False);
+            Assert.That(Errors.Count, Is.EqualTo(2));
+            Assert.That(Errors[1], Is.StringContaining("Arm").And.StringContaining("a child that only has renderers"));
+        }
+
+        [Test]
         public void Legends_of_two_views_do_not_overlap()
         {
             var views = new[] { new GameObject("A").AddComponent<DoubleView>(), new GameObject("B").AddComponent<DoubleView>() };

@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Reads a prefab of one GameObject: its name, place, and components. Of the components' fields it takes Unity's own no further.
+    /// Reads the objects of a prefab with their components. Of fields, it reads names, scales and parents.
     static class PrefabFile
     {
         static readonly Dictionary<string, Type> BuiltIn = new Dictionary<string, Type>
@@ -22,20 +22,41 @@ namespace UnityEditor.Headless
 
         internal static GameObject Load(string path)
         {
-            var made = new GameObject();
-            Loaded.Add(made);
-            // Like an asset it takes part in nothing; its copies do.
-            made.SetActive(false);
-            foreach (var part in Regex.Split(File.ReadAllText(path), @"^--- !u!\d+ &-?\d+\n", RegexOptions.Multiline))
+            var objects = new Dictionary<string, GameObject>();
+            var transforms = new Dictionary<string, Transform>();
+            GameObject root = null;
+            foreach (Match part in Regex.Matches(File.ReadAllText(path), @"^--- !u!\d+ &(-?\d+)\n(.*?)(?=^---|\z)", RegexOptions.Multiline | RegexOptions.Singleline))
             {
-                var type = part.Substring(0, part.IndexOf(':'));
-                if (type == "GameObject") made.name = Value(part, "m_Name");
-                else if (type == "Transform") made.transform.localScale = Vector(Value(part, "m_LocalScale"));
-                else if (type == "MonoBehaviour") made.AddComponent(ScriptOf(part));
-                else if (BuiltIn.TryGetValue(type, out var component)) made.AddComponent(component);
+                var (id, text) = (part.Groups[1].Value, part.Groups[2].Value);
+                var type = text.Substring(0, text.IndexOf(':'));
+                if (type == "GameObject") objects[id] = Object(Value(text, "m_Name"));
+                if (type != "Transform") continue;
+                var placed = transforms[id] = objects[Reference(text, "m_GameObject")].transform;
+                placed.localScale = Vector(Value(text, "m_LocalScale"));
+                if (transforms.TryGetValue(Reference(text, "m_Father"), out var parent)) placed.SetParent(parent, false);
+                else root = placed.gameObject;
             }
+            foreach (Match part in Regex.Matches(File.ReadAllText(path), @"^--- !u!\d+ &-?\d+\n(.*?)(?=^---|\z)", RegexOptions.Multiline | RegexOptions.Singleline))
+            {
+                var text = part.Groups[1].Value;
+                var type = text.Substring(0, text.IndexOf(':'));
+                if (type == "MonoBehaviour") objects[Reference(text, "m_GameObject")].AddComponent(ScriptOf(text));
+                else if (BuiltIn.TryGetValue(type, out var component)) objects[Reference(text, "m_GameObject")].AddComponent(component);
+            }
+            foreach (var child in objects.Values) child.SetActive(child != root);
+            Loaded.Add(root);
+            return root;
+        }
+
+        /// Like an asset it takes part in nothing; its copies do.
+        static GameObject Object(string name)
+        {
+            var made = new GameObject(name);
+            made.SetActive(false);
             return made;
         }
+
+        static string Reference(string part, string key) => Regex.Match(Value(part, key), @"fileID: (-?\d+)").Groups[1].Value;
 
         static Type ScriptOf(string part)
         {

@@ -92,6 +92,12 @@ namespace Collektive.Unity
         /// <summary>Simulated seconds.</summary>
         public double SimulatedTime => Simulation.Time;
 
+        /// <summary>
+        /// For drawing between ticks: the part of the delta time that has passed since the last tick, 0 to 1. While paused, it is 1, so that what is drawn
+        /// is the state after the last tick.
+        /// </summary>
+        public float TickFraction => paused ? 1 : (float)Math.Min(accumulated / settings.deltaTime, 1);
+
         /// <summary>First 8 bytes of the digest over all rounds so far.</summary>
         public ulong Digest => Simulation.Digest;
 

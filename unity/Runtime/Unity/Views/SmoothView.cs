@@ -1,0 +1,66 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>
+    /// Draws a moving object between ticks: on a child that only has renderers, it moves the child from the parent's pose before the last tick to its
+    /// present pose, as the interpolation of a Rigidbody does. The parent, which rules, sensors and physics use, stays where it is. Disable it to draw the
+    /// poses of ticks.
+    /// </summary>
+    [AddComponentMenu("Collektive/Smooth View")]
+    [DisallowMultipleComponent]
+    public sealed class SmoothView : MonoBehaviour
+    {
+        private SimulationManager shown;
+        private ulong tick;
+        private Vector3 restPosition;
+        private Quaternion restRotation;
+        private Vector3 fromPosition;
+        private Vector3 toPosition;
+        private Quaternion fromRotation;
+        private Quaternion toRotation;
+
+        private void OnEnable()
+        {
+            if (transform.parent == null || GetComponentInChildren<Collider>() != null)
+            {
+                Debug.LogError("Smooth View on '" + name + "' would move a node or its colliders: move it to a child that only has renderers", this);
+                enabled = false;
+                return;
+            }
+            restPosition = transform.localPosition;
+            restRotation = transform.localRotation;
+            shown = null;
+        }
+
+        private void OnDisable()
+        {
+            if (shown != null) transform.SetLocalPositionAndRotation(restPosition, restRotation);
+            shown = null;
+        }
+
+        private void LateUpdate()
+        {
+            var manager = SimulationManager.Current;
+            var parent = transform.parent;
+            if (manager == null || parent == null) return;
+            parent.GetPositionAndRotation(out var position, out var rotation);
+            if (shown != manager)
+            {
+                (toPosition, toRotation) = (position, rotation);
+                tick = ulong.MaxValue;
+                shown = manager;
+            }
+            if (tick != manager.Tick)
+            {
+                (fromPosition, fromRotation) = (toPosition, toRotation);
+                tick = manager.Tick;
+            }
+            (toPosition, toRotation) = (position, rotation);
+            var fraction = manager.TickFraction;
+            var turn = Quaternion.Slerp(fromRotation, toRotation, fraction);
+            transform.SetPositionAndRotation(
+                Vector3.Lerp(fromPosition, toPosition, fraction) + turn * Vector3.Scale(parent.lossyScale, restPosition), turn * restRotation);
+        }
+    }
+}
