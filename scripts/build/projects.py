@@ -73,22 +73,26 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
     key = _key(parts, [HOST_JAR, BUILD / "stamp/kotlinc", find_jdk() / "release", *([] if runtime else [LIBRARY_JAR, compiler_plugin()])])
 
     def compile_programs(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
-        generated, classes = work / "generated", work / "classes"
         options: list[str | Path] = [f"-Xplugin={plugin.path if plugin else compiler_plugin()}"]
-        library, mark = str(LIBRARY_JAR), "builtIn"
+        library, mark = [LIBRARY_JAR], "builtIn"
         if jars and plugin:
             _require_plugin(plugin.path)
-            mark = f"collektive {_runtime_hash(jars)}"
-            library = ":".join(str(jar) for jar in jars.files.values())
+            library, mark = list(jars.files.values()), f"collektive {_runtime_hash(jars)}"
             options += ["-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", LINKS]
-        run(generator(schema.copy(work / "schema"), "--jvm", generated))
-        sources = work / "sources"
-        quoted = [re.sub(r'(["\\])', r"\\\1", str(file)) for file in programs.files.values()]
-        sources.write_text("".join(f'"{file}"\n' for file in quoted), encoding="utf-8", errors="surrogateescape")
-        compile_jvm(run, library, generated, classes, [*options, f"@{sources}"])
-        # The host reads this to reject programs of another runtime.
-        (work / "mark").write_text(f"Collektive-Runtime: {mark}\n")
-        run([find_jdk() / "bin/jar", "--create", "--file", work / "programs.jar", "--manifest", work / "mark", "-C", classes, "."])
+        values: list[tuple[str, str | Path]] = [
+            ("--schema", schema.copy(work / "schema")), ("--jar", work / "programs.jar"), ("--work", work),
+            # The host reads this to reject programs of another runtime.
+            ("--mark", f"Collektive-Runtime:{mark}"),
+            *(("--library", jar) for jar in [HOST_JAR, *library]),
+            *(("--kotlin", option) for option in options), *(("--source", file) for file in programs.files.values())]
+        try:
+            run([*_compiler(), *(word for value in values for word in value)])
+        except subprocess.CalledProcessError as error:
+            # The code of an internal error, whose usual cause is a plugin.
+            if error.returncode == 2:
+                version = fetch.pom_value("kotlin.version")
+                raise Failure(f"the Kotlin compiler {version} crashed (see above); the compiler plugin may be built for another version") from error
+            raise
 
     return _cached(BUILD / "programs" / key, "programs.jar", "compile-programs", parts, compile_programs)
 
@@ -113,23 +117,15 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
     return _cached(BUILD / "scripts" / f"{key}-{place}", "Scenario.dll", "compile-scripts", [schema, scripts], compile_scripts)
 
 
-def compile_jvm(run: Callable[[Sequence[str | Path]], None], library: str, generated: Path, classes: Path, arguments: Sequence[str | Path]) -> None:
-    """Compiles flatc's Java first, then the generated Kotlin and the sources among the arguments, into a folder of classes."""
+def _compiler() -> list[str | Path]:
+    """Returns the command that compiles programs, without the options of a project. The editor uses the same class in a process that stays."""
     jdk = find_jdk()
-    classes.mkdir(parents=True, exist_ok=True)
-    run([jdk / "bin/javac", "--release", "17", "-nowarn", "-proc:none", "-cp", HOST_JAR, "-d", classes, *sorted(generated.rglob("*.java"))])
+    version = feature_version(jdk)
     # The compiler uses features that newer JVMs warn about.
-    quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if feature_version(jdk) >= 24 else []
-    try:
-        run([jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", *quiet, "-cp", BUILD / "kotlinc/*", "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler",
-             "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", f"{HOST_JAR}:{library}:{classes}", "-d", classes, generated, *arguments])
-    except subprocess.CalledProcessError as error:
-        # The code of an internal error, whose usual cause is a plugin.
-        if error.returncode == 2:
-            version = fetch.pom_value("kotlin.version")
-            raise Failure(f"the Kotlin compiler {version} crashed (see above); the compiler plugin may be built for another version") from error
-        raise
-    shutil.copytree(generated / "META-INF", classes / "META-INF", dirs_exist_ok=True)
+    quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if version >= 24 else []
+    archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:cds=off"] if version >= 19 else []
+    return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp", f"{BUILD}/kotlinc/*:{GENERATOR_JAR}",
+            "org.collektive.generator.CompileKt", "--flatc", FLATC, "--include", inputs.CORE]
 
 
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:

@@ -1,0 +1,51 @@
+package org.collektive.generator
+
+import java.nio.file.Files
+import java.nio.file.Path
+import java.security.MessageDigest
+import java.util.HexFormat
+import kotlin.io.path.isDirectory
+import kotlin.io.path.isRegularFile
+import kotlin.io.path.name
+import kotlin.io.path.readBytes
+
+/**
+ * The hash of a jar's sources in its manifest, by which the editor finds outdated jars. `SchemaProject.cs` computes the same one, without a JVM.
+ *
+ * It covers names and contents of the schema, the files that it includes except those of the package, and the Kotlin files, each group in the order
+ * of the paths, which start at the schema's or the programs' folder. It ignores carriage returns, which Git adds to files on Windows.
+ */
+internal object SourceHash {
+    private val INCLUDE = Regex("""^\s*include\s+"([^"]+)"\s*;""", RegexOption.MULTILINE)
+
+    fun of(schema: Path, sources: List<Path>): String {
+        val digest = MessageDigest.getInstance("SHA-256")
+        val schemas = HashSet<Path>()
+        addIncluded(schema.toAbsolutePath().normalize(), schema.toAbsolutePath().normalize().parent, schemas)
+        add(digest, schemas.associateBy { name(schema.toAbsolutePath().normalize().parent, it) })
+        add(digest, sources.flatMap { source -> files(source).map { (if (source.isDirectory()) name(source, it) else it.name) to it } }.toMap())
+        return HexFormat.of().formatHex(digest.digest())
+    }
+
+    private fun addIncluded(file: Path, root: Path, found: MutableSet<Path>) {
+        if (!found.add(file)) return
+        for (include in INCLUDE.findAll(Files.readString(file))) {
+            val name = include.groupValues[1]
+            listOf(file.parent, root).map { it.resolve(name).normalize() }.find { it.isRegularFile() }?.let { addIncluded(it, root, found) }
+        }
+    }
+
+    private fun files(source: Path): List<Path> =
+        Files.walk(source).use { paths -> paths.filter { it.name.endsWith(".kt") && it.isRegularFile() }.toList() }
+
+    private fun name(folder: Path, file: Path) = folder.relativize(file).joinToString("/")
+
+    private fun add(digest: MessageDigest, files: Map<String, Path>) {
+        for ((name, file) in files.toSortedMap()) {
+            digest.update(name.encodeToByteArray())
+            digest.update(0)
+            digest.update(file.readBytes().filter { it != '\r'.code.toByte() }.toByteArray())
+            digest.update(0)
+        }
+    }
+}
