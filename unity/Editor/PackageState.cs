@@ -26,6 +26,7 @@ namespace Collektive.Unity.Editor
         [InitializeOnLoadMethod]
         private static void CheckVersions()
         {
+            Schemas.FindTypes = () => TypeCache.GetTypesDerivedFrom<DataSchema>();
             Installation.ToPhysical = path => Path.GetFullPath(FileUtil.GetPhysicalPath(path));
             var began = SessionState.GetString(VersionKey, "");
             if (began.Length == 0) SessionState.SetString(VersionKey, Version);

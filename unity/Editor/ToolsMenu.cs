@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.IO;
 using UnityEditor;
 using UnityEngine;
 
@@ -10,12 +12,24 @@ namespace Collektive.Unity.Editor
         private const string Menu = "Tools/Collektive/";
 
         [MenuItem(Menu + "Generate Schema Code", false, 1)]
-        private static void GenerateSchemaCode() =>
-            ForEach("Generating code", project => true, SchemaCode.MakeCSharp, project => project.Schema + ": C# in " + project.Generated);
+        private static void GenerateSchemaCode()
+        {
+            var projects = FindAll("Generating code", project => true);
+            if (projects.Count == 0) return;
+            TryRun(() =>
+            {
+                for (var i = 0; i < projects.Count; i++)
+                {
+                    EditorUtility.DisplayProgressBar("Collektive: Generating code", projects[i].Schema, (float)i / projects.Count);
+                    if (SchemaCode.MakeCSharp(projects[i])) Debug.Log(projects[i].Schema + ": C# in " + projects[i].Generated);
+                }
+                AssetDatabase.Refresh();
+                return true;
+            });
+        }
 
         [MenuItem(Menu + "Rebuild Programs", false, 2)]
-        private static void RebuildPrograms() =>
-            ForEach("Building programs", project => project.HasPrograms, ProgramBuild.Make, project => project.Programs + ": " + project.Jar);
+        private static void RebuildPrograms() => ProgramBuild.Start(FindAll("Building programs", project => project.HasPrograms));
 
         [MenuItem(Menu + "Rebuild Backend", false, 3)]
         private static void RebuildBackend()
@@ -43,14 +57,14 @@ namespace Collektive.Unity.Editor
             else EditorUtility.RevealInFinder(log);
         }
 
-        /// <summary>Runs a build step, and logs an error if a tool is missing.</summary>
+        /// <summary>Runs a build step, and logs an error if a tool is missing or a file cannot be read.</summary>
         internal static bool TryRun(Func<bool> step)
         {
             try
             {
                 return step();
             }
-            catch (ToolException error)
+            catch (Exception error) when (error is ToolException || error is IOException || error is UnauthorizedAccessException)
             {
                 Debug.LogError(error.Message);
                 return false;
@@ -61,25 +75,13 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        private static void ForEach(string title, Predicate<SchemaProject> isWanted, Func<SchemaProject, bool> make, Func<SchemaProject, string> done)
+        private static List<SchemaProject> FindAll(string title, Predicate<SchemaProject> isWanted)
         {
-            var projects = SchemaProject.FindAll(ProgramRuntime.OfScene()).FindAll(isWanted);
+            var projects = SchemaProject.FindAll().FindAll(isWanted);
             if (projects.Count == 0)
-            {
                 Debug.LogWarning(title
                     + ": no sources were found. Put schemas (*.fbs) below Assets, and their programs (*.kt) into the folder Programs beside them");
-                return;
-            }
-            TryRun(() =>
-            {
-                for (var i = 0; i < projects.Count; i++)
-                {
-                    EditorUtility.DisplayProgressBar("Collektive: " + title, projects[i].Schema, (float)i / projects.Count);
-                    if (make(projects[i])) Debug.Log(done(projects[i]));
-                }
-                AssetDatabase.Refresh();
-                return true;
-            });
+            return projects;
         }
     }
 }

@@ -6,16 +6,16 @@ namespace Collektive.Unity.Editor
     internal static class BackendBuild
     {
         /// <returns>The path of the new tarball, or null after a failed build, which is logged.</returns>
-        /// <exception cref="ToolException">The project settings do not name a source checkout.</exception>
+        /// <exception cref="ToolException">The preferences do not name a source checkout.</exception>
         internal static string Make()
         {
-            var checkout = ProjectSettings.instance.sourceCheckout;
+            var checkout = PersonalSettings.instance.sourceCheckout;
             if (checkout.Length == 0)
-                throw new ToolException("Rebuild Backend needs a source checkout of the package: set its folder in Project Settings > Collektive");
+                throw new ToolException("Rebuild Backend needs a source checkout of the package: set its folder in Preferences > Collektive");
             var command = Path.Combine(checkout, "collektive");
             if (!File.Exists(command))
                 throw new ToolException(checkout
-                    + " is not a source checkout of the package (the command collektive is missing): correct the folder in Project Settings > Collektive");
+                    + " is not a source checkout of the package (the command collektive is missing): correct the folder in Preferences > Collektive");
             var (code, output) = ToolRun.Try(checkout, command, "package");
             ToolConsole.Show("collektive package", code, output);
             if (code != 0) return null;

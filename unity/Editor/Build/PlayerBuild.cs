@@ -37,8 +37,8 @@ namespace Collektive.Unity.Editor
             var settings = simulation.Settings;
             var problem = settings.FindProblem();
             if (problem != null) throw simulation.Failure(problem);
-            var failed = ProjectSettings.instance.buildBeforePlay ? ProgramBuild.Refresh(settings) : new List<string>();
-            if (failed.Count > 0) throw simulation.Failure(failed[0] + " is older than its sources because the build failed: fix the errors in the console");
+            var failed = ProgramBuild.Refresh(SchemaProject.FindAll(new[] { settings }));
+            if (failed.Count > 0) throw simulation.Failure(failed[0].Jar + " is older than its sources because the build failed: fix the errors in the console");
             foreach (var jar in JarsOf(simulation))
             {
                 if (!File.Exists(Installation.PathOf(jar)))

@@ -1,97 +1,201 @@
+using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Threading;
+using UnityEditor;
 using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Builds the jar of a schema's Kotlin programs.</summary>
+    /// <summary>
+    /// Builds the jars of programs, and the C# of their schemas, one after the other in the <see cref="CompilerProcess"/> while the editor goes on. The
+    /// Progress window shows the current build. For the main thread.
+    /// </summary>
     internal static class ProgramBuild
     {
-        /// <summary>The exit code of the Kotlin compiler after an exception in the compiler or in a plugin.</summary>
+        /// <summary>The exit code of the compiler after an exception in the Kotlin compiler or in a plugin.</summary>
         private const int CompilerCrashed = 2;
 
-        /// <summary>Rebuilds the jars in the settings that are older than their programs in the project.</summary>
-        /// <returns>The jars that could not be built; the errors are logged.</returns>
-        internal static List<string> Refresh(SimulationSettings settings)
+        private const int PollMs = 10;
+
+        /// <summary>Of the session state: the jar whose build a reload of code interrupted.</summary>
+        private const string CurrentKey = "Collektive.Build";
+
+        private const string Work = "Library/Collektive/Build";
+
+        private static readonly List<SchemaProject> Waiting = new List<SchemaProject>();
+
+        private static SchemaProject current;
+        private static string sources;
+        private static DateTime begun;
+        private static string request;
+        private static int progress;
+
+        /// <summary>Set by the Progress window, maybe on another thread.</summary>
+        private static volatile bool isCanceled;
+
+        internal static bool IsRunning => current != null || Waiting.Count > 0;
+
+        /// <summary>Builds programs in the background. If one is being built, it is built again.</summary>
+        internal static void Start(List<SchemaProject> projects)
         {
-            var failed = new List<string>();
-            // The start of the simulation reports errors of the schema.
-            var schema = settings.jars.Count > 0 ? null : Schemas.TryFind(settings.schema);
-            var jars = schema != null ? settings.JarsFor(schema) : settings.jars;
-            foreach (var project in SchemaProject.FindAll(new ProgramRuntime(settings)))
+            foreach (var project in projects)
             {
-                // An imported sample has sources too, but runs from the package's own jar.
-                if (!jars.Contains(project.Jar) || !project.HasPrograms || !project.IsStale) continue;
-                if (!ToolsMenu.TryRun(() => Make(project))) failed.Add(project.Jar);
+                Waiting.RemoveAll(other => other.Jar == project.Jar);
+                Waiting.Add(project);
             }
-            return failed;
+            EditorApplication.update -= Update;
+            EditorApplication.update += Update;
+            Update();
         }
 
-        /// <returns>Whether the jar was built. Otherwise the errors are logged, and the jar is unchanged.</returns>
-        internal static bool Make(SchemaProject project)
+        /// <summary>Starts the builds of outdated jars after files or the editor's code changed.</summary>
+        /// <param name="changed">The changed files, by their paths from the project's folder.</param>
+        internal static void StartOutdated(IReadOnlyCollection<string> changed)
         {
-            var jdk = Toolchain.FindJdk();
-            var kotlin = Toolchain.FindKotlin(project.Runtime.Kind);
-            var work = AtomicFile.TemporaryPath(Path.GetFullPath(project.Jar));
-            var generated = Path.Combine(work, "generated");
-            var classes = Path.Combine(work, "classes");
-            Directory.CreateDirectory(classes);
+            var interrupted = current == null ? SessionState.GetString(CurrentKey, "") : "";
+            var projects = SchemaProject.FindAll();
+            ToolsMenu.TryRun(() =>
+            {
+                // A failed build is not repeated at each reload of code.
+                projects = projects.FindAll(project => project.Jar == interrupted
+                    || project.IsStale && (project.HasAny(changed) || SessionState.GetString(KeyOf(project), "") != project.Sources));
+                return true;
+            });
+            Start(projects);
+        }
+
+        /// <summary>Blocks until all builds have ended. The user can cancel.</summary>
+        internal static void Wait()
+        {
             try
             {
-                return SchemaCode.MakeJvm(project, generated)
-                    && CompileJava(jdk, generated, classes)
-                    && CompileKotlin(jdk, kotlin, classes, generated, project)
-                    && Pack(jdk, generated, classes, work, project);
+                while (IsRunning)
+                {
+                    var schema = (current ?? Waiting[0]).Schema;
+                    if (EditorUtility.DisplayCancelableProgressBar("Collektive", "Compiling the programs of " + schema, 0.5f)) isCanceled = true;
+                    Update();
+                    Thread.Sleep(PollMs);
+                }
             }
             finally
             {
-                Directory.Delete(work, true);
+                EditorUtility.ClearProgressBar();
             }
         }
 
-        private static bool CompileJava(string jdk, string generated, string classes)
+        /// <summary>Builds the outdated jars that simulations use, and waits for them.</summary>
+        /// <returns>The projects whose jars are outdated because their builds failed; the errors are logged.</returns>
+        internal static List<SchemaProject> Refresh(List<SchemaProject> projects)
         {
-            var arguments = new List<string> { "--release", "17", "-nowarn", "-proc:none", "-cp", Installation.HostJar, "-d", classes };
-            arguments.AddRange(Directory.GetFiles(generated, "*.java", SearchOption.AllDirectories));
-            return Run("javac", Path.Combine(jdk, "bin/javac"), arguments);
+            var used = projects.FindAll(project => project.IsUsed);
+            Start(used.FindAll(project => project.IsStale && project.Jar != current?.Jar));
+            if (IsRunning) Wait();
+            return used.FindAll(project => project.IsStale);
         }
 
-        private static bool CompileKotlin(string jdk, string kotlin, string classes, string generated, SchemaProject project)
+        private static string KeyOf(SchemaProject project) => "Collektive.Built." + project.Jar;
+
+        private static void Update()
         {
-            var path = new List<string> { Installation.HostJar };
-            path.AddRange(project.Runtime.Library);
-            path.Add(classes);
-            var arguments = new List<string>
+            if (isCanceled) Cancel();
+            else if (current != null) Continue();
+            else if (Waiting.Count > 0) Begin();
+            else EditorApplication.update -= Update;
+        }
+
+        private static void Begin()
+        {
+            current = Waiting[0];
+            Waiting.RemoveAt(0);
+            progress = Progress.Start("Compiling programs", current.Schema, Progress.Options.Indefinite);
+            Progress.RegisterCancelCallback(progress, () => isCanceled = true);
+            Submit();
+        }
+
+        private static void Submit()
+        {
+            SessionState.SetString(CurrentKey, current.Jar);
+            begun = DateTime.UtcNow;
+            try
             {
-                "-Xmx1g", "-XX:+UseSerialGC", "-cp", Path.Combine(kotlin, "lib/*"), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler",
-                "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", string.Join(Path.PathSeparator.ToString(), path), "-d", classes, generated,
-                Path.GetFullPath(project.Programs),
-            };
-            arguments.AddRange(project.Runtime.Arguments());
-            return Run("the Kotlin compiler", Toolchain.Command(jdk, "java"), arguments);
+                sources = current.Sources;
+                SessionState.SetString(KeyOf(current), sources);
+                var runtime = current.Runtime;
+                var words = WordsOf(current);
+                var libraries = new List<string>(runtime.Library) { Installation.HostJar };
+                libraries.AddRange(Array.FindAll(runtime.Arguments(), File.Exists));
+                request = CompilerProcess.Submit(Toolchain.FindJdk(), Toolchain.FindKotlin(runtime.Kind), libraries, words);
+            }
+            catch (Exception error) when (error is ToolException || error is IOException || error is UnauthorizedAccessException)
+            {
+                Fail(error);
+            }
         }
 
-        private static bool Pack(string jdk, string generated, string classes, string work, SchemaProject project)
+        private static void Continue()
         {
-            var part = Path.Combine(work, "programs.jar");
-            var mark = Path.Combine(work, "mark");
-            File.WriteAllText(mark, "Collektive-Runtime: " + project.Runtime.ManifestValue + "\n");
-            // The schema's service entry and binary form are in the folder of the generated code.
-            if (!Run("jar", Path.Combine(jdk, "bin/jar"), new List<string>
-                { "--create", "--file", part, "--manifest", mark, "-C", generated, "META-INF", "-C", classes, "." }))
-                return false;
-            AtomicFile.Rename(part, project.Jar);
-            project.WriteStamp();
-            return true;
+            Progress.Report(progress, -1f);
+            try
+            {
+                if (!CompilerProcess.TryTake(request, out var code, out var output)) return;
+                // A file was saved meanwhile. Killing the process would lose the loaded compilers.
+                if (current.Sources != sources) Submit();
+                else End(code, output);
+            }
+            catch (Exception error) when (error is ToolException || error is IOException || error is UnauthorizedAccessException)
+            {
+                Fail(error);
+            }
         }
 
-        private static bool Run(string name, string program, List<string> arguments)
+        private static void End(int code, string output)
         {
-            var (code, output) = ToolRun.Try(".", program, arguments.ToArray());
-            ToolConsole.Show(name, code, output);
+            ToolConsole.Show("the compiler of " + current.Schema, code, output);
             if (code == CompilerCrashed)
-                Debug.LogError(name + " crashed: the compiler plugin may be built for another version of the compiler; use the plugin's version");
-            return code == 0;
+                Debug.LogError("the Kotlin compiler crashed: the compiler plugin may be built for another version of the compiler; use the plugin's version");
+            var built = current;
+            Finish(code == 0 ? Progress.Status.Succeeded : Progress.Status.Failed);
+            if (code == 0) AssetDatabase.ImportAsset(built.Jar);
+            if (built.HasGeneratedSince(begun)) AssetDatabase.Refresh();
+        }
+
+        /// <summary>Other builds would fail for the same reason: a missing tool.</summary>
+        private static void Fail(Exception error)
+        {
+            Waiting.Clear();
+            Debug.LogError(error.Message);
+            Finish(Progress.Status.Failed);
+        }
+
+        private static void Cancel()
+        {
+            isCanceled = false;
+            Waiting.Clear();
+            if (current == null) return;
+            CompilerProcess.Kill();
+            Finish(Progress.Status.Canceled);
+        }
+
+        private static void Finish(Progress.Status status)
+        {
+            current = null;
+            SessionState.EraseString(CurrentKey);
+            Progress.Finish(progress, status);
+        }
+
+        private static List<string> WordsOf(SchemaProject project)
+        {
+            var words = new List<string>
+            {
+                "--flatc", Toolchain.Flatc(), "--include", Toolchain.SchemaFolder, "--schema", Path.GetFullPath(project.Schema),
+                "--csharp", Path.GetFullPath(project.Generated), "--jar", Path.GetFullPath(project.Jar), "--work", Path.GetFullPath(Work),
+                "--mark", "Collektive-Runtime:" + project.Runtime.ManifestValue, "--library", Installation.HostJar,
+            };
+            foreach (var jar in project.Runtime.Library) words.AddRange(new[] { "--library", jar });
+            foreach (var argument in project.Runtime.Arguments()) words.AddRange(new[] { "--kotlin", argument });
+            if (Directory.Exists(project.Programs)) words.AddRange(new[] { "--source", Path.GetFullPath(project.Programs) });
+            return words;
         }
     }
 }

@@ -4,7 +4,6 @@ using System.IO;
 using System.Security.Cryptography;
 using System.Text;
 using Collektive.Bridge;
-using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor
 {
@@ -22,13 +21,6 @@ namespace Collektive.Unity.Editor
             Kind = settings.runtime;
             jars = settings.runtimeJars;
             plugin = settings.runtimePlugin;
-        }
-
-        /// <summary>Returns the runtime of the open scene's manager, or the built-in one without a manager.</summary>
-        internal static ProgramRuntime OfScene()
-        {
-            var manager = Object.FindAnyObjectByType<SimulationManager>();
-            return new ProgramRuntime(manager == null ? new SimulationSettings() : manager.Settings);
         }
 
         internal AggregateRuntime Kind { get; } = AggregateRuntime.BuiltIn;

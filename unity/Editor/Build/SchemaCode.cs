@@ -7,17 +7,12 @@ namespace Collektive.Unity.Editor
     {
         /// <summary>Makes the C# that sensors and actuators use.</summary>
         /// <returns>Whether the code was generated; otherwise the errors are logged.</returns>
-        internal static bool MakeCSharp(SchemaProject project) => Make(project, "--csharp", project.Generated);
-
-        /// <summary>Makes the Java that programs use.</summary>
-        internal static bool MakeJvm(SchemaProject project, string folder) => Make(project, "--jvm", folder);
-
-        private static bool Make(SchemaProject project, string language, string folder)
+        internal static bool MakeCSharp(SchemaProject project)
         {
             var java = Toolchain.FindJava();
             var (code, output) = ToolRun.Try(
                 ".", java, "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", Toolchain.Generator, "--flatc", Toolchain.Flatc(),
-                "--include", Toolchain.SchemaFolder, "--schema", Path.GetFullPath(project.Schema), language, Path.GetFullPath(folder));
+                "--include", Toolchain.SchemaFolder, "--schema", Path.GetFullPath(project.Schema), "--csharp", Path.GetFullPath(project.Generated));
             ToolConsole.Show("the generator of " + project.Schema, code, output);
             return code == 0;
         }

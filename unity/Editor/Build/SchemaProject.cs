@@ -1,23 +1,30 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor
 {
     /// <summary>
     /// A user's schema, and what belongs to it by location: the generated C# in <c>Generated</c> beside it, the Kotlin in
-    /// <c>Programs</c> beside it, and the jar that is built from both, <c>Library/Collektive/NAME.jar</c>.
+    /// <c>Programs</c> beside it, and the jar that is built from both, <c>NAME.clkprograms</c> beside it.
     /// </summary>
     internal sealed class SchemaProject
     {
-        internal SchemaProject(string schema, ProgramRuntime runtime)
+        private SchemaProject(string schema, IReadOnlyList<SimulationSettings> simulations)
         {
             Schema = schema;
-            Runtime = runtime;
+            var user = First(simulations, Uses);
+            IsUsed = user != null;
+            Runtime = new ProgramRuntime(user ?? (simulations.Count > 0 ? simulations[0] : new SimulationSettings()));
         }
 
-        /// <summary>The runtime for which its programs are compiled.</summary>
+        /// <summary>The runtime for which its programs are compiled: that of a simulation that uses them, or else of any simulation.</summary>
         internal ProgramRuntime Runtime { get; }
+
+        /// <summary>Whether one of the simulations runs its programs.</summary>
+        internal bool IsUsed { get; }
 
         /// <summary>The schema's path from the project's folder.</summary>
         internal string Schema { get; }
@@ -28,47 +35,81 @@ namespace Collektive.Unity.Editor
 
         internal string Programs => Path.Combine(Path.GetDirectoryName(Schema), "Programs");
 
-        /// <summary>The jar, as the manager's settings name it.</summary>
-        internal string Jar => Installation.JarOf(Name, Runtime.Kind);
+        /// <summary>The jar, an asset that can be committed.</summary>
+        internal string Jar => Path.ChangeExtension(Schema, "clkprograms");
 
-        internal bool HasPrograms => Directory.Exists(Programs) && Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories).Length > 0;
+        internal bool HasPrograms => SourceHash.KotlinFiles(Programs).Length > 0;
 
-        /// <summary>Names the version of the package that built the jar, whose generated code is specific to it, and the runtime of the jar.</summary>
-        private string StampFile => Jar + ".version";
+        /// <summary>The hash of the schema and the programs as they are now.</summary>
+        internal string Sources => SourceHash.Of(Schema, Programs);
 
-        private string Stamp => PackageState.Version + " " + Runtime.ManifestValue;
-
-        /// <summary>Records the package version that built the jar.</summary>
-        internal void WriteStamp() => File.WriteAllText(StampFile, Stamp);
-
-        /// <summary>Whether the schema or a program was changed after the jar was made, or another version of the package or runtime made it.</summary>
+        /// <summary>
+        /// Whether the jar was built from other sources, for another runtime or by another version of the package, whose generated code is specific to it.
+        /// A project with neither programs nor a jar is not.
+        /// </summary>
+        /// <exception cref="ToolException">The runtime's jars are missing.</exception>
         internal bool IsStale
         {
             get
             {
-                if (!File.Exists(Jar) || !File.Exists(StampFile) || File.ReadAllText(StampFile) != Stamp) return true;
-                var made = File.GetLastWriteTimeUtc(Jar);
-                if (File.GetLastWriteTimeUtc(Schema) > made) return true;
-                foreach (var file in Directory.GetFiles(Programs, "*.kt", SearchOption.AllDirectories))
-                {
-                    if (File.GetLastWriteTimeUtc(file) > made) return true;
-                }
-                return false;
+                if (!HasPrograms && !File.Exists(Jar)) return false;
+                var attributes = JarManifest.Read(Jar);
+                bool Has(string name, string value) => attributes.TryGetValue(name, out var built) && built == value;
+                return !Has("Collektive-Version", PackageState.Version) || !Has("Collektive-Runtime", Runtime.ManifestValue)
+                    || !Has("Collektive-Sources", Sources);
             }
         }
 
+        /// <summary>Whether any of these files lies in the schema's folder.</summary>
+        internal bool HasAny(IEnumerable<string> files)
+        {
+            var folder = Path.GetDirectoryName(Schema).Replace('\\', '/') + "/";
+            foreach (var file in files)
+            {
+                if (file.StartsWith(folder, StringComparison.Ordinal)) return true;
+            }
+            return false;
+        }
+
+        /// <summary>Whether any of its C# was written since then.</summary>
+        internal bool HasGeneratedSince(DateTime time) => Directory.Exists(Generated)
+            && Array.Exists(Directory.GetFiles(Generated, "*.cs", SearchOption.AllDirectories), file => File.GetLastWriteTimeUtc(file) >= time);
+
+        /// <summary>The same, for the simulations of the loaded scenes.</summary>
+        internal static List<SchemaProject> FindAll()
+        {
+#if UNITY_6000_5_OR_NEWER
+            var managers = Object.FindObjectsByType<SimulationManager>();
+#else
+            var managers = Object.FindObjectsByType<SimulationManager>(FindObjectsSortMode.None);
+#endif
+            return FindAll(Array.ConvertAll(managers, manager => manager.Settings));
+        }
+
         /// <summary>All schemas below <c>Assets</c>, by path, without folders that Unity ignores.</summary>
-        internal static List<SchemaProject> FindAll(ProgramRuntime runtime)
+        internal static List<SchemaProject> FindAll(IReadOnlyList<SimulationSettings> simulations)
         {
             var found = new List<SchemaProject>();
             if (!Directory.Exists("Assets")) return found;
             foreach (var schema in Directory.GetFiles("Assets", "*.fbs", SearchOption.AllDirectories))
             {
                 var path = schema.Replace('\\', '/');
-                if (!path.Contains("~/") && !path.Contains("/.")) found.Add(new SchemaProject(path, runtime));
+                if (!path.Contains("~/") && !path.Contains("/.")) found.Add(new SchemaProject(path, simulations));
             }
             found.Sort((a, b) => string.CompareOrdinal(a.Schema, b.Schema));
             return found;
+        }
+
+        private bool Uses(SimulationSettings simulation) => simulation.jars.Contains(Jar)
+            || simulation.jars.Count == 0 && Schemas.TryFind(simulation.schema)?.File == Name;
+
+        private static SimulationSettings First(IReadOnlyList<SimulationSettings> simulations, Predicate<SimulationSettings> matches)
+        {
+            foreach (var simulation in simulations)
+            {
+                if (matches(simulation)) return simulation;
+            }
+            return null;
         }
     }
 }

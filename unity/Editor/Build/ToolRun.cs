@@ -12,34 +12,44 @@ namespace Collektive.Unity.Editor
         /// <returns>Its exit code, and what it printed, errors included.</returns>
         internal static (int Code, string Output) Try(string folder, string program, params string[] arguments)
         {
-            var start = new ProcessStartInfo(program)
-            {
-                Arguments = Quoted(arguments),
-                WorkingDirectory = folder,
-                UseShellExecute = false,
-                CreateNoWindow = true,
-                RedirectStandardOutput = true,
-                RedirectStandardError = true,
-            };
             var output = new StringBuilder();
-            using (var process = new Process { StartInfo = start })
+            using (var process = Start(folder, program, output, arguments))
             {
-                // Both streams are read as they come: a full pipe would stop the program.
-                process.OutputDataReceived += (_, line) => Append(output, line.Data);
-                process.ErrorDataReceived += (_, line) => Append(output, line.Data);
-                try
-                {
-                    process.Start();
-                }
-                catch (System.ComponentModel.Win32Exception error)
-                {
-                    throw new ToolException(program + " cannot be started: " + error.Message);
-                }
-                process.BeginOutputReadLine();
-                process.BeginErrorReadLine();
                 process.WaitForExit();
                 return (process.ExitCode, output.ToString());
             }
+        }
+
+        /// <summary>Starts a program whose messages are appended to <paramref name="output"/>, on other threads: lock it.</summary>
+        /// <exception cref="ToolException">It cannot be started.</exception>
+        internal static Process Start(string folder, string program, StringBuilder output, params string[] arguments)
+        {
+            var process = new Process
+            {
+                StartInfo = new ProcessStartInfo(program)
+                {
+                    Arguments = Quoted(arguments),
+                    WorkingDirectory = folder,
+                    UseShellExecute = false,
+                    CreateNoWindow = true,
+                    RedirectStandardOutput = true,
+                    RedirectStandardError = true,
+                },
+            };
+            // Both streams are read as they come: a full pipe would stop the program.
+            process.OutputDataReceived += (_, line) => Append(output, line.Data);
+            process.ErrorDataReceived += (_, line) => Append(output, line.Data);
+            try
+            {
+                process.Start();
+            }
+            catch (System.ComponentModel.Win32Exception error)
+            {
+                throw new ToolException(program + " cannot be started: " + error.Message);
+            }
+            process.BeginOutputReadLine();
+            process.BeginErrorReadLine();
+            return process;
         }
 
         /// <summary>Runs a program that must succeed.</summary>

@@ -54,29 +54,29 @@ namespace Collektive.Unity.Editor
         /// <exception cref="ToolException">Not found.</exception>
         internal static string FindJava()
         {
-            var candidates = new List<string> { Installation.Bundled, ProjectSettings.instance.jdk };
+            var candidates = new List<string> { Installation.Bundled, PersonalSettings.instance.jdk };
             AddInstalled(candidates);
             var found = candidates.Find(home => IsJre(home) && Version(home) >= 17);
             return found != null ? Command(found, "java") : throw new ToolException(
                 "no Java 17 or newer was found: install a JVM package of Collektive, or a JRE or JDK (Debian and Ubuntu: openjdk-17-jre-headless, otherwise "
-                + "adoptium.net), and set JAVA_HOME or its folder in Project Settings > Collektive");
+                + "adoptium.net), and set JAVA_HOME or its folder in Preferences > Collektive");
         }
 
         /// <summary>Returns the root of the JDK: from the settings, <c>JAVA_HOME</c>, or the newest of the usual folders.</summary>
         /// <exception cref="ToolException">Not found.</exception>
         internal static string FindJdk()
         {
-            var named = ProjectSettings.instance.jdk;
+            var named = PersonalSettings.instance.jdk;
             if (named.Length > 0)
                 return IsJdk(named) ? named
-                    : throw new ToolException("the JDK in the project settings, " + named
-                        + ", has no bin/javac: correct its folder in Project Settings > Collektive");
+                    : throw new ToolException("the JDK in the preferences, " + named
+                        + ", has no bin/javac: correct its folder in Preferences > Collektive");
             var candidates = new List<string>();
             AddInstalled(candidates);
             var found = candidates.Find(home => IsJdk(home) && Version(home) >= 17);
             return found ?? throw new ToolException(
                 "no JDK 17 or newer was found: install one (Debian and Ubuntu: openjdk-17-jdk-headless, otherwise adoptium.net) "
-                + "and set its folder in Project Settings > Collektive, or JAVA_HOME");
+                + "and set its folder in Preferences > Collektive, or JAVA_HOME");
         }
 
         /// <summary>Returns the root of the Kotlin compiler: from the settings, <c>KOTLIN_HOME</c> or <c>PATH</c>.</summary>
@@ -84,7 +84,7 @@ namespace Collektive.Unity.Editor
         /// <exception cref="ToolException">Not found, or of another version.</exception>
         internal static string FindKotlin(AggregateRuntime runtime)
         {
-            var candidates = new List<string> { ProjectSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
+            var candidates = new List<string> { PersonalSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
             foreach (var folder in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
             {
                 // The compiler's own bin folder; a link in /usr/bin does not reveal the compiler's folder.
@@ -94,7 +94,7 @@ namespace Collektive.Unity.Editor
             }
             var home = candidates.Find(candidate => candidate.Length > 0);
             var wanted = "download kotlin-compiler-" + KotlinVersion
-                + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and set its folder kotlinc in Project Settings > Collektive";
+                + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and set its folder kotlinc in Preferences > Collektive";
             if (home == null) throw new ToolException("no Kotlin compiler was found: " + wanted);
             var version = Path.Combine(home, "build.txt");
             if (!Directory.Exists(Path.Combine(home, "lib")) || !File.Exists(version))
@@ -147,7 +147,7 @@ namespace Collektive.Unity.Editor
         private static bool IsJdk(string home) => IsJre(home) && File.Exists(Command(home, "javac"));
 
         /// <summary>Returns the major version of a JDK, or 0 if it is unknown.</summary>
-        private static int Version(string home)
+        internal static int Version(string home)
         {
             var release = Path.Combine(home, "release");
             if (!File.Exists(release)) return 0;

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Threading.Tasks;
 using Collektive.Bridge;
 using UnityEditor;
 using UnityEngine;
@@ -12,15 +13,18 @@ namespace Collektive.Unity.Editor
         private const int StopLimitMs = 5000;
 
         private JvmReport report;
+        private string failure = "";
         private string reported;
+        private Task<JvmReport> check;
 
         /// <inheritdoc/>
         public override void OnInspectorGUI()
         {
             var settings = ((JvmSettingsAsset)target).settings;
-            Check(settings);
+            CheckIfChanged(settings);
             serializedObject.Update();
-            if (report.Notice.Length > 0) EditorGUILayout.HelpBox(report.Notice, MessageType.Info);
+            if (failure.Length > 0) EditorGUILayout.HelpBox(failure, MessageType.Error);
+            if (report != null && report.Notice.Length > 0) EditorGUILayout.HelpBox(report.Notice, MessageType.Info);
             DrawProcess();
             var fields = serializedObject.FindProperty("settings");
             foreach (var setting in JvmSetting.All)
@@ -35,7 +39,7 @@ namespace Collektive.Unity.Editor
         private void DrawProcess()
         {
             if (Jvm.Process == 0 || Jvm.State != JvmState.Running) return;
-            if (report.Status != null) EditorGUILayout.LabelField("JVM", Dashboard.OfProcess(report.Status));
+            if (report?.Status != null) EditorGUILayout.LabelField("JVM", Dashboard.OfProcess(report.Status));
             using (new EditorGUI.DisabledScope(Application.isPlaying))
             {
                 if (GUILayout.Button("Restart JVM")) Stop();
@@ -57,8 +61,11 @@ namespace Collektive.Unity.Editor
 
         private void Draw(JvmSetting setting, SerializedProperty field)
         {
-            var label = setting.Unit.Length > 0 ? setting.Label + " (" + setting.Unit + ")" : setting.Label;
-            EditorGUILayout.PropertyField(field, new GUIContent(label, setting.Tooltip), true);
+            var label = new GUIContent(setting.Unit.Length > 0 ? setting.Label + " (" + setting.Unit + ")" : setting.Label, setting.Tooltip);
+            if (setting.Type == typeof(int)) EditorGUILayout.DelayedIntField(field, label);
+            else if (setting.Type == typeof(string)) EditorGUILayout.DelayedTextField(field, label);
+            else EditorGUILayout.PropertyField(field, label, true);
+            if (report == null) return;
             var effective = report.Effective(setting);
             if (effective.Length > 0) EditorGUILayout.LabelField(" ", "in effect: " + effective);
             var problem = report.Problem(setting);
@@ -66,12 +73,53 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>Checks the settings again if they or the JVM's state changed.</summary>
-        private void Check(JvmSettings settings)
+        private void CheckIfChanged(JvmSettings settings)
         {
             var now = Jvm.State + " " + Jvm.Process + TextOf(settings);
-            if (now == reported) return;
+            if (now == reported || check != null) return;
             reported = now;
-            report = JvmReport.Of(settings, Installation.ToLaunch);
+            // The package's files are looked for on the main thread, but not during an event of the GUI.
+            EditorApplication.delayCall += () => Start(settings.Copy());
+        }
+
+        private void Start(JvmSettings settings)
+        {
+            if (this == null) return;
+            try
+            {
+                var status = Jvm.TryGetStatus();
+                var launch = TryFind(settings, out var problem);
+                check = Task.Run(() => JvmReport.Of(settings, status, _ => launch ?? throw problem));
+            }
+            catch (BridgeException error)
+            {
+                check = Task.FromException<JvmReport>(error);
+            }
+            EditorApplication.update += Finish;
+        }
+
+        private static JvmLaunch TryFind(JvmSettings settings, out BridgeException problem)
+        {
+            problem = null;
+            try
+            {
+                return Installation.ToLaunch(settings);
+            }
+            catch (BridgeException error)
+            {
+                problem = error;
+                return null;
+            }
+        }
+
+        private void Finish()
+        {
+            if (!check.IsCompleted) return;
+            EditorApplication.update -= Finish;
+            failure = check.IsFaulted ? "The JVM settings could not be checked: " + check.Exception.GetBaseException().Message : "";
+            report = check.IsFaulted ? null : check.Result;
+            check = null;
+            if (this != null) Repaint();
         }
 
         private static string TextOf(JvmSettings settings)

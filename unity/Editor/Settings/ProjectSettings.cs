@@ -1,4 +1,5 @@
 using UnityEditor;
+using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
@@ -6,17 +7,20 @@ namespace Collektive.Unity.Editor
     [FilePath("ProjectSettings/Collektive.asset", FilePathAttribute.Location.ProjectFolder)]
     internal sealed class ProjectSettings : ScriptableSingleton<ProjectSettings>
     {
-        /// <summary>Root of a JDK 17 or newer, for building programs; empty to look for one.</summary>
+        /// <summary>Whether Play starts with the previous programs after a failed build.</summary>
+        public WhenProgramsFail whenProgramsFail = WhenProgramsFail.Ask;
+
+        /// <summary>Up to version 0.2: now in <see cref="PersonalSettings"/>.</summary>
+        [HideInInspector]
         public string jdk = "";
 
-        /// <summary>Root of a Kotlin compiler (the folder kotlinc); empty to look for one.</summary>
+        /// <summary>Up to version 0.2: now in <see cref="PersonalSettings"/>.</summary>
+        [HideInInspector]
         public string kotlin = "";
 
-        /// <summary>Root of a source checkout of the package; empty for most projects.</summary>
+        /// <summary>Up to version 0.2: now in <see cref="PersonalSettings"/>.</summary>
+        [HideInInspector]
         public string sourceCheckout = "";
-
-        /// <summary>Whether programs whose sources changed are built when Play is pressed.</summary>
-        public bool buildBeforePlay = true;
 
         internal void Store() => Save(true);
     }

@@ -18,6 +18,7 @@ namespace UnityEditor
         }
 
         public static void Refresh() => Project.Refreshes++;
+        public static void ImportAsset(string path) => Project.Imported.Add(path);
 
         sealed class PlainAsset : Object { }
     }

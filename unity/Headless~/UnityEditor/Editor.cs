@@ -29,6 +29,7 @@ namespace UnityEditor
             return false;
         }
 
+        public void Repaint() { }
         public virtual void OnInspectorGUI() => DrawDefaultInspector();
         public virtual bool RequiresConstantRepaint() => false;
     }

@@ -12,15 +12,30 @@ namespace UnityEditor
 
     public sealed class EditorApplication
     {
+        public delegate void CallbackFunction();
+
+        public static CallbackFunction update;
+        public static CallbackFunction delayCall;
+
         public static event Action<PlayModeStateChange> playModeStateChanged;
 
         static readonly System.Diagnostics.Stopwatch Clock = System.Diagnostics.Stopwatch.StartNew();
 
         public static bool isPlaying { get; set; }
+        public static bool isCompiling { get; internal set; }
         public static double timeSinceStartup => Clock.Elapsed.TotalSeconds;
 
         /// Calls the entry with that path, without a context. False if it does not exist.
         public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath);
+
+        /// One round of the editor's loop. Calls that are added in it are for the next one.
+        internal static void Tick()
+        {
+            var delayed = delayCall;
+            delayCall = null;
+            delayed?.Invoke();
+            update?.Invoke();
+        }
 
         internal static void RaisePlayMode(PlayModeStateChange change)
         {

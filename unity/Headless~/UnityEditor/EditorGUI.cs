@@ -72,6 +72,12 @@ namespace UnityEditor
             return false;
         }
 
+        public static void DelayedTextField(SerializedProperty property, GUIContent label, params GUILayoutOption[] options) =>
+            PropertyField(property, label, false);
+
+        public static void DelayedIntField(SerializedProperty property, GUIContent label, params GUILayoutOption[] options) =>
+            PropertyField(property, label, false);
+
         public static string TextField(string label, string text, params GUILayoutOption[] options)
         {
             Gui.Draw("text", label, text);

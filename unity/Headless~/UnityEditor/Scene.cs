@@ -16,6 +16,10 @@ namespace UnityEditor
 
     public class Undo
     {
+        public delegate void UndoRedoCallback();
+
+        public static UndoRedoCallback undoRedoPerformed;
+
         public static void RegisterCreatedObjectUndo(Object objectToUndo, string name) => Headless.Project.Undoable.Add(name);
     }
 

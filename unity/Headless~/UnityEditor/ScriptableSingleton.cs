@@ -42,7 +42,8 @@ namespace UnityEditor
             {
                 var parts = line.Split(new[] { ": " }, 2, System.StringSplitOptions.None);
                 var field = typeof(T).GetField(parts[0]);
-                field.SetValue(single, System.Convert.ChangeType(parts[1], field.FieldType));
+                if (field == null) continue;
+                field.SetValue(single, field.FieldType.IsEnum ? System.Enum.Parse(field.FieldType, parts[1]) : System.Convert.ChangeType(parts[1], field.FieldType));
             }
         }
     }

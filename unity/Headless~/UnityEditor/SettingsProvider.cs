@@ -1,5 +1,5 @@
-using System;
 using System.Collections.Generic;
+using UnityEngine.UIElements;
 
 namespace UnityEditor
 {
@@ -11,11 +11,9 @@ namespace UnityEditor
 
     public class SettingsProvider
     {
-        public string label { get; set; }
         public string settingsPath { get; }
         public SettingsScope scope { get; }
         public IEnumerable<string> keywords { get; set; }
-        public Action<string> guiHandler { get; set; }
 
         public SettingsProvider(string path, SettingsScope scopes, IEnumerable<string> keywords = null)
         {
@@ -23,5 +21,10 @@ namespace UnityEditor
             scope = scopes;
             this.keywords = keywords;
         }
+
+        public virtual void OnActivate(string searchContext, VisualElement rootElement) { }
+        public virtual void OnDeactivate() { }
+        public virtual void OnGUI(string searchContext) { }
+        public void Repaint() { }
     }
 }

@@ -1,7 +1,6 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
-using System.IO.Compression;
 using Collektive.Bridge;
 using Collektive.Unity;
 using Collektive.Unity.Editor;
@@ -61,55 +60,6 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             Assert.That(Logged("ActuatorData is missing"), Is.StringStarting("Error: "));
         }
 
-        [Test, Category("Slow")]
-        public void Programs_become_a_jar_that_is_made_anew_before_play_when_they_changed()
-        {
-            UseKotlin();
-            Write("Assets/Swarm/swarm.fbs", Schema);
-            Write("Assets/Swarm/Programs/Count.kt", Kotlin);
-            EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
-            Assert.That(File.Exists("Library/Collektive/swarm.jar"), Is.True, string.Join("\n", Log));
-            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs", ProgramRuntime.OfScene()).IsStale, Is.False);
-            Assert.That(IndexOf("Library/Collektive/swarm.jar"), Is.EqualTo("program\tcount\tswarm.SensorData\n"));
-            var version = File.ReadAllText("Library/Collektive/swarm.jar.version");
-            File.WriteAllText("Library/Collektive/swarm.jar.version", "0.0.1 builtIn");
-            Assert.That(new SchemaProject("Assets/Swarm/swarm.fbs", ProgramRuntime.OfScene()).IsStale, Is.True,
-                "another version of the package generates other code");
-            File.WriteAllText("Library/Collektive/swarm.jar.version", version);
-
-            var manager = new GameObject("Manager").AddComponent<SimulationManager>();
-            manager.Settings.jars.Add("Library/Collektive/swarm.jar");
-            var first = File.GetLastWriteTimeUtc("Library/Collektive/swarm.jar");
-            Menus.Load();
-            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
-            Assert.That(File.GetLastWriteTimeUtc("Library/Collektive/swarm.jar"), Is.EqualTo(first), "nothing changed");
-
-            Write("Assets/Swarm/Programs/Count.kt", Kotlin.Replace("heard.neighbors.size", "heard.neighbours.size"));
-            File.SetLastWriteTimeUtc("Assets/Swarm/Programs/Count.kt", first.AddSeconds(1));
-            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
-            Assert.That(Logged("neighbours"), Is.StringStarting("Error: Assets/Swarm/Programs/Count.kt(10,"));
-            Logged("Library/Collektive/swarm.jar is older than its sources");
-            Assert.That(File.GetLastWriteTimeUtc("Library/Collektive/swarm.jar"), Is.EqualTo(first), "the old jar stays");
-        }
-
-        /// <summary>What the compiler plugin wrote into a jar of the programs in Count.kt.</summary>
-        private static string IndexOf(string jar)
-        {
-            using (var archive = new ZipArchive(File.OpenRead(jar)))
-            using (var reader = new StreamReader(archive.GetEntry("META-INF/collektive/programs/swarm.CountKt").Open())) return reader.ReadToEnd();
-        }
-
-        [Test]
-        public void A_sample_that_runs_from_the_packages_jar_is_not_built_before_play()
-        {
-            Write("Assets/Sample/swarm.fbs", Schema);
-            Write("Assets/Sample/Programs/Count.kt", Kotlin);
-            new GameObject("Manager").AddComponent<SimulationManager>().Settings.jars.Add("Packages/org.collektive.unity/Jvm~/collektive-samples.jar");
-            Menus.Load();
-            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
-            Assert.That(Log, Is.Empty);
-        }
-
         [Test]
         public void Without_schemas_the_menu_says_where_they_belong()
         {
@@ -129,13 +79,14 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             try
             {
                 EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
+                ProgramBuild.Wait();
             }
             finally
             {
                 Environment.SetEnvironmentVariable("PATH", path);
                 Environment.SetEnvironmentVariable("KOTLIN_HOME", home);
             }
-            Assert.That(Logged("no Kotlin compiler was found"), Is.StringContaining("Project Settings > Collektive"));
+            Assert.That(Logged("no Kotlin compiler was found"), Is.StringContaining("Preferences > Collektive"));
         }
 
         [Test]
@@ -173,7 +124,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         public void Code_is_generated_by_a_JRE_of_the_users()
         {
             MakeJre(Path.GetFullPath("jre"));
-            ProjectSettings.instance.jdk = Path.GetFullPath("jre");
+            PersonalSettings.instance.jdk = Path.GetFullPath("jre");
             Assert.That(Toolchain.FindJava(), Is.EqualTo(Path.GetFullPath("jre/bin/java")));
             Assert.That(Assert.Throws<ToolException>(() => Toolchain.FindJdk()).Message, Is.StringContaining("has no bin/javac"));
         }
@@ -259,7 +210,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         [Test]
         public void A_JDK_that_is_none_is_named()
         {
-            ProjectSettings.instance.jdk = "/nowhere/jdk";
+            PersonalSettings.instance.jdk = "/nowhere/jdk";
             Assert.That(Assert.Throws<ToolException>(() => Toolchain.FindJdk()).Message, Is.StringContaining("/nowhere/jdk"));
         }
 
@@ -268,7 +219,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         {
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Backend");
             Logged("source checkout");
-            ProjectSettings.instance.sourceCheckout = Path.GetFullPath(".");
+            PersonalSettings.instance.sourceCheckout = Path.GetFullPath(".");
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Backend");
             Logged("the command collektive is missing");
         }
@@ -278,7 +229,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         {
             Write("checkout/collektive", "#!/bin/sh\necho packing\necho \"$PWD/out/$1.tgz\"\n");
             ToolRun.Do("/bin/chmod", "755", "checkout/collektive");
-            ProjectSettings.instance.sourceCheckout = Path.GetFullPath("checkout");
+            PersonalSettings.instance.sourceCheckout = Path.GetFullPath("checkout");
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Backend");
             Logged("built " + Path.GetFullPath("checkout/out/package.tgz"));
         }

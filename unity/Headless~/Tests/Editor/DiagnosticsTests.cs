@@ -312,7 +312,7 @@ namespace Collektive.Headless.Tests.Editor
             MakeThree();
             var asset = ScriptableObject.CreateInstance<Unity.JvmSettingsAsset>();
             var inspector = UnityEditor.Editor.CreateEditor(asset);
-            inspector.OnInspectorGUI();
+            InspectChecked(inspector);
             Assert.That(Gui.Lines, Has.Some.EqualTo("property Maximum heap (MB): 0"));
             Assert.That(Gui.Lines, Has.Some.EqualTo("label  : in effect: 256 MB"));
             Assert.That(Gui.Lines, Has.Some.Contains("Changes take effect " + TestJvm.WhenChangesTakeEffect));
@@ -321,7 +321,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Act("Maximum heap (MB)", 3);
             inspector.OnInspectorGUI();
             Assert.That(asset.settings.maximumHeapMb, Is.EqualTo(3));
-            inspector.OnInspectorGUI();
+            InspectChecked(inspector);
             Assert.That(Gui.Lines, Has.Some.Contains("help Error: maximum heap is 3: it must be 16"));
         }
 
@@ -336,6 +336,20 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Act("Maximum heap (MB)", 512);
             inspector.OnInspectorGUI();
             Assert.That(Manager.Settings.jvm.settings.maximumHeapMb, Is.EqualTo(512));
+        }
+
+        /// <summary>Draws the settings of a JVM, waits for their check on another thread, and draws again.</summary>
+        private static void InspectChecked(UnityEditor.Editor inspector)
+        {
+            inspector.OnInspectorGUI();
+            do
+            {
+                Menus.Tick();
+                System.Threading.Thread.Sleep(1);
+            }
+            while (EditorApplication.update != null);
+            Gui.Clear();
+            inspector.OnInspectorGUI();
         }
 
         /// <summary>Draws until a control is there: starting and writing a recording takes a moment.</summary>

@@ -2,6 +2,7 @@ using System.IO;
 using System.IO.Compression;
 using Collektive.Bridge;
 using Collektive.Unity;
+using Collektive.Unity.Editor;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEditor.Headless;
@@ -15,7 +16,7 @@ namespace Collektive.Headless.Tests.Editor
     [Category("Mono")]
     public sealed class ProgramRuntimeTests : ProjectFixture
     {
-        private const string Jar = "Library/Collektive/swarm-collektive.jar";
+        private const string Jar = "Assets/Swarm/swarm.clkprograms";
 
         private SimulationSettings settings;
 
@@ -38,11 +39,11 @@ namespace Collektive.Headless.Tests.Editor
         {
             UseKotlin();
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
+            ProgramBuild.Wait();
             Assert.That(File.Exists(Jar), Is.True, string.Join("\n", Log));
             using (var jar = ZipFile.OpenRead(Jar))
             using (var manifest = new StreamReader(jar.GetEntry("META-INF/MANIFEST.MF").Open()))
                 Assert.That(manifest.ReadToEnd(), Is.StringContaining("Collektive-Runtime: collektive "));
-            Assert.That(File.Exists("Library/Collektive/swarm.jar"), Is.False, "that of the built-in runtime is another one");
 
             settings.jars.Add(Jar);
             var first = File.GetLastWriteTimeUtc(Jar);
@@ -82,6 +83,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             UseKotlin();
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
+            ProgramBuild.Wait();
             Assert.That(File.Exists(Jar), Is.False);
         }
     }

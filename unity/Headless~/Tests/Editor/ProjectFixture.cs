@@ -32,6 +32,10 @@ namespace Collektive.Headless.Tests.Editor
             Directory.SetCurrentDirectory(folder);
             Unity.Installation.HostJar = null;
             SessionState.EraseString("Collektive.Version");
+            EditorApplication.delayCall = EditorApplication.update = null;
+            Undo.undoRedoPerformed = null;
+            Project.Answer = null;
+            Project.CancelsWaiting = false;
             Menus.Load();
             Copy("schema/types.fbs", "Tools~/types.fbs");
             Copy("build/flatc", "Tools~/linux-x64/flatc");
@@ -47,6 +51,8 @@ namespace Collektive.Headless.Tests.Editor
         {
             Application.logMessageReceived -= Keep;
             EditorApplication.isPlaying = false;
+            Loop.IsBatchMode = true;
+            Unity.Editor.CompilerProcess.Kill();
             Directory.SetCurrentDirectory(before);
             Directory.Delete(folder, true);
         }
@@ -71,8 +77,8 @@ namespace Collektive.Headless.Tests.Editor
             Write("kotlinc/build.txt", version);
             Directory.CreateDirectory("kotlinc/lib");
             foreach (var jar in Directory.GetFiles(Path.Combine(Root, "build/kotlinc"), "*.jar"))
-                File.Copy(jar, Path.Combine("kotlinc/lib", Path.GetFileName(jar)));
-            Unity.Editor.ProjectSettings.instance.kotlin = Path.GetFullPath("kotlinc");
+                Unity.Editor.ToolRun.Do("/bin/ln", "-s", jar, Path.Combine("kotlinc/lib", Path.GetFileName(jar)));
+            Unity.Editor.PersonalSettings.instance.kotlin = Path.GetFullPath("kotlinc");
         }
 
         private static void Copy(string built, string packed)

@@ -48,6 +48,18 @@ namespace UnityEditor.Headless
 
         public static void ChangePlayMode(PlayModeStateChange change) => EditorApplication.RaisePlayMode(change);
 
+        /// One round of the editor's loop.
+        public static void Tick() => EditorApplication.Tick();
+
+        /// Tells all postprocessors which assets changed, as the end of an import does. Without any, the domain was reloaded.
+        public static void Postprocess(string[] imported, string[] deleted)
+        {
+            foreach (var type in EditorTypes())
+                if (typeof(AssetPostprocessor).IsAssignableFrom(type))
+                    type.GetMethod("OnPostprocessAllAssets", Statics)?.Invoke(
+                        null, new object[] { imported, deleted, new string[0], new string[0], imported.Length + deleted.Length == 0 });
+        }
+
         /// Sends a message by name, if the object has it; what it throws comes out as it is.
         public static void Send(object receiver, string message)
         {

@@ -19,9 +19,28 @@ namespace UnityEditor.Headless
             path == Package || path.StartsWith(Package + "/") ? PackageCache + path.Substring(Package.Length) : path;
 
         public static int Refreshes { get; internal set; }
+        public static List<string> Imported { get; } = new List<string>();
         public static string Revealed { get; set; }
         public static UnityEngine.Object Pinged { get; internal set; }
         public static List<string> Undoable { get; } = new List<string>();
+
+        /// The items of the Progress window, in the order of their starts; the index is the id.
+        public static List<(string Description, Progress.Status Status)> ProgressItems { get; } = new List<(string, Progress.Status)>();
+
+        internal static Stack<System.Action> UndoSteps { get; } = new Stack<System.Action>();
+
+        /// What Edit > Undo does for fields of inspectors and settings.
+        public static void PerformUndo()
+        {
+            UndoSteps.Pop()();
+            Undo.undoRedoPerformed?.Invoke();
+        }
+
+        /// What the user clicks in a dialog, by its message.
+        public static System.Func<string, bool> Answer { get; set; }
+
+        /// Whether the user clicks Cancel beside a progress bar.
+        public static bool CancelsWaiting { get; set; }
 
         /// The asset path of the package's file that has this GUID; empty if none has it.
         internal static string PathOf(string guid)

@@ -26,7 +26,7 @@ namespace UnityEngine
 
         public static bool isPlaying => true;
         public static bool isEditor => Headless.Loop.IsEditor;
-        public static bool isBatchMode => true;
+        public static bool isBatchMode => Headless.Loop.IsBatchMode;
         public static bool runInBackground { get; set; }
         public static int targetFrameRate { get; set; }
         public static string dataPath => Headless.Loop.DataPath;

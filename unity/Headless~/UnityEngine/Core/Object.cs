@@ -23,6 +23,12 @@ namespace UnityEngine
         Include = 1,
     }
 
+    public enum FindObjectsSortMode
+    {
+        None = 0,
+        InstanceID = 1,
+    }
+
     /// A destroyed object is still there for C#, but compares equal to null and refuses to be used.
     public class Object
     {
@@ -107,6 +113,15 @@ namespace UnityEngine
         }
 
         public static void DontDestroyOnLoad(Object target) { } // the one scene is never replaced
+
+        /// Only the roots and their children of the one scene.
+        public static T[] FindObjectsByType<T>(FindObjectsSortMode sortMode) where T : Object
+        {
+            var found = new System.Collections.Generic.List<T>();
+            foreach (var root in SceneManagement.Scene.Roots)
+                if (root.activeInHierarchy) found.AddRange(root.GetComponentsInChildren<T>());
+            return found.ToArray();
+        }
 
         public static T FindAnyObjectByType<T>() where T : Object => FindAnyObjectByType<T>(FindObjectsInactive.Exclude);
         public static T FindAnyObjectByType<T>(FindObjectsInactive findObjectsInactive) where T : Object =>

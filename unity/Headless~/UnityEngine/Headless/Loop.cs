@@ -20,6 +20,9 @@ namespace UnityEngine.Headless
         /// The value of `Application.isEditor`: whether the process continues after `Quit`, as the editor does after play mode.
         public static bool IsEditor { get; set; }
 
+        /// The value of `Application.isBatchMode`.
+        public static bool IsBatchMode { get; set; } = true;
+
         /// The value of `Application.dataPath`: the folder of this process's program, unless it plays another one.
         public static string DataPath { get; set; } = AppDomain.CurrentDomain.BaseDirectory;
 

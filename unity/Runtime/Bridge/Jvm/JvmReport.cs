@@ -26,12 +26,15 @@ namespace Collektive.Bridge
         /// <summary>A remark on all settings; may be empty.</summary>
         internal string Notice { get; private set; } = "";
 
-        /// <summary>Checks <paramref name="settings"/> without starting a JVM.</summary>
+        /// <summary>Checks <paramref name="settings"/> without starting a JVM. Call it from the main thread.</summary>
         /// <param name="settings">The settings to check.</param>
         /// <param name="toLaunch">Returns the JVM's command line; throws <see cref="BridgeException"/> if no JVM is found.</param>
-        internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)
+        internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch) => Of(settings, Jvm.TryGetStatus(), toLaunch);
+
+        /// <summary>The same for a status that was asked for before, from any thread.</summary>
+        internal static JvmReport Of(JvmSettings settings, JvmStatus status, Func<JvmSettings, JvmLaunch> toLaunch)
         {
-            var report = new JvmReport(Jvm.TryGetStatus());
+            var report = new JvmReport(status);
             if (Jvm.FindProblem() != null) report.Add(nameof(JvmSettings.location), Jvm.FindProblem());
             foreach (var problem in settings.FindProblems()) report.Add(problem.Key, problem.Message);
             if (report.IsValid) report.Try(settings, toLaunch);

@@ -107,6 +107,14 @@ namespace Collektive.Bridge
         /// <summary>More JVM options, one per entry.</summary>
         public List<string> flags = new List<string>();
 
+        /// <summary>Returns a copy that later changes do not affect.</summary>
+        internal JvmSettings Copy()
+        {
+            var copy = (JvmSettings)MemberwiseClone();
+            copy.flags = new List<string>(flags);
+            return copy;
+        }
+
         /// <summary>Returns all errors that can be found without a JVM.</summary>
         internal List<JvmProblem> FindProblems()
         {

@@ -27,19 +27,27 @@ namespace Collektive.Unity
         private static DataSchema Choose(List<DataSchema> all, string name) =>
             string.IsNullOrEmpty(name) ? all.Count == 1 ? all[0] : null : all.Find(schema => schema.Name == name);
 
+        /// <summary>Returns the types of schemas. The editor replaces it, because it knows them without a search.</summary>
+        internal static Func<IEnumerable<Type>> FindTypes { get; set; } = ExportedTypes;
+
         /// <summary>All schemas, in no order.</summary>
         internal static List<DataSchema> FindAll()
         {
             var found = new List<DataSchema>();
+            foreach (var type in FindTypes())
+            {
+                if (type.IsVisible && !type.IsAbstract && typeof(DataSchema).IsAssignableFrom(type)) found.Add((DataSchema)Activator.CreateInstance(type));
+            }
+            return found;
+        }
+
+        private static IEnumerable<Type> ExportedTypes()
+        {
             foreach (var assembly in LoadedAssemblies())
             {
                 if (assembly.IsDynamic || !References(assembly)) continue;
-                foreach (var type in assembly.GetExportedTypes())
-                {
-                    if (!type.IsAbstract && typeof(DataSchema).IsAssignableFrom(type)) found.Add((DataSchema)Activator.CreateInstance(type));
-                }
+                foreach (var type in assembly.GetExportedTypes()) yield return type;
             }
-            return found;
         }
 
         /// <summary>On CoreCLR the domain also lists assemblies of unloaded code.</summary>

@@ -1,0 +1,29 @@
+using System;
+using System.Collections;
+using System.Collections.Generic;
+
+namespace UnityEditor
+{
+    public static class TypeCache
+    {
+        public static TypeCollection GetTypesDerivedFrom<T>()
+        {
+            var found = new List<Type>();
+            foreach (var assembly in AppDomain.CurrentDomain.GetAssemblies())
+            {
+                if (assembly.IsDynamic) continue;
+                foreach (var type in assembly.GetTypes())
+                    if (type != typeof(T) && typeof(T).IsAssignableFrom(type)) found.Add(type);
+            }
+            return new TypeCollection(found);
+        }
+
+        public struct TypeCollection : IEnumerable<Type>
+        {
+            readonly List<Type> types;
+            internal TypeCollection(List<Type> types) => this.types = types;
+            public IEnumerator<Type> GetEnumerator() => types.GetEnumerator();
+            IEnumerator IEnumerable.GetEnumerator() => GetEnumerator();
+        }
+    }
+}

@@ -1,0 +1,4 @@
+namespace UnityEngine.UIElements
+{
+    public class VisualElement { }
+}
