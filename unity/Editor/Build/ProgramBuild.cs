@@ -39,6 +39,7 @@ namespace Collektive.Unity.Editor
         /// <summary>Builds programs in the background. If one is being built, it is built again.</summary>
         internal static void Start(List<SchemaProject> projects)
         {
+            if (!IsRunning) isCanceled = false;
             foreach (var project in projects)
             {
                 Waiting.RemoveAll(other => other.Jar == project.Jar);

@@ -35,27 +35,32 @@ namespace Collektive.Unity.Editor
 
         internal bool IsError { get; }
 
+        /// <summary>The message, and in a second line the line of the source if the tool printed it.</summary>
         internal string Text { get; }
 
         /// <summary>Returns all messages in the output of flatc, the Kotlin compiler or javac.</summary>
         internal static List<ToolMessage> Parse(string output)
         {
             var messages = new List<ToolMessage>();
-            foreach (var line in output.Split('\n'))
+            var lines = Array.ConvertAll(output.Split('\n'), line => line.TrimEnd('\r'));
+            for (var i = 0; i < lines.Length; i++)
             {
-                var match = Place.Match(line.TrimEnd('\r'));
-                if (match.Success) messages.Add(Of(match));
+                var match = Place.Match(lines[i]);
+                if (!match.Success) continue;
+                // Kotlin and javac print the line of the source, and point at the place below it.
+                var hasSource = i + 2 < lines.Length && lines[i + 2].Contains("^") && lines[i + 2].Trim(' ', '^').Length == 0;
+                messages.Add(Of(match, hasSource ? "\n" + lines[i + 1] : ""));
             }
             return messages;
         }
 
-        private static ToolMessage Of(Match match)
+        private static ToolMessage Of(Match match, string source)
         {
             var text = match.Groups["text"].Value;
             var isError = match.Groups["kind"].Value == "error";
             var origin = Origin.Match(text);
             if (origin.Success) return new ToolMessage(origin.Groups["file"].Value, Number(origin.Groups["line"]), 0, isError, text.Substring(0, origin.Index));
-            return new ToolMessage(match.Groups["file"].Value, Number(match.Groups["line"]), Number(match.Groups["column"]), isError, text);
+            return new ToolMessage(match.Groups["file"].Value, Number(match.Groups["line"]), Number(match.Groups["column"]), isError, text + source);
         }
 
         private static int Number(Group group) => group.Success ? int.Parse(group.Value, CultureInfo.InvariantCulture) : 0;

@@ -39,6 +39,11 @@ namespace Collektive.Unity.Editor.Tests
             Assert.That(messages[0].IsError, Is.False);
         }
 
+        [TestCase("/a/Hops.kt:4:9: error: no\n    val x = nesting()\n            ^^^^^^^\n", "no\n    val x = nesting()")]
+        [TestCase("/a/Data.java:4: error: no\r\n    x = nesting();\r\n        ^\r\n1 error\r\n", "no\n    x = nesting();")]
+        [TestCase("/a/Hops.kt:4:9: error: no\n/a/Hops.kt:5:9: error: no\n", "no")]
+        public void A_message_shows_the_line_of_the_source(string output, string text) => Assert.That(ToolMessage.Parse(output)[0].Text, Is.EqualTo(text));
+
         [Test]
         public void Source_lines_carets_and_sums_are_no_messages()
         {

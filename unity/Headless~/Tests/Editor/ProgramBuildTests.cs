@@ -85,6 +85,7 @@ namespace Collektive.Headless.Tests.Editor
             Build();
             var error = Logged("neighbours");
             Assert.That(error, Is.StringStarting("Error: " + Count + "(10,"));
+            Assert.That(error, Is.StringContaining("\n    return ActuatorData(hops = heard.neighbours.size.toFloat())\n"), "the line of the source");
             Assert.That(error, Is.StringContaining("<a href=\"" + Count + "\" line=\"10\">"));
             Assert.That(File.Exists(Jar), Is.False);
             Log.Clear();
