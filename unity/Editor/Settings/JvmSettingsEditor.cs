@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.Threading.Tasks;
 using Collektive.Bridge;
@@ -91,7 +92,7 @@ namespace Collektive.Unity.Editor
                 var launch = TryFind(settings, out var problem);
                 check = Task.Run(() => JvmReport.Of(settings, status, _ => launch ?? throw problem));
             }
-            catch (BridgeException error)
+            catch (Exception error)
             {
                 check = Task.FromException<JvmReport>(error);
             }

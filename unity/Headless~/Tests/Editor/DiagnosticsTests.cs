@@ -326,6 +326,20 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void The_inspector_of_a_JVMs_settings_survives_a_failed_check()
+        {
+            var asset = ScriptableObject.CreateInstance<Unity.JvmSettingsAsset>();
+            asset.settings.location = JvmLocation.Folder;
+            asset.settings.home = "no\0path";
+            var inspector = UnityEditor.Editor.CreateEditor(asset);
+            InspectChecked(inspector);
+            Assert.That(Gui.Lines, Has.Some.StringStarting("help Error: The JVM settings could not be checked: "));
+            asset.settings.location = JvmLocation.Automatic;
+            InspectChecked(inspector);
+            Assert.That(Gui.Lines, Has.None.StringStarting("help Error: The JVM settings could not"));
+        }
+
+        [Test]
         public void The_JVMs_settings_are_edited_in_the_managers_inspector()
         {
             MakeThree();
