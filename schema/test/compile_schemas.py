@@ -37,7 +37,7 @@ def compile_test_schemas() -> Path:
         subprocess.run(projects.generator(schema, "--jvm", generated), check=True)
         subprocess.run([FLATC, "--java", "--gen-object-api", "--gen-all", "--no-warnings", "--java-package-prefix", "objects", "-I", ROOT / "schema",
                         "-o", generated, schema], check=True)
-    projects.compile_jvm(_run, str(LIBRARY_JAR), generated, classes, [])
+    _compile_jvm(generated, classes)
     return classes
 
 
@@ -48,10 +48,19 @@ def compile_generated(folder: Path) -> str:
         _run(csharp.command(folder / "TestSchemas.dll", sources, [*csharp.symbols(), *REFERENCES]))
         for name in ("RoundTrip.exe", "Collektive.FlatBuffers.dll", "Collektive.Bridge.dll"):
             shutil.copy(CSHARP / name, folder)
-        projects.compile_jvm(_run, str(LIBRARY_JAR), folder / "jvm", folder / "classes", [])
+        _compile_jvm(folder / "jvm", folder / "classes")
     except subprocess.CalledProcessError as error:
         return str(error.stdout) or f"the compiler ended with code {error.returncode}"
     return ""
+
+
+def _compile_jvm(generated: Path, classes: Path) -> None:
+    """Compiles the Java and then the Kotlin of a folder into a folder of classes."""
+    classes.mkdir(parents=True, exist_ok=True)
+    _run([find_jdk() / "bin/javac", "--release", "17", "-nowarn", "-proc:none", "-cp", HOST_JAR, "-d", classes, *sorted(generated.rglob("*.java"))])
+    _run([JAVA, "-Xmx1g", "-XX:+UseSerialGC", "-cp", BUILD / "kotlinc/*", "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler", "-no-stdlib", "-no-reflect",
+          "-jvm-target", "17", "-cp", f"{HOST_JAR}:{LIBRARY_JAR}:{classes}", "-d", classes, generated])
+    shutil.copytree(generated / "META-INF", classes / "META-INF", dirs_exist_ok=True)
 
 
 def _run(command: Sequence[str | Path]) -> None:

@@ -37,8 +37,8 @@ namespace Collektive.Unity.Editor
                     return EditorUtility.DisplayDialog("Collektive", "The programs of " + project.Schema
                         + " were not compiled after the last change. The Console shows the reason.", "Play Previous Programs", "Cancel");
                 default:
-                    Debug.LogError("Play was not started because the programs of " + project.Schema + " were not compiled after the last change: fix the errors "
-                        + "above, or change Play Previous Programs in Project Settings > Collektive");
+                    Debug.LogError("Play was not started because the programs of " + project.Schema + " were not compiled after the last change: fix the "
+                        + "errors above, or change Play Previous Programs in Project Settings > Collektive");
                     return false;
             }
         }

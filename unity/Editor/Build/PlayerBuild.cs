@@ -38,7 +38,8 @@ namespace Collektive.Unity.Editor
             var problem = settings.FindProblem();
             if (problem != null) throw simulation.Failure(problem);
             var failed = ProgramBuild.Refresh(SchemaProject.FindAll(new[] { settings }));
-            if (failed.Count > 0) throw simulation.Failure(failed[0].Jar + " is older than its sources because the build failed: fix the errors in the console");
+            if (failed.Count > 0)
+                throw simulation.Failure(failed[0].Jar + " is older than its sources because the build failed: fix the errors in the console");
             foreach (var jar in JarsOf(simulation))
             {
                 if (!File.Exists(Installation.PathOf(jar)))

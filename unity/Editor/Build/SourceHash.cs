@@ -37,7 +37,7 @@ namespace Collektive.Unity.Editor
         private static void AddIncluded(string file, string root, SortedDictionary<string, string> found)
         {
             if (!found.TryAdd(Name(root, file), file)) return;
-            foreach (Match include in Include.Matches(File.ReadAllText(file)))
+            foreach (Match include in Include.Matches(Encoding.UTF8.GetString(File.ReadAllBytes(file))))
             {
                 foreach (var folder in new[] { Path.GetDirectoryName(file), root })
                 {

@@ -43,7 +43,8 @@ namespace UnityEditor
                 var parts = line.Split(new[] { ": " }, 2, System.StringSplitOptions.None);
                 var field = typeof(T).GetField(parts[0]);
                 if (field == null) continue;
-                field.SetValue(single, field.FieldType.IsEnum ? System.Enum.Parse(field.FieldType, parts[1]) : System.Convert.ChangeType(parts[1], field.FieldType));
+                var isEnum = field.FieldType.IsEnum;
+                field.SetValue(single, isEnum ? System.Enum.Parse(field.FieldType, parts[1]) : System.Convert.ChangeType(parts[1], field.FieldType));
             }
         }
     }

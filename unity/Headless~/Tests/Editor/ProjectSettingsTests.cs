@@ -25,7 +25,8 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(File.ReadAllText("UserSettings/Collektive.asset"), Is.StringContaining("jdk: /opt/jdk"));
             Gui.Act("Play Previous Programs", WhenProgramsFail.Never);
             Draw(Shared);
-            Assert.That(File.ReadAllText("ProjectSettings/Collektive.asset"), Is.StringContaining("whenProgramsFail: Never").And.Not.StringContaining("/opt/jdk"));
+            Assert.That(File.ReadAllText("ProjectSettings/Collektive.asset"),
+                Is.StringContaining("whenProgramsFail: Never").And.Not.StringContaining("/opt/jdk"));
         }
 
         [Test]

@@ -51,7 +51,7 @@ namespace UnityEditor.Headless
         /// One round of the editor's loop.
         public static void Tick() => EditorApplication.Tick();
 
-        /// Tells all postprocessors which assets changed, as the end of an import does. Without any, the domain was reloaded.
+        /// Calls all postprocessors, as the end of an import does. Without changed assets, the domain was reloaded.
         public static void Postprocess(string[] imported, string[] deleted)
         {
             foreach (var type in EditorTypes())

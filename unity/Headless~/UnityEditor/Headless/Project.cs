@@ -29,14 +29,14 @@ namespace UnityEditor.Headless
 
         internal static Stack<System.Action> UndoSteps { get; } = new Stack<System.Action>();
 
-        /// What Edit > Undo does for fields of inspectors and settings.
+        /// Takes back the last change of fields in inspectors and settings, as Edit > Undo does.
         public static void PerformUndo()
         {
             UndoSteps.Pop()();
             Undo.undoRedoPerformed?.Invoke();
         }
 
-        /// What the user clicks in a dialog, by its message.
+        /// The user's answer to a dialog, by its message.
         public static System.Func<string, bool> Answer { get; set; }
 
         /// Whether the user clicks Cancel beside a progress bar.

@@ -24,8 +24,8 @@ import kotlin.io.path.isRegularFile
  */
 internal object ProgramCompiler {
     const val USAGE: String =
-        "usage: java -cp JARS_OF_KOTLIN:collektive-generator.jar org.collektive.generator.CompileKt --flatc FILE --schema FILE.fbs --include FOLDER " +
-            "[--csharp FOLDER] --jar FILE --work FOLDER [--source FILE_OR_FOLDER]... [--library JAR]... [--kotlin OPTION]... [--mark NAME:VALUE]..."
+        "usage: java -cp JARS_OF_KOTLIN:collektive-generator.jar org.collektive.generator.CompileKt --flatc FILE --schema FILE.fbs " +
+            "--include FOLDER [--csharp FOLDER] --jar FILE --work FOLDER [--source FILE_OR_FOLDER]... [--library JAR]... [--kotlin OPTION]... [--mark NAME:VALUE]..."
 
     private val options = setOf("--jar", "--work", "--source", "--library", "--kotlin", "--mark")
 
@@ -73,8 +73,8 @@ internal object ProgramCompiler {
         val hash = SourceHash.of(arguments.schemas.single(), sources.map(Path::of))
         generate(arguments)
         if (!compileJava(generated, classes, library, log)) return 1
-        val kotlin = listOf("-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", library + File.pathSeparator + classes, "-d", "$classes")
-        val code = compileKotlin(kotlin + "$generated" + sources + values.getValue("--kotlin"), log)
+        val code =
+            compileKotlin("$library${File.pathSeparator}$classes", classes, sources + "$generated" + values.getValue("--kotlin"), log)
         val marks = values.getValue("--mark") + listOf("Collektive-Version:$VERSION", "Collektive-Sources:$hash")
         if (code == 0) pack(jar, marks, files(generated.resolve("META-INF"), "META-INF/") + files(classes, ""))
         return code
@@ -88,7 +88,8 @@ internal object ProgramCompiler {
         return compiler.run(null, log, log, *(arguments + java).toTypedArray()) == 0
     }
 
-    private fun compileKotlin(arguments: List<String>, log: PrintStream): Int {
+    private fun compileKotlin(library: String, classes: Path, others: List<String>, log: PrintStream): Int {
+        val arguments = listOf("-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", library, "-d", "$classes") + others
         val compiler = Class.forName("org.jetbrains.kotlin.cli.jvm.K2JVMCompiler")
         val exec = compiler.getMethod("exec", PrintStream::class.java, Array<String>::class.java)
         try {

@@ -20,16 +20,20 @@ internal object SourceHash {
 
     fun of(schema: Path, sources: List<Path>): String {
         val digest = MessageDigest.getInstance("SHA-256")
-        val schemas = HashSet<Path>()
-        addIncluded(schema.toAbsolutePath().normalize(), schema.toAbsolutePath().normalize().parent, schemas)
-        add(digest, schemas.associateBy { name(schema.toAbsolutePath().normalize().parent, it) })
-        add(digest, sources.flatMap { source -> files(source).map { (if (source.isDirectory()) name(source, it) else it.name) to it } }.toMap())
+        val file = schema.toAbsolutePath().normalize()
+        val schemas = HashSet<Path>().also { addIncluded(file, file.parent, it) }
+        add(digest, schemas.associateBy { name(file.parent, it) })
+        val kotlin = sources.flatMap { source ->
+            files(source).map { (if (source.isDirectory()) name(source, it) else it.name) to it }
+        }
+        add(digest, kotlin.toMap())
         return HexFormat.of().formatHex(digest.digest())
     }
 
     private fun addIncluded(file: Path, root: Path, found: MutableSet<Path>) {
         if (!found.add(file)) return
-        for (include in INCLUDE.findAll(Files.readString(file))) {
+        // The generator reports files that are not text.
+        for (include in INCLUDE.findAll(file.readBytes().decodeToString())) {
             val name = include.groupValues[1]
             listOf(file.parent, root).map { it.resolve(name).normalize() }.find { it.isRegularFile() }?.let { addIncluded(it, root, found) }
         }

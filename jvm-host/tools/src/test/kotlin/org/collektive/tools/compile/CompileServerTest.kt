@@ -65,7 +65,8 @@ class CompileServerTest {
         assertEquals(setOf("swarm/HopsKt.class"), classes("Kt.class"))
 
         for ((wrong, message) in listOf(
-            listOf("--jar") to "--jar needs a value", emptyList<String>() to "one --jar is needed",
+            listOf("--jar") to "--jar needs a value",
+            emptyList<String>() to "one --jar is needed",
             words() + listOf("--colour", "red") to "unknown option --colour",
         )) {
             val answer = ask(wrong)
@@ -100,8 +101,9 @@ class CompileServerTest {
         programs.resolve(name).writeText("package swarm\n\n$text\n")
     }
 
-    private fun schema(field: String) =
-        folder.resolve("swarm.fbs").writeText("namespace swarm;\ntable SensorData { intensity: float; $field }\nstruct ActuatorData { hops: float; }\n")
+    private fun schema(field: String) = folder.resolve("swarm.fbs").writeText(
+        "namespace swarm;\ntable SensorData { intensity: float; $field }\nstruct ActuatorData { hops: float; }\n",
+    )
 
     private fun words(): List<String> = listOf(
         "--flatc", System.getProperty("collektive.flatc"), "--include", "${Path.of(System.getProperty("collektive.root"), "schema")}",
@@ -128,8 +130,12 @@ class CompileServerTest {
     }
 
     private val java = arrayOf(
-        "${Path.of(System.getProperty("java.home"), "bin", "java")}", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1",
-        "-cp", System.getProperty("java.class.path"), "org.collektive.generator.CompileKt",
+        "${Path.of(System.getProperty("java.home"), "bin", "java")}",
+        "-XX:+UseSerialGC",
+        "-XX:TieredStopAtLevel=1",
+        "-cp",
+        System.getProperty("java.class.path"),
+        "org.collektive.generator.CompileKt",
     )
 
     private fun start(vararg words: String): Process = ProcessBuilder(*words).redirectErrorStream(true).start().also(started::add)
