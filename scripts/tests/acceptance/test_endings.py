@@ -213,6 +213,19 @@ class WholeRuns(Project):
             self.assertEqual(len(list(csv.DictReader(file))), 51 * 10)
         self.assertEqual(self.manifest(self.path("out"))["converged"], {"agreeing": 1})
 
+    def test_rows_have_the_time_of_their_tick(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"interval": 1, "nodes": { "fields": ["position"] }')
+        self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.3, "converged": { "agreeing": { "from": 10 } }')
+        # Three ticks of 0.3333333 are an interval, however often, although their sum is below it.
+        for ticks, times in [("0.3", [0, 1.2, 2.1, 3, 4.2, 5.1, 6]), ("0.3333333333", [0, 1, 2, 3, 4, 5, 5.999999])]:
+            result = self.run_it("--seconds", "6", "--set", f"deltaTime={ticks}")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for name in ["metrics.csv", "nodes.csv"]:
+                with open(self.path("out", name)) as file:
+                    found = {float(row["second"]): None for row in csv.DictReader(file)}
+                self.assertEqual(list(found), times)
+            self.assertIn(self.manifest(self.path("out"))["converged"]["agreeing"], times)
+
     def test_columns_of_the_metrics_have_different_names(self) -> None:
         for name in ["seen", "links", "second"]:
             self.change("scene/Lamps.cs", '"agreeing"', f'"{name}"')

@@ -104,7 +104,7 @@ namespace Collektive.Headless
         private static JObject Metrics(RunMetrics metrics, IReadOnlyList<double> values)
         {
             var json = new JObject();
-            for (var i = 0; i < values.Count; i++) json.Add(metrics.Names[i], Math.Round(values[i], 6));
+            for (var i = 0; i < values.Count; i++) json.Add(metrics.Names[i], values[i]);
             return json;
         }
 

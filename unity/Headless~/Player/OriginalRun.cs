@@ -43,8 +43,8 @@ namespace Collektive.Headless
             var differences = new List<string>();
             foreach (var key in new[] { "ticks", "digest", "end" })
             {
-                if (!JToken.DeepEquals(manifest[key], now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", previously "
-                    + Text(manifest[key]));
+                // As in files, where NaN is a string.
+                if (Text(manifest[key]) != Text(now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", previously " + Text(manifest[key]));
             }
             if (differences.Count == 0)
             {

@@ -1,3 +1,4 @@
+using System;
 using Collektive.Unity;
 
 namespace Collektive.Headless
@@ -5,25 +6,22 @@ namespace Collektive.Headless
     /// <summary>When the rows of a table are due. Ticks are counted, since a sum of times drifts: 50 times 0.02f is less than 1.</summary>
     internal sealed class RowSchedule
     {
-        /// <summary>Relative tolerance of quotients of seconds, in ticks.</summary>
+        /// <summary>Tolerance of quotients of seconds.</summary>
         private const double Tolerance = 1e-6;
 
-        private readonly double interval;
-        private readonly double deltaTime;
+        private readonly double ticksPerRow;
         private int rows = 1;
 
         /// <param name="interval">Simulated seconds from one row to the next; the first row is at second 0.</param>
         internal RowSchedule(double interval, float deltaTime)
         {
-            this.interval = interval;
-            this.deltaTime = SimulatedSeconds.Exact(deltaTime);
+            ticksPerRow = interval / SimulatedSeconds.Exact(deltaTime);
+            // An interval of 1 has three ticks of 0.3333333, however many rows there are.
+            if (Math.Abs(ticksPerRow - Math.Round(ticksPerRow)) < Tolerance * ticksPerRow) ticksPerRow = Math.Round(ticksPerRow);
         }
 
-        /// <summary>Simulated time of the next row.</summary>
-        internal double Next => rows * interval;
-
         /// <summary>Returns whether the next row is due after a number of ticks.</summary>
-        internal bool IsDue(int ticks) => ticks >= Next / deltaTime - Tolerance;
+        internal bool IsDue(int ticks) => ticks >= rows * ticksPerRow - Tolerance;
 
         /// <summary>Advances to the row after the next one.</summary>
         internal void Advance() => rows++;

@@ -234,13 +234,13 @@ namespace Collektive.Headless
                     metrics.AddWhole(totalTimes[totalTimes.Count - 1]);
                     if (rows.IsDue(done))
                     {
-                        EndInterval(manager, replay, rows.Next);
-                        scenario.Convergence.Add(rows.Next, metrics.Values);
+                        EndInterval(manager, replay, manager.SimulatedTime);
+                        scenario.Convergence.Add(manager.SimulatedTime, metrics.Values);
                         rows.Advance();
                     }
                     if (nodes != null && nodeRows.IsDue(done))
                     {
-                        nodes.Add(nodeRows.Next);
+                        nodes.Add(manager.SimulatedTime);
                         nodeRows.Advance();
                     }
                     if (progress.Due || frame == ticks || HasConverged) progress.Show(done, manager.SimulatedTime, Text());
