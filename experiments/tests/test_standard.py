@@ -178,7 +178,7 @@ def test_metrics_are_right(study: Study, tmp_path: Path) -> None:
     scenario["metrics"] = {
         "nodes": "count(*)", "links_each": "avg(degree)", "farthest": "max(value)", "answers": "count(value)", "right": "sum(value = x + z)",
         "sources": "total(source)", "others": "sum(sets & 1 = 1)", "clock": "avg(abs(sensor_time - time))", "none": "avg(value) filter (where id < 0)",
-        'a "name", ümläut': "max(1e999)"}
+        'a "name", ümläut': "max(1e999)", "small": "avg(x) / 3e7"}
     scenario["converged"] = {"farthest": {"from": 4, "to": 4}}
     study.write(scenario)
     assert study.worker.run({"seconds": 0.9}, "{}", str(tmp_path / "early"), 300, is_repeated=False).status == "complete"
@@ -191,7 +191,9 @@ def test_metrics_are_right(study: Study, tmp_path: Path) -> None:
     assert manifest["start"]["answers"] == 0
     assert end['a "name", ümläut'] == "Infinity"
     with (tmp_path / "early/metrics.csv").open() as file:
-        assert next(csv.reader(file))[1:11] == list(scenario["metrics"])
+        (row, *_) = csv.DictReader(file)
+    assert list(row)[1:12] == list(scenario["metrics"])
+    assert float(row["small"]) == end["small"] == pytest.approx(1 / 3e7, rel=1e-12)
     assert study.worker.run({"seconds": 3, "outputs.interval": 0.1}, "{}", str(tmp_path / "late"), 300, is_repeated=False).status == "complete"
     manifest = json.loads((tmp_path / "late/manifest.json").read_text())
     assert manifest["end"]["sources"] == 0
@@ -199,6 +201,16 @@ def test_metrics_are_right(study: Study, tmp_path: Path) -> None:
     assert study.worker.run({"seconds": 3, "outputs.interval": 0.1, "stopWhenConverged": True}, "{}", str(tmp_path / "stopped"), 300,
                             is_repeated=False).status == "complete"
     assert json.loads((tmp_path / "stopped/manifest.json").read_text())["ticks"] == 5
+
+
+def test_a_set_has_its_members_from_one_tick_to_another(study: Study, tmp_path: Path) -> None:
+    study.write({**SCENARIO, "fields": {"sets": [{"name": "source", "ids": [0], "from": 0.3, "until": 0.8}]}, "outputs": {"interval": 0.1},
+                 "metrics": {"sources": "total(source)", "sensed": "max(sensor_time)"}, "converged": {}})
+    assert study.worker.run({"seconds": 1}, "{}", str(tmp_path / "out"), 300, is_repeated=False).status == "complete"
+    with (tmp_path / "out/metrics.csv").open() as file:
+        active = {row["sensed"] for row in csv.DictReader(file) if row["sources"] == "1"}
+    # 0.3 as a float is greater.
+    assert active == {"0.3", "0.4", "0.5", "0.6", "0.7"}
 
 
 SPEED = "sqrt(pow(sensor_velocity_x, 2) + pow(sensor_velocity_z, 2))"
@@ -241,6 +253,9 @@ def test_nodes_are_where_the_fields_say(study: Study, fields: dict[str, Any], se
     ({"deployment": {"kind": "Poisson", "nodes": 100, "spacing": 20}}, "the area has no room for 100 nodes: "),
     ({"deployment": {"kind": "Uniform", "polygon": [[0, 0], [1, 0], [2, 0]]}}, "the area has no room for 100 nodes: 0 were placed"),
     ({"deployment": {"nodes": 4}, "obstacles": [{"box": [0, 0], "size": [20, 20]}]}, "obstacles cover all positions of the grid"),
+    ({"deployment": {"nodes": 4}, "obstacles": [{"box": [0, 0]}], "sets": [{"name": "a", "ids": [0]}]}, "'sets[0].ids' contains node 0, whose position"),
+    ({"deployment": {"nodes": 4}, "obstacles": [{"box": [0, 0]}], "sets": [{"name": "a", "near": [0, 0], "count": 4}]},
+     "'sets[0].count' is 4, but obstacles leave 3 nodes"),
 ])
 def test_deployments_without_room_fail_at_the_start(study: Study, fields: dict[str, Any], message: str, tmp_path: Path) -> None:
     study.write({**SCENARIO, "fields": fields})
@@ -251,7 +266,7 @@ def test_deployments_without_room_fail_at_the_start(study: Study, fields: dict[s
 
 def test_a_run_from_its_file_repeats(study: Study, tmp_path: Path) -> None:
     result = subprocess.run([COLLEKTIVE, "run", study.folder / "scenario.json", "--out", tmp_path / "out", "--set", "deployment.nodes=20",
-                             "--set", "outputs.replay=true"],
+                             "--set", "outputs.replay=true", "--set", "metrics.none=avg(value) filter (where id < 0)"],
                             capture_output=True, text=True, timeout=300)
     assert result.returncode == 0, result.stderr
     manifest = tmp_path / "out/manifest.json"

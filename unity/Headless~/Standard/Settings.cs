@@ -57,10 +57,10 @@ namespace Collektive.Standard
         public int count = 1;
 
         /// <summary>Simulated seconds from which nodes are in the set.</summary>
-        public float from;
+        public double from;
 
         /// <summary>Simulated seconds from which they no longer are.</summary>
-        public float until = 1e9f;
+        public double until = 1e9;
     }
 
     /// <summary>A box, or walls along the sides of a polygon.</summary>

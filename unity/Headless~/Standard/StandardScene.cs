@@ -73,6 +73,8 @@ namespace Collektive.Standard
 
         private static string Text(float value) => value.ToString(CultureInfo.InvariantCulture);
 
+        private static string Text(double value) => value.ToString(CultureInfo.InvariantCulture);
+
         private static string ProblemOf(Deployment deployment)
         {
             if (deployment.nodes < 1 || deployment.nodes > MaxNodes)
@@ -237,8 +239,14 @@ namespace Collektive.Standard
             {
                 var bit = 1u << i;
                 if (sets[i].name == "source") source = bit;
-                foreach (var id in sets[i].ids) Add(id, bit);
+                foreach (var id in sets[i].ids)
+                {
+                    if (manager.Find(id) == null) manager.Fail("'sets[" + i + "].ids' contains node " + id + ", whose position an obstacle covers");
+                    Add(id, bit);
+                }
                 if (sets[i].near.Length == 0) continue;
+                if (sets[i].count > manager.Nodes.Count)
+                    manager.Fail("'sets[" + i + "].count' is " + sets[i].count + ", but obstacles leave " + manager.Nodes.Count + " nodes");
                 var point = new Vector3(sets[i].near[0], 0, sets[i].near[1]);
                 found.Clear();
                 found.AddRange(manager.Nodes);
