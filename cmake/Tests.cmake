@@ -7,7 +7,7 @@ collektive_step(failing OUTPUT "${COLLEKTIVE_BUILD}/failing.so"
   DEPENDS "${SCRIPTS}/tests/chaos/failing.c")
 set(csharp_needs build:runtime)
 if(COLLEKTIVE_NUNIT)
-  add_custom_target(csharp_tests DEPENDS Collektive.Headless.Tests.dll Collektive.TestRunner.exe Collektive.Unity.Tests.dll
+  add_custom_target(csharp_tests DEPENDS Collektive.Headless.Tests.dll Collektive.Samples.dll Collektive.TestRunner.exe Collektive.Unity.Tests.dll
     Collektive.Unity.PublicApi.Tests.dll Collektive.Unity.Editor.Tests.dll Collektive.TwoEditors.exe Collektive.WithoutLibrary.exe
     Collektive.Faults.exe Collektive.Soak.exe nunit.framework.dll stubs-Collektive.Bridge.dll documentation)
   list(APPEND csharp_needs build:csharp_tests)

@@ -10,11 +10,13 @@ namespace UnityEngine
         {
             public readonly MonoBehaviour Script;
             readonly int enabling;
+            readonly int place;
 
             public Entry(MonoBehaviour script)
             {
                 Script = script;
                 enabling = script.enabling;
+                place = Orders.IsPermuted ? Orders.Next() : enabling;
             }
 
             public bool IsCurrent => Script.enabling == enabling;
@@ -22,7 +24,7 @@ namespace UnityEngine
             public static int Compare(Entry a, Entry b)
             {
                 var byOrder = a.Script.messages.Order.CompareTo(b.Script.messages.Order);
-                return byOrder != 0 ? byOrder : a.enabling.CompareTo(b.enabling);
+                return byOrder != 0 ? byOrder : a.place.CompareTo(b.place);
             }
         }
 
@@ -49,6 +51,9 @@ namespace UnityEngine
                 added.Clear();
                 entries.Sort(InOrder);
             }
+            if (!Orders.IsPermuted) return 0;
+            for (var i = 0; i < entries.Count; i++) entries[i] = entries[i].IsCurrent ? new Entry(entries[i].Script) : entries[i];
+            entries.Sort(InOrder);
             return 0;
         }
 

@@ -25,6 +25,7 @@ namespace UnityEngine
         /// Components of objects that became active together: the engine's own first, then scripts in execution order, Awake and OnEnable of each.
         public static void ActivityChanged(List<Component> components, bool active)
         {
+            Orders.Shuffle(components);
             StableSort(components);
             foreach (var component in components)
             {

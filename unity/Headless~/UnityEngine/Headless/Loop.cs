@@ -26,6 +26,10 @@ namespace UnityEngine.Headless
         /// The value of `Application.dataPath`: the folder of this process's program, unless it plays another one.
         public static string DataPath { get; set; } = AppDomain.CurrentDomain.BaseDirectory;
 
+        /// Permutes the orders that Unity does not specify: messages of one execution order in a frame, touches in a step and their two sides, and the
+        /// enabling of objects that become active together. 0: orders of creation.
+        public static int OrderSeed { get => Orders.Seed; set => Orders.Reset(value); }
+
         /// The value of `SystemInfo.supportsComputeShaders`, false with -nographics.
         public static bool HasComputeShaders { get; set; } = true;
 
@@ -104,6 +108,7 @@ namespace UnityEngine.Headless
             SceneManagement.SceneManager.ResetState();
             DrawLog.Clear();
             HasComputeShaders = true;
+            OrderSeed = 0;
             QuitRequested = false;
             ExitCode = 0;
         }

@@ -26,6 +26,7 @@ namespace UnityEngine
         public void Send(in Physx.Result result)
         {
             Copy(result);
+            Orders.Shuffle(touches, count);
             // A message may do anything but step.
             for (var index = 0; index < count; index++)
             {
@@ -74,6 +75,7 @@ namespace UnityEngine
         void SendTrigger(int index, Physx.Phase phase)
         {
             Collider a = touches[index].A, b = touches[index].B;
+            if (Orders.Swaps()) (a, b) = (b, a);
             SendTrigger(phase, a, b);
             if (touches[index].StillRegistered) SendTrigger(phase, b, a);
         }
@@ -99,8 +101,10 @@ namespace UnityEngine
 
         void SendCollision(int index)
         {
-            SendCollision(index, touches[index].A, touches[index].B, 1f);
-            if (touches[index].StillRegistered) SendCollision(index, touches[index].B, touches[index].A, -1f);
+            var isSwapped = Orders.Swaps();
+            if (isSwapped) SendCollision(index, touches[index].B, touches[index].A, -1f);
+            if (touches[index].StillRegistered) SendCollision(index, touches[index].A, touches[index].B, 1f);
+            if (!isSwapped && touches[index].StillRegistered) SendCollision(index, touches[index].B, touches[index].A, -1f);
         }
 
         void SendCollision(int touch, Collider to, Collider other, float sign)

@@ -45,6 +45,7 @@ namespace Collektive.Unity
         protected sealed override void Sense(ref TData data)
         {
             var count = visits.Count;
+            SortNew();
             if (zones.Length < count) zones = new Zone[visits.Items.Length];
             var kept = 0;
             for (var i = 0; i < count; i++)
@@ -59,7 +60,7 @@ namespace Collektive.Unity
             Write(ref data, new Span<Zone>(zones, 0, count));
         }
 
-        /// <summary>Writes the zones in the order in which they were entered. The span is valid during the call only.</summary>
+        /// <summary>Writes the zones in the order of the ticks in which they were entered, and those of one tick by distance. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Zone> zones);
 
         /// <summary>Handles a zone that the node enters.</summary>
@@ -76,6 +77,26 @@ namespace Collektive.Unity
         {
             var place = Find(other);
             if (place < visits.Count && visits.Items[place].Entries > 0) visits.Items[place].Entries--;
+        }
+
+        /// <summary>Sorts the new zones, which are at the end: Unity does not specify the order of triggers.</summary>
+        private void SortNew()
+        {
+            var centre = Node.Position;
+            for (var next = 1; next < visits.Count; next++)
+            {
+                var visit = visits.Items[next];
+                if (!visit.IsNew || visit.Zone.IsGone()) continue;
+                var offset = visit.Zone.transform.position - centre;
+                var place = next;
+                for (; place > 0 && visits.Items[place - 1].IsNew; place--)
+                {
+                    var other = visits.Items[place - 1].Zone;
+                    if (!other.IsGone() && !ColliderExtensions.IsBefore(offset, other.transform.position - centre)) break;
+                    visits.Items[place] = visits.Items[place - 1];
+                }
+                visits.Items[place] = visit;
+            }
         }
 
         private int Find(Collider zone)
