@@ -47,7 +47,7 @@ class _Process:
         self._pending = b""
         self._keeps_state: bool | None = None
         bundle = os.path.abspath(bundle)
-        library_path = os.environ.get("LD_LIBRARY_PATH")
+        jar = os.path.join(bundle, "jars/collektive-host.jar")
         with open(os.path.join(bundle, "inputs.json"), encoding="utf-8") as file:
             inputs = json.dumps(json.load(file)["hashes"])
         self._channel, child_end = socket.socketpair()
@@ -55,10 +55,10 @@ class _Process:
             self._process = subprocess.Popen(
                 ["mono-sgen", "--debug", os.path.join(bundle, "csharp/Collektive.Player.exe"), "serve", os.path.join(bundle, "inputs/scenario.json"),
                  "--scripts", os.path.join(bundle, "Scenario.dll"), "--jar", os.path.join(bundle, "programs.jar"),
-                 "--host-jar", os.path.join(bundle, "jars/collektive-host.jar"), "--java-home", java_home(), "--channel", str(child_end.fileno()),
-                 "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
-                stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()],
-                env={**os.environ, "LD_LIBRARY_PATH": os.path.join(bundle, "native") + (":" + library_path if library_path else "")})
+                 # A class path cannot contain colons.
+                 "--host-jar", os.path.relpath(os.path.realpath(jar), os.path.realpath(os.path.dirname(log))),
+                 "--java-home", java_home(), "--channel", str(child_end.fileno()), "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
+                stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()])
         self._ready = "" if jvm is None else self._send({"start": True, "set": json.loads(jvm)})
 
     def keeps_state(self) -> bool | Outcome:

@@ -16,6 +16,12 @@ def test_an_include_that_leads_outside_the_project_is_refused(project: Project) 
     assert not list((project.folder / "out").rglob("outside.fbs"))
 
 
+def test_results_inside_an_input_are_refused(project: Project) -> None:
+    result = project.sweep(out="project/programs/out", vary={"seed": [1]})
+    assert result.returncode == 1
+    assert f"the results would be inside '{project.folder}/project/programs', which the scenario names as 'programs'" in result.stderr
+
+
 def test_runs_use_what_links_and_includes_led_to(project: Project) -> None:
     folder = project.folder / "project"
     (folder / "light.fbs").rename(project.folder / "light.fbs")

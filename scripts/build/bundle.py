@@ -27,6 +27,9 @@ def run(arguments: argparse.Namespace) -> int:
     graph.build("runtime")
     plan = player.plan(arguments.scenario, ["--trust-jvm"] if arguments.trust_jvm else [])
     _require_within(Path(os.path.abspath(arguments.scenario)).parent, plan.parts["schema"])
+    for key, part in plan.parts.items():
+        if Path(os.path.realpath(part.path)) in Path(os.path.realpath(folder)).parents:
+            raise Failure(f"the results would be inside '{part.path}', which the scenario names as '{key}': name another folder with --out")
     inputs = folder / "inputs"
     paths = {key: str(part.copy(inputs / key).relative_to(inputs)) for key, part in plan.parts.items()}
     for part in plan.parts.values():
@@ -35,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.only_inputs:
         return 0
     jar, dll = plan.programs_jar(), plan.scripts_dll()
-    for target, files in {"csharp": [CSHARP / name for name in ASSEMBLIES], "native": [SHIM / "libcollektive_shim.so"],
+    for target, files in {"csharp": [*(CSHARP / name for name in ASSEMBLIES), SHIM / "libcollektive_shim.so"],
                           "jars": [HOST_JAR, LIBRARY_JAR, ADAPTER_JAR], "": [dll, dll.with_suffix(".pdb")]}.items():
         (folder / target).mkdir(exist_ok=True)
         for file in files:
