@@ -79,8 +79,12 @@ class Experiment:
         for chosen in itertools.product(*(values for _, values in self.product)):
             for row in rows:
                 values = {**dict(zip([key for key, _ in self.product], chosen)), **row}
-                settings = {**self.fixed, **values}
+                settings = self.settings(values)
                 yield Run(name_of(values, settings), values, settings)
+
+    def settings(self, values: Values) -> Values:
+        """Returns all keys of a run. An object precedes the keys in it, which would be lost otherwise."""
+        return dict(sorted({**self.fixed, **values}.items(), key=lambda item: item[0].count(".")))
 
 
 def name_of(values: Values, settings: Values) -> str:
@@ -249,10 +253,12 @@ def _check(experiment: Experiment) -> None:
 def _reject_duplicates(located: Located, part: str, keys: list[str], rows: list[tuple[Any, ...]]) -> None:
     seen: set[str] = set()
     for index, row in enumerate(rows):
-        if identity(row) in seen:
+        # Tables and figures show 1 and "1" as the same text.
+        forms = {identity(row), "\0".join(map(text, row))}
+        if forms & seen:
             twice = ", ".join(f"{key}={text(value)}" for key, value in zip(keys, row))
             raise located.error(f"duplicate runs: '{twice}' occurs twice", part, keys[0], index)
-        seen.add(identity(row))
+        seen |= forms
 
 
 __all__ = ["Experiment", "ExperimentError", "Run", "read"]

@@ -10,7 +10,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Iterable
-from typing import Protocol
+from typing import Any, Protocol
 
 import pyarrow as pa
 
@@ -202,19 +202,20 @@ def _require_room(store: Store) -> None:
 
 
 def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
-    """Validates each value of each key with the player, combined with the first values of the other keys."""
+    """Validates each value of each key with the player, combined with the first values of the other keys, except those that vary together."""
     worker = Worker(store.bundle, os.path.join(store.logs, "check.txt"), trust)
     located = experiment.located
     try:
-        metrics: list[str] = []
-        base = {**experiment.fixed, **{key: values[0] for key, values in experiment.product + experiment.together}}
+        base = {key: values[0] for key, values in experiment.product + experiment.together}
+        problem, metrics = worker.check(experiment.settings(base))
+        if problem:
+            raise located.error(problem, *_place(experiment, worker, problem))
+        rows = [dict(zip([key for key, _ in experiment.together], row)) for row in zip(*(values for _, values in experiment.together))]
         candidates: Iterable[tuple[dict[str, object], tuple[str | int, ...]]] = [
-            *((dict(list(experiment.fixed.items())[:count + 1]), ("set", key)) for count, key in enumerate(experiment.fixed)),
-            *(({**base, key: value}, (part, key, index)) for part, varied in (("vary", experiment.product), ("zip", experiment.together))
-              for key, values in varied for index, value in enumerate(_sample(values))),
-            (base, ())]
-        for settings, place in candidates:
-            problem, metrics = worker.check(settings)
+            *(({key: value}, ("vary", key, index)) for key, values in experiment.product for index, value in _sample(values)),
+            *((row, ("zip", experiment.together[0][0], index)) for index, row in _sample(rows))]
+        for values, place in candidates:
+            problem, metrics = worker.check(experiment.settings({**base, **values}))
             if problem:
                 raise located.error(problem, *place)
         for name in experiment.measure:
@@ -239,9 +240,22 @@ def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
     check_labels(experiment, at_end + numbers)
 
 
-def _sample(values: list[object]) -> list[object]:
-    """Returns the values to check. Long lists are ranges, whose last value is sufficient."""
-    return values if len(values) <= 100 else [*values[:99], values[-1]]
+def _place(experiment: Experiment, worker: Worker, problem: str) -> tuple[str | int, ...]:
+    """Returns the key with which a problem of the first values of all keys begins, for its message."""
+    given = [*(("set", key, value) for key, value in experiment.fixed.items()),
+             *((part, key, values[0]) for part, varied in (("vary", experiment.product), ("zip", experiment.together)) for key, values in varied)]
+    settings: dict[str, object] = {}
+    for part, key, value in given:
+        settings[key] = value
+        if worker.check(settings)[0] == problem:
+            return part, key, *(() if part == "set" else (0,))
+    return ()
+
+
+def _sample(values: list[Any]) -> list[tuple[int, Any]]:
+    """Returns the values to check, with their indices. Long lists are ranges, whose last value is sufficient."""
+    indexed = list(enumerate(values))
+    return indexed if len(indexed) <= 100 else [*indexed[:99], indexed[-1]]
 
 
 class Progress:

@@ -122,12 +122,10 @@ class _Columns:
         self.rows: dict[str, int] = {}
         self._ends: dict[str, float] = {}
         self.nodes: dict[str, pa.DataType] = {}
-        for run, record in self.records():
+        for run, _ in self.records():
             manifest = self._manifest(run)
             metrics.update(dict.fromkeys(manifest.get("end", {})))
             converged.update(dict.fromkeys(manifest.get("converged", {})))
-            if record["status"] == "complete":
-                self._add_node_columns(run)
         types = {key: _type_of(values) for key, values in experiment.product + experiment.together}
         if "seed" not in types:
             types["seed"] = pa.uint64()
@@ -141,6 +139,9 @@ class _Columns:
                 column = "metric." + column
             taken.add(column)
             self._names[name] = column
+        for run, record in self.records():
+            if record["status"] == "complete":
+                self._add_node_columns(run)
         self.metrics = list(self._names.values())
         self.converged = list(converged)
 
@@ -193,9 +194,9 @@ class _Columns:
         if not self._has_nodes(run):
             return
         table = self._table(run, "nodes.csv")
-        names = next(table)
+        names = self._node_columns(table)
         for cells in table:
-            yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names[2:], cells[2:]) if cell}}
+            yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names, cells[2:]) if cell}}
 
     def warn(self) -> None:
         """Warns about metrics that are NaN or infinite, whose cells are empty."""
@@ -216,14 +217,19 @@ class _Columns:
         if not self._has_nodes(run) or (self.nodes and pa.null() not in self.nodes.values()):
             return
         table = self._table(run, "nodes.csv", raw=True)
-        names = next(self._table(run, "nodes.csv"))
+        names = self._node_columns(self._table(run, "nodes.csv"))
         next(table)
         for cells in table:
-            for name, cell in zip(names[2:], cells[2:]):
+            for name, cell in zip(names, cells[2:]):
                 if self.nodes.setdefault(name, pa.null()) == pa.null() and cell:
                     self.nodes[name] = pa.string() if cell[0] == '"' else pa.bool_() if cell in ("true", "false") else pa.float64()
             if pa.null() not in self.nodes.values():
                 return
+
+    def _node_columns(self, table: Iterator[list[str]]) -> list[str]:
+        """Returns the columns of the fields in the first row of nodes.csv. Names of other columns get the prefix `field.`"""
+        taken = {"run", "second", "node", *(name for name, _ in self.parameters)}
+        return ["field." + name if name in taken else name for name in next(table)[2:]]
 
     def _has_nodes(self, run: Run) -> bool:
         return os.path.exists(os.path.join(self._store.runs, run.name, "nodes.csv"))

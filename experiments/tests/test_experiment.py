@@ -31,6 +31,7 @@ def write(folder: Path, text: str) -> str:
     (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"seed": "1-1000", "fields.a": "1-1000"}}', "the experiment has 1,000,000 runs"),
     (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n{}]}}', "'vary.fields.a[1]' is {}; it must be a number"),
     (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n1.0]}}', "duplicate runs: 'fields.a=1' occurs twice"),
+    (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n"1"]}}', "duplicate runs: 'fields.a=1' occurs twice"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1, 1], "fields.b": [2, 2]}}', "duplicate runs"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1], "fields.b": [2, 2]}}', "these must be equal"),
     (3, '{"version": 1, "scenario": "scenario.json", "vary": {"seed": [1]},\n"set": {\n"seed": 2}}', "'seed' is also in 'vary'"),
@@ -61,6 +62,12 @@ def test_all_combinations_are_run_and_keys_of_zip_vary_together(tmp_path: Path) 
     assert experiment.count == len(runs) == 12
     assert runs[0].name.rpartition("-")[0] == "program=a,seed=1,fields.n=1,fields.at=0_1_2"
     assert runs[-1].settings == {"seconds": 3, "program": "b", "seed": 5, "fields.n": 2, "fields.at": [3, 4, 5]}
+
+
+def test_an_object_does_not_replace_keys_in_it(tmp_path: Path) -> None:
+    experiment = read(write(tmp_path, json.dumps({
+        "version": 1, "scenario": "scenario.json", "vary": {"network.jitter": [1]}, "set": {"network.loss": 0.5, "network": {"delay": 1}}})))
+    assert [list(run.settings) for run in experiment.runs()] == [["network", "network.loss", "network.jitter"]]
 
 
 def test_a_file_that_is_not_utf_8_is_one_line(tmp_path: Path) -> None:

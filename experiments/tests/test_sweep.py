@@ -130,6 +130,33 @@ def test_a_key_that_the_scenario_does_not_have_is_named_before_anything_starts(
     assert not os.listdir(tmp_path / "out/runs")
 
 
+def test_keys_are_checked_in_the_combinations_that_run(project: Project) -> None:
+    # Neither the longer tick with the shorter interval nor the metrics with the scenario's bands are a run.
+    result = project.sweep(vary={"seed": [1]}, zip={"deltaTime": [0.1, 0.5], "outputs.interval": [0.2, 0.5]},
+                           set={"metrics": {"a": "count(*)"}, "converged": {"a": {"from": 1}}})
+    assert result.returncode == 0, result.stderr
+    result = project.sweep(out="other", zip={"deltaTime": [0.1, 0.5], "outputs.interval": [0.2, 0.3]})
+    assert "experiment.json:7: " in result.stderr
+    assert "'outputs.interval' is 0.3: it must be a number of seconds that is at least 'deltaTime', 0.5" in result.stderr
+
+
+def test_results_may_be_in_a_folder_with_colons(project: Project) -> None:
+    result = project.sweep(out="a:b;c \u00fc", vary={"jvm.placement": ["InProcess", "OwnProcess"]})
+    assert result.returncode == 0, result.stderr
+
+
+def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) -> None:
+    for name, before, after in [("light.fbs", "brightest:", "node:"), ("programs/Brightest.kt", "ActuatorData(brightest", "ActuatorData(node"),
+                                ("scene/Lamps.cs", "data.Brightest", "data.Node"), ("scene/Lamps.cs", "answer.Brightest", "answer.Node")]:
+        file = project.folder / "project" / name
+        file.write_text(file.read_text().replace(before, after))
+    result = project.sweep(vary={"seed": [1]}, set={"outputs.nodes.fields": ["node"]})
+    assert result.returncode == 0, result.stderr
+    last = project.table(name="nodes").tail(10)
+    assert list(last["node"]) == list(range(10))
+    assert set(last["field.node"]) == {10.0}
+
+
 def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
     result = project.sweep("--dry-run", **MANY)
     assert result.returncode == 0, result.stderr
