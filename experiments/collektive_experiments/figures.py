@@ -262,7 +262,8 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
     parts = _split(results, data, by)
     for index, name, runs in parts:
         table = runs.pivot_table(index="run", columns="second", values=metric)
-        counts.add(len(table))
+        # Runs that ended have no later values.
+        counts.update(table.notna().sum())
         if table.empty:
             continue
         bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
@@ -373,7 +374,7 @@ def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metr
 
 def _caption(results: Results, data: pd.DataFrame, metric: str, kind: str, x: str | None, counts: set[int]) -> str:
     title = _text(results, metric)
-    runs = f"{_runs(counts)} per configuration"
+    runs = f"{_runs(counts)} per configuration" + (" and time" if x == TIME and len(counts) > 1 else "")
     if kind == "line":
         caption = f"{title} {'over simulated time' if x == TIME else f'against {_text(results, str(x))}'}: mean and 95 % bootstrap interval of {runs}."
     elif kind == "heat":

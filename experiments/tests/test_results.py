@@ -1,4 +1,6 @@
 """Statistics of experiments."""
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -59,6 +61,13 @@ def test_axes_have_units_and_captions_the_number_of_runs() -> None:
     assert axes.get_title() == "loss 0.1"
     assert "95 % bootstrap interval of 20 runs per configuration" in caption
     assert "of 20 runs per configuration" in at_end(results(2), "error")[1]
+
+
+def test_a_caption_counts_the_runs_of_each_time() -> None:
+    ended = results(2)
+    stopped = (ended.series["run"] == ended.series["run"].iloc[0]) & (ended.series["second"] == ended.series["second"].max())
+    caption = over_time(replace(ended, series=ended.series[~stopped]), "error")[1]
+    assert "95 % bootstrap interval of 19 to 20 runs per configuration and time" in caption
 
 
 def test_runs_of_equal_seeds_are_paired() -> None:
