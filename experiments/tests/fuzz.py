@@ -34,11 +34,11 @@ TEXTS = ["", " ", "a,b", "a=b,c", "x.part", "../../up", "a/b", '"', "two\nlines"
 NAMES = [*(text for text in TEXTS if text and "|" not in text), "status", "run", "digest", "seed", "node", "converged.one", "version.jvm", "metric.run"]
 NUMBERS = [0, 1, -1, 2.5, 1e-7, 1e12, -3.25, 1 << 53, 123456789.125, 1 << 63, 7.0]
 DEFAULTS: dict[str, Any] = {"fields.names": "one", "fields.nodes": 2, "fields.slope": 1, "fields.odd": "", "fields.label": "", "fields.flag": False,
-                            "fields.place": [0, 0, 0], "fields.fate": 0, "seconds": 2, "outputs.interval": 1, "seed": 1}
+                            "fields.place": [0, 0, 0], "fields.fate": 0, "seconds": 2, "deltaTime": 0.5, "outputs.interval": 1, "seed": 1}
 VALUES: dict[str, list[Any]] = {
     "fields.slope": NUMBERS, "fields.label": TEXTS, "fields.flag": [True, False], "fields.place": [[0, 0, 0], [1.5, -2, 3], [1, 2, 3]],
     "fields.nodes": [1, 2, 5], "fields.fate": [0, 0, 0, 1, 2], "fields.odd": ["", "nan", "inf"], "seed": [0, 1, 2, 7, (1 << 64) - 1],
-    "seconds": [0.5, 1, 2, 3], "outputs.interval": [0.5, 1, 2]}
+    "seconds": [0.5, 1, 2, 3], "deltaTime": [0.5, 0.25, 0.3, 0.4, 0.3333333333], "outputs.interval": [0.5, 1, 2]}
 INSERTIONS = [b"[" * 5000, b"9" * 5000, b"\\ud800", b"\xff\xfe", b"//", b"/*", b"{", b"}", b",", b'"', b"1e400", b"\0", b"-", b"NaN", b"\n"]
 MAX_RUNS = 12
 
@@ -60,13 +60,18 @@ class Case:
                 self.root["zip"][key] = values[:size]
             else:
                 self.root["set"][key] = values[0]
+        if not self.root["zip"] and not {"deltaTime", "outputs.interval"} & set(keys) and chance.random() < 0.3:
+            # The first interval is invalid with the second tick.
+            self.root["zip"] = {"deltaTime": [0.5, 1.5], "outputs.interval": [0.5, 1.5]}
         while self._count() > MAX_RUNS:
             key = chance.choice([key for key, values in self.root["vary"].items() if len(values) > 1])
             self.root["vary"][key].pop()
         names = chance.sample(NAMES, chance.randint(1, 4))
         self.root["set"]["fields.names"] = "|".join(names)
         if chance.random() < 0.3:
-            self.root["set"]["outputs.nodes"] = {"fields": ["level", "name", "position"], "interval": 1}
+            self.root["set"]["fields"] = {"names": "other", "label": "object"}
+        if chance.random() < 0.3:
+            self.root["set"]["outputs.nodes"] = {"fields": ["level", "name", "position"], "interval": 1.5}
         if chance.random() < 0.5:
             measured = chance.sample(names, chance.randint(1, len(names)))
             self.root["measure"] = measured if chance.random() < 0.5 else {name: chance.choice(TEXTS) for name in measured}
@@ -100,6 +105,11 @@ class Case:
         rows = [dict(zip(together, row)) for row in zip(*together.values())] or [{}]
         return [{**dict(zip(vary, chosen)), **row} for chosen in itertools.product(*vary.values()) for row in rows]
 
+    def settings(self, values: dict[str, Any]) -> dict[str, Any]:
+        """The keys of a run with these values. An object is overridden by keys in it."""
+        fixed = self.root["set"]
+        return {**DEFAULTS, **{f"fields.{key}": value for key, value in fixed.get("fields", {}).items()}, **fixed, **values}
+
     def measured(self) -> list[str]:
         """The metrics of the tables."""
         return list(self.root.get("measure") or self.root["set"]["fields.names"].split("|"))
@@ -117,6 +127,22 @@ def metrics_at(settings: dict[str, Any], second: float) -> dict[str, float]:
     return values
 
 
+def ticks(settings: dict[str, Any]) -> int:
+    """The number of ticks of a run."""
+    return max(1, round(settings["seconds"] / settings["deltaTime"]))
+
+
+def seconds_of_rows(settings: dict[str, Any], interval: float) -> list[float]:
+    """The times of a table's rows: each interval ends with the first tick that is not before its end."""
+    whole = (math.ceil(index * interval / settings["deltaTime"] - 1e-5) for index in itertools.count())
+    return [second_of(settings, tick) for tick in itertools.takewhile(lambda tick: tick <= ticks(settings), whole)]
+
+
+def second_of(settings: dict[str, Any], tick: int) -> float:
+    """The simulated time after a tick. Times of ticks have seven digits."""
+    return tick * float(f"{settings['deltaTime']:.7g}")
+
+
 def require(condition: bool, message: str) -> None:
     if not condition:
         raise AssertionError(message)
@@ -126,7 +152,7 @@ def require_close(found: Any, expected: float, what: str) -> None:
     if not math.isfinite(expected):
         require(bool(pd.isna(found)), f"{what} is {found}, not empty")
     else:
-        require(math.isclose(found, expected, rel_tol=1e-7, abs_tol=1e-3), f"{what} is {found}, not {expected}")
+        require(math.isclose(found, expected, rel_tol=1e-12, abs_tol=1e-9), f"{what} is {found}, not {expected}")
 
 
 def check(case: Case, out: Path) -> None:
@@ -141,7 +167,7 @@ def check(case: Case, out: Path) -> None:
     require(len(metrics) == len(case.measured()) or not is_known, f"columns {metrics} of {case.measured()}")
     nodes = pd.read_parquet(out / "nodes.parquet") if (out / "nodes.parquet").exists() else None
     for (_, row), values in zip(runs.iterrows(), expected):
-        settings = {**DEFAULTS, **case.root["set"], **values}
+        settings = case.settings(values)
         is_complete = settings["fields.fate"] == 0
         require(row["status"] == ("complete" if is_complete else "failed"), f"{row['run']} is {row['status']}: {row['message']}")
         for key, value in values.items():
@@ -149,18 +175,19 @@ def check(case: Case, out: Path) -> None:
             same = found == text(value) if isinstance(found, str) else float(found) == float(value)
             require(bool(same), f"{key} is {found!r}, not {value!r}")
         mine = series[series["run"] == row["run"]]
-        seconds = [index * settings["outputs.interval"] for index in range(int(settings["seconds"] / settings["outputs.interval"]) + 1)] if is_complete else []
-        require(mine["second"].tolist() == seconds, f"{row['run']} has the seconds {mine['second'].tolist()}, not {seconds}")
+        seconds = seconds_of_rows(settings, settings["outputs.interval"]) if is_complete else []
+        require(mine["second"].tolist() == [round(second, 6) for second in seconds], f"{row['run']} has the seconds {mine['second'].tolist()}, not {seconds}")
         for name, column in zip(case.measured(), metrics):
             if is_complete:
-                require_close(row[column], metrics_at(settings, settings["seconds"])[name], f"{column} at the end of {row['run']}")
+                require_close(row[column], metrics_at(settings, second_of(settings, ticks(settings)))[name], f"{column} at the end of {row['run']}")
             for second, found in zip(seconds, mine[column]):
                 require_close(found, metrics_at(settings, second)[name], f"{column} at {second} of {row['run']}")
         if "outputs.nodes" in case.root["set"] and is_complete:
             require(nodes is not None, "no table of nodes")
             assert nodes is not None
             cells = nodes[nodes["run"] == row["run"]]
-            require(len(cells) == settings["fields.nodes"] * (int(settings["seconds"]) + 1), f"{len(cells)} rows of nodes in {row['run']}")
+            require(cells["second"].tolist() == [round(second, 6) for second in seconds_of_rows(settings, 1.5) for _ in range(settings["fields.nodes"])],
+                    f"the nodes' rows of {row['run']} are at {cells['second'].tolist()}")
             require(set(cells["name"].dropna()) <= {"007"}, f"names of nodes are {set(cells['name'])}")
 
 
@@ -227,7 +254,7 @@ def mutate(chance: random.Random, content: bytes, path: Path) -> None:
 def try_case(case: Case, folder: Path) -> None:
     """Sweeps, damages, resumes and plots an experiment."""
     chance, path, out = case.chance, folder / "experiment.json", folder / "out"
-    fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
+    fails = any(case.settings(values)["fields.fate"] for values in case.runs())
     words = ["sweep", str(path), "--out", str(out), "--jobs", "2", "--keep-going", *(["--csv"] if chance.random() < 0.3 else [])]
 
     def sweep(*more: str) -> str:
@@ -243,7 +270,7 @@ def try_case(case: Case, folder: Path) -> None:
         count = damage(chance, out)
         require(sweep("--resume").count("is damaged; repeating the run") == count, f"not {count} runs were damaged")
     if chance.random() < 0.4 and case.grow():
-        fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
+        fails = any(case.settings(values)["fields.fate"] for values in case.runs())
         sweep("--resume")
     if chance.random() < 0.3:
         code, errors = run_command("plot", str(out))
@@ -292,7 +319,7 @@ def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
     path, out = folder / "experiment.json", folder / "out"
     path.write_text(case.text(), encoding="utf-8")
     words = ["sweep", str(path), "--out", str(out), "--jobs", "2", "--keep-going"]
-    fails = any({**DEFAULTS, **case.root["set"], **values}["fields.fate"] for values in case.runs())
+    fails = any(case.settings(values)["fields.fate"] for values in case.runs())
     code, count = run_failing(case.chance.randint(1, 400) if at is None else at, folder, *words)
     for _ in range(2):
         check_folders(out)
