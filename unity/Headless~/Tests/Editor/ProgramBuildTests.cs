@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.IO;
 using System.IO.Compression;
+using System.Reflection;
 using System.Threading;
 using Collektive.Unity;
 using Collektive.Unity.Editor;
@@ -121,6 +122,15 @@ namespace Collektive.Headless.Tests.Editor
             Menus.Postprocess(new string[0], new string[0]);
             Build();
             Assert.That(Swarm().IsStale, Is.False);
+            var compiler = SessionState.GetString("Collektive.Compiler", "");
+            var started = typeof(CompilerProcess).GetField("started", BindingFlags.Static | BindingFlags.NonPublic);
+            ((IDisposable)started.GetValue(null)).Dispose();
+            started.SetValue(null, null);
+            Write(Count, BuildTests.Kotlin.Replace("count", "counted"));
+            Save(Count);
+            Build();
+            Assert.That(Swarm().IsStale, Is.False);
+            Assert.That(SessionState.GetString("Collektive.Compiler", ""), Is.EqualTo(compiler), "the process outlives the reload");
 
             Write(Jar, "half a jar");
             Assert.That(Swarm().IsStale, Is.True, "a damaged jar is built again");
