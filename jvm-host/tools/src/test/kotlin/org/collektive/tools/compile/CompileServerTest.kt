@@ -9,6 +9,8 @@ import java.nio.file.Files
 import java.nio.file.Path
 import java.util.concurrent.TimeUnit
 import java.util.jar.JarFile
+import java.util.zip.ZipEntry
+import java.util.zip.ZipOutputStream
 import kotlin.io.path.createDirectories
 import kotlin.io.path.deleteExisting
 import kotlin.io.path.exists
@@ -40,7 +42,7 @@ class CompileServerTest {
     @Test
     fun `a process answers one request after the other, and ends with its client`() {
         val client = start("/bin/sleep", "1000")
-        val server = start(*java, "--serve", "$requests", "${client.pid()}")
+        val server = start(*command, "--serve", "$requests", "${client.pid()}")
         write("Hops.kt", "fun hops(sensors: SensorData) = ActuatorData(hops = sensors.intensity())")
         assertEquals(0 to "", ask(words()))
         assertEquals(setOf("swarm/HopsKt.class"), classes("Kt.class"))
@@ -89,8 +91,8 @@ class CompileServerTest {
         assertEquals(1, run(words()).first)
         // A plugin for another version of the compiler.
         val plugin = folder.resolve("plugin.jar")
-        java.util.zip.ZipOutputStream(Files.newOutputStream(plugin)).use {
-            it.putNextEntry(java.util.zip.ZipEntry("META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar"))
+        ZipOutputStream(Files.newOutputStream(plugin)).use {
+            it.putNextEntry(ZipEntry("META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar"))
             it.write("no.such.Plugin".encodeToByteArray())
         }
         assertEquals(2, run(words() + listOf("--kotlin", "-Xplugin=$plugin")).first)
@@ -124,12 +126,12 @@ class CompileServerTest {
     }
 
     private fun run(words: List<String>): Pair<Int, String> {
-        val process = start(*java, *words.toTypedArray())
+        val process = start(*command, *words.toTypedArray())
         val messages = process.inputStream.bufferedReader().readText()
         return process.waitFor() to messages
     }
 
-    private val java = arrayOf(
+    private val command = arrayOf(
         "${Path.of(System.getProperty("java.home"), "bin", "java")}",
         "-XX:+UseSerialGC",
         "-XX:TieredStopAtLevel=1",
