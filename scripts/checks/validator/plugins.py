@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from build import manifest, metas
+from build.places import ROOT
 from build.platforms import PLATFORMS
 
 # The first version in which a Linux player has a folder for each processor. Some releases of 6000.3 and 6000.4 have them too.
@@ -40,7 +41,7 @@ def problems(libraries: Iterable[Library]) -> Iterator[str]:
 
 def packaged() -> list[Library]:
     """Returns the native libraries of the published packages."""
-    core = manifest.read(manifest.ROOT)
+    core = manifest.read(ROOT)
     return [Library(f"Plugins/{platform}/{PLATFORMS[platform].library}", metas.native(platform), manifest.WITH_LIBRARY.get(platform, core["unity"]))
             for platform in metas.NATIVE]
 

@@ -17,7 +17,8 @@ namespace Collektive.Unity.Editor
                     + ": select Windows or Linux on x64, Linux on ARM64 or macOS in the build settings, or remove the Simulation Manager from the scene";
             // The package has no library for Linux on ARM64, because Unity before 6000.5 would copy it over that for x64.
             if (platforms[0] == "linux-arm64" && !File.Exists(Installation.ToPhysical("Packages/org.collektive.unity.jvm.linux-arm64/package.json")))
-                return "players for Linux on ARM64 need the native library in org.collektive.unity.jvm.linux-arm64, for Unity 6000.5 or newer: install this package";
+                return "players for Linux on ARM64 need the native library in org.collektive.unity.jvm.linux-arm64, for Unity 6000.5 or newer: "
+                    + "install this package";
             return null;
         }
 

@@ -231,7 +231,8 @@ namespace Collektive.Headless.Tests.Simulation
             views[1].Title = "second";
             Gui.Placed.Clear();
             foreach (var view in views) UnityEditor.Headless.Menus.Send(view, "OnGUI");
-            Assert.That(Gui.Placed.ConvertAll(label => label.Text.Substring(0, label.Text.IndexOf(' '))), Is.EqualTo(new[] { "first", "first", "second", "second" }));
+            var titles = Gui.Placed.ConvertAll(label => label.Text.Substring(0, label.Text.IndexOf(' ')));
+            Assert.That(titles, Is.EqualTo(new[] { "first", "first", "second", "second" }));
             Assert.That(Gui.Placed[3].Place.y, Is.GreaterThanOrEqualTo(Gui.Placed[0].Place.y + Gui.Placed[0].Place.height));
             views[0].enabled = false;
             Gui.Placed.Clear();

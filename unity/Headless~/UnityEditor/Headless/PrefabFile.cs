@@ -11,6 +11,8 @@ namespace UnityEditor.Headless
     /// Reads the objects of a prefab with their components. Of fields, it reads names, scales and parents.
     static class PrefabFile
     {
+        private const RegexOptions Lines = RegexOptions.Multiline | RegexOptions.Singleline;
+
         static readonly Dictionary<string, Type> BuiltIn = new Dictionary<string, Type>
         {
             ["MeshFilter"] = typeof(MeshFilter), ["MeshRenderer"] = typeof(MeshRenderer), ["SphereCollider"] = typeof(SphereCollider),
@@ -25,7 +27,7 @@ namespace UnityEditor.Headless
             var objects = new Dictionary<string, GameObject>();
             var transforms = new Dictionary<string, Transform>();
             GameObject root = null;
-            foreach (Match part in Regex.Matches(File.ReadAllText(path), @"^--- !u!\d+ &(-?\d+)\n(.*?)(?=^---|\z)", RegexOptions.Multiline | RegexOptions.Singleline))
+            foreach (Match part in Regex.Matches(File.ReadAllText(path), @"^--- !u!\d+ &(-?\d+)\n(.*?)(?=^---|\z)", Lines))
             {
                 var (id, text) = (part.Groups[1].Value, part.Groups[2].Value);
                 var type = text.Substring(0, text.IndexOf(':'));
@@ -36,7 +38,7 @@ namespace UnityEditor.Headless
                 if (transforms.TryGetValue(Reference(text, "m_Father"), out var parent)) placed.SetParent(parent, false);
                 else root = placed.gameObject;
             }
-            foreach (Match part in Regex.Matches(File.ReadAllText(path), @"^--- !u!\d+ &-?\d+\n(.*?)(?=^---|\z)", RegexOptions.Multiline | RegexOptions.Singleline))
+            foreach (Match part in Regex.Matches(File.ReadAllText(path), @"^--- !u!\d+ &-?\d+\n(.*?)(?=^---|\z)", Lines))
             {
                 var text = part.Groups[1].Value;
                 var type = text.Substring(0, text.IndexOf(':'));

@@ -12,7 +12,8 @@ namespace UnityEngine
         static readonly Dictionary<Type, Messages> Tables = new Dictionary<Type, Messages>();
 
         public readonly int Order;
-        public readonly Action<Object> Awake, OnEnable, Start, FixedUpdate, Update, LateUpdate, OnDisable, OnDestroy, OnApplicationQuit, OnTransformParentChanged;
+        public readonly Action<Object> Awake, OnEnable, Start, FixedUpdate, Update, LateUpdate, OnDisable, OnDestroy, OnApplicationQuit;
+        public readonly Action<Object> OnTransformParentChanged;
         public readonly Action<Object, Collider> OnTriggerEnter, OnTriggerStay, OnTriggerExit;
         public readonly Action<Object, Collision> OnCollisionEnter, OnCollisionStay, OnCollisionExit;
 

@@ -18,7 +18,7 @@ namespace Collektive.Unity
         internal string Flush(StepRequest request)
         {
             if (pending.Count == 0) return null;
-            // What users' code sets from now on is for the next tick.
+            // Users' code may set more, which is for the next tick.
             (pending, writing) = (writing, pending);
             request.GlobalsChanged = true;
             string problem = null;
