@@ -62,7 +62,7 @@ endforeach()
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
 suite(csharp-on-coreclr csharp LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --without Slow)
 suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --only Slow)
-suite(unity csharp LABELS quick all NEEDS ${csharp_needs} NUNIT SCRIPT unity.py RESULTS)
+suite(unity csharp LABELS quick all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT unity.py RESULTS)
 add_custom_target(sanitized
   COMMAND "${CMAKE_COMMAND}" -S "${PROJECT_SOURCE_DIR}/native-shim" -B "${COLLEKTIVE_BUILD}/sanitized" -G Ninja -DCMAKE_BUILD_TYPE=RelWithDebInfo
     -DCOLLEKTIVE_SANITIZE=ON "-DCOLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}"
@@ -75,9 +75,9 @@ suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT SCRIPT faults/faults.py --results RESULTS/faults.xml)
 suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT faults/exits.py 8 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
-suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
-suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED SCRIPT pages.py page RESULTS)
-suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED SCRIPT pages.py site RESULTS)
+suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
+suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED PARALLEL SCRIPT pages.py page RESULTS)
+suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED PARALLEL SCRIPT pages.py site RESULTS)
 
 set(acceptance NEEDS build:runtime build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2 --dist loadgroup)
