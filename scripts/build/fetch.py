@@ -18,12 +18,14 @@ from build.places import BUILD, JVM, LOGS, ROOT
 TOOLS = ROOT / "tools"
 EXPERIMENTS = ROOT / "experiments"
 ACTIONLINT = "1.7.12"
+# Packages for the environment of experiments that only some commands need.
+ADDITIONS = ("experiments-tests", "ray")
 
 
 def fetch(*names: str) -> None:
     """Fetches the named tools that are missing. Names are keys of `FETCHERS`."""
     for name in names:
-        if name in ("experiments-tests", "ray"):
+        if name in ADDITIONS:
             fetch("experiments")
         inputs, fetcher = FETCHERS[name]
         fill_once(name, key_of(inputs), fetcher)
@@ -170,6 +172,13 @@ def _pip(name: str, environment: Path, command: str, *options: str | Path) -> No
     _downloaded(name, [environment / "bin/python", *words, *options], partial(os.environ.__setitem__, "PIP_NO_CACHE_DIR", "1"))
 
 
+def _experiments(folder: Path) -> None:
+    """Creates the environment of experiments, to which its additions must be added again."""
+    for name in ADDITIONS:
+        shutil.rmtree(BUILD / name, ignore_errors=True)
+    _environment(EXPERIMENTS / "requirements.txt", folder)
+
+
 def _add_to_experiments(requirements: Path, _: Path) -> None:
     """Adds packages to the environment of experiments; the addition's own folder stays empty."""
     _install(requirements, BUILD / "experiments")
@@ -222,7 +231,7 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "ktlint": ([TOOLS / "ktlint"], partial(_maven_jars, "ktlint")),
     "go": ([ACTIONLINT, shutil.which("go") or ""], _actionlint),
     "python": ([TOOLS / "python", _PYTHON], partial(_environment, TOOLS / "python/requirements.txt")),
-    "experiments": (_EXPERIMENTS, partial(_environment, EXPERIMENTS / "requirements.txt")),
+    "experiments": (_EXPERIMENTS, _experiments),
     "experiments-tests": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-test.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-test.txt")),
     "ray": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-ray.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-ray.txt")),
     "site-tools": ([TOOLS / "site", _PYTHON], _site_tools),

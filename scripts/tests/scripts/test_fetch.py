@@ -44,6 +44,18 @@ def test_one_that_was_killed_starts_over(checkout: Checkout) -> None:
     assert checkout.made() == ["made, 0 files there"] * 3
 
 
+def test_a_new_environment_of_experiments_gets_its_additions_again(checkout: Checkout) -> None:
+    requirements = checkout.root / "experiments/requirements.txt"
+    (checkout.root / "experiments/requirements-test.txt").touch()
+    pip = "fetch._install = lambda requirements, folder: (folder / requirements.name).touch(); fetch.run_logged = lambda *words: None; lock.shared(); "
+    # The second environment has no tests, and the third one the key of the first one.
+    for tool, content in [("experiments-tests", "1"), ("experiments", "2"), ("experiments-tests", "1")]:
+        requirements.write_text(content)
+        result = checkout.run(f"{pip}fetch.fetch('{tool}')")
+        assert result.returncode == 0, result.stderr
+    assert (checkout.root / "build/experiments/requirements-test.txt").exists()
+
+
 def test_a_second_command_waits_and_finds_it_done(checkout: Checkout) -> None:
     checkout.close_gate()
     first = checkout.start(once("1"))
