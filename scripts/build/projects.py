@@ -123,7 +123,7 @@ def _compiler() -> list[str | Path]:
     version = feature_version(jdk)
     # The compiler uses features that newer JVMs warn about.
     quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if version >= 24 else []
-    archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:cds=off"] if version >= 19 else []
+    archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:disable"] if version >= 19 else []
     return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp", f"{BUILD}/kotlinc/*:{GENERATOR_JAR}",
             "org.collektive.generator.CompileKt", "--flatc", FLATC, "--include", inputs.CORE]
 

@@ -131,7 +131,7 @@ namespace Collektive.Unity.Editor
             {
                 words.Add("-XX:+AutoCreateSharedArchive");
                 words.Add("-XX:SharedArchiveFile=" + Path.GetFullPath("Library/Collektive/Tools/compiler.jsa"));
-                words.Add("-Xlog:cds=off");
+                words.Add("-Xlog:disable");
                 Directory.CreateDirectory("Library/Collektive/Tools");
             }
             words.AddRange(new[]
