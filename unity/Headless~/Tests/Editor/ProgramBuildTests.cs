@@ -37,9 +37,11 @@ namespace Collektive.Headless.Tests.Editor
         public void Saved_programs_become_a_jar_beside_the_schema_and_again_when_they_change()
         {
             UseKotlin();
+            var clock = Stopwatch.StartNew();
             Save(Count);
             Assert.That(File.Exists(Jar), Is.False, "the editor does not wait");
             Build();
+            var first = clock.ElapsedMilliseconds;
             Assert.That(Project.Imported, Has.Some.EqualTo(Jar));
             Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt" }));
             Assert.That(File.Exists("Assets/Swarm/Generated/swarm/SwarmSchema.cs"), Is.True, "the C# is generated, too");
@@ -54,11 +56,11 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(File.ReadAllBytes(Jar), Is.EqualTo(bytes));
 
             Write("Assets/Swarm/Programs/More.kt", BuildTests.Kotlin.Replace("count", "more"));
-            var clock = Stopwatch.StartNew();
+            clock.Restart();
             Save("Assets/Swarm/Programs/More.kt");
             Build();
-            Console.WriteLine("a warm build took " + clock.ElapsedMilliseconds + " ms");
-            Assert.That(clock.ElapsedMilliseconds, Is.LessThan(10_000), "the compilers are loaded");
+            Console.WriteLine("the first build took " + first + " ms, a later one " + clock.ElapsedMilliseconds + " ms");
+            Assert.That(clock.ElapsedMilliseconds, Is.LessThan(first), "the compilers are loaded");
             Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt", "swarm.MoreKt" }));
 
             File.Delete("Assets/Swarm/Programs/More.kt");
