@@ -82,7 +82,7 @@ class CompileServerTest {
     @Test
     fun `one jar is compiled by a command, and an error is its exit code`() {
         write("Hops.kt", "fun hops() = 1")
-        assertEquals(0 to "", run(words()))
+        assertEquals(0, run(words()).first)
         JarFile(jar.toFile()).use {
             assertEquals("builtIn", it.manifest.mainAttributes.getValue("Collektive-Runtime"))
             assertEquals(64, it.manifest.mainAttributes.getValue("Collektive-Sources").length)
