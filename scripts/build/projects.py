@@ -125,7 +125,7 @@ def _compiler() -> list[str | Path]:
     quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if version >= 24 else []
     archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:disable"] if version >= 19 else []
     return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp", f"{BUILD}/kotlinc/*:{GENERATOR_JAR}",
-            "org.collektive.generator.CompileKt", "--flatc", FLATC, "--include", inputs.CORE]
+            "org.collektive.generator.CompileCommand", "--flatc", FLATC, "--include", inputs.CORE]
 
 
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:

@@ -136,7 +136,7 @@ namespace Collektive.Unity.Editor
             }
             words.AddRange(new[]
             {
-                "-cp", Path.Combine(kotlin, "lib/*") + Path.PathSeparator + Toolchain.Generator, "org.collektive.generator.CompileKt", "--serve",
+                "-cp", Path.Combine(kotlin, "lib/*") + Path.PathSeparator + Toolchain.Generator, "org.collektive.generator.CompileCommand", "--serve",
                 Path.GetFullPath(Folder), Process.GetCurrentProcess().Id.ToString(CultureInfo.InvariantCulture),
             });
             lock (Messages) Messages.Clear();

@@ -24,7 +24,7 @@ import kotlin.io.path.isRegularFile
  */
 internal object ProgramCompiler {
     const val USAGE: String =
-        "usage: java -cp JARS_OF_KOTLIN:collektive-generator.jar org.collektive.generator.CompileKt --flatc FILE --schema FILE.fbs " +
+        "usage: java -cp JARS_OF_KOTLIN:collektive-generator.jar org.collektive.generator.CompileCommand --flatc FILE --schema FILE.fbs " +
             "--include FOLDER [--csharp FOLDER] --jar FILE --work FOLDER [--source FILE_OR_FOLDER]... [--library JAR]... [--kotlin OPTION]... [--mark NAME:VALUE]..."
 
     private val options = setOf("--jar", "--work", "--source", "--library", "--kotlin", "--mark")

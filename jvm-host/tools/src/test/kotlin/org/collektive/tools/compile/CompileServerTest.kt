@@ -137,7 +137,7 @@ class CompileServerTest {
         "-XX:TieredStopAtLevel=1",
         "-cp",
         System.getProperty("java.class.path"),
-        "org.collektive.generator.CompileKt",
+        "org.collektive.generator.CompileCommand",
     )
 
     private fun start(vararg words: String): Process = ProcessBuilder(*words).redirectErrorStream(true).start().also(started::add)
