@@ -18,9 +18,10 @@ PROBE = ROOT / "unity/Headless~/Tests/Simulation/Probe"
 
 def run(results: Path, jdk: str, runtime: str, options: list[str]) -> int:
     """Returns the exit code of the test runner."""
-    jar = projects.programs_jar(inputs.schema(PROBE / "probe.fbs"), inputs.programs(PROBE / "programs"))
+    schema = inputs.schema(PROBE / "probe.fbs")
+    jar, other = (projects.programs_jar(schema, inputs.programs(PROBE / folder)) for folder in ("programs", "other"))
     environment = {**managed.environment(runtime), "COLLEKTIVE_ROOT": str(ROOT), "COLLEKTIVE_HOST_JAR": str(HOST_JAR),
-                   "COLLEKTIVE_TEST_JAVA_HOME": jdk, "COLLEKTIVE_PROBE_JAR": str(jar)}
+                   "COLLEKTIVE_TEST_JAVA_HOME": jdk, "COLLEKTIVE_PROBE_JAR": str(jar), "COLLEKTIVE_OTHER_JAR": str(other)}
     if os.environ.get("COLLEKTIVE_TEST_PLACEMENT") != "OwnProcess":
         options = [*options, "--without", "OwnProcess"]
     command = managed.command(runtime, CSHARP / "Collektive.TestRunner.exe", "--results", results / "csharp.xml", *options,

@@ -28,6 +28,7 @@ namespace Collektive.Unity.Editor
         {
             Schemas.FindTypes = () => TypeCache.GetTypesDerivedFrom<DataSchema>();
             Installation.ToPhysical = path => Path.GetFullPath(FileUtil.GetPhysicalPath(path));
+            Installation.ToAssetPath = AssetDatabase.GUIDToAssetPath;
             var began = SessionState.GetString(VersionKey, "");
             if (began.Length == 0) SessionState.SetString(VersionKey, Version);
             else if (began != Version) Debug.LogWarning("Collektive was updated from " + began + " to " + Version

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The manager's inspector: its settings, the programs to choose from, and a dashboard while it runs.</summary>
+    /// <summary>The manager's inspector: its settings, and a dashboard while it runs.</summary>
     [CustomEditor(typeof(SimulationManager))]
     internal sealed class SimulationManagerEditor : UnityEditor.Editor
     {
@@ -23,7 +23,6 @@ namespace Collektive.Unity.Editor
             if (EditorApplication.isPlaying && manager.Programs.Count > 0)
                 EditorGUILayout.HelpBox(
                     "Settings take effect at the next Play, changed JVM settings " + Jvm.WhenChangesTakeEffect + ".", MessageType.Info);
-            else DrawPrograms(manager.Settings);
             DrawJvm(manager.Settings.jvm);
             if (EditorApplication.isPlaying) DrawDashboard(manager);
         }
@@ -45,13 +44,6 @@ namespace Collektive.Unity.Editor
                 jvm = CreateEditor(asset);
             }
             jvm.OnInspectorGUI();
-        }
-
-        private void DrawPrograms(SimulationSettings settings)
-        {
-            serializedObject.Update();
-            ProgramPicker.Draw(serializedObject.FindProperty("settings").FindPropertyRelative("program"), ProgramIndex.Of(settings), "(none)");
-            serializedObject.ApplyModifiedProperties();
         }
 
         private void DrawDashboard(SimulationManager manager)

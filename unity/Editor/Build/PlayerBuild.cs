@@ -9,7 +9,7 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Adds the JVM, the host's jars and the programs' jars to players with simulations. They are copied
+    /// Adds the JVM, the host's jars and the libraries of programs to players with simulations. They are copied
     /// below the player's streaming assets, where <see cref="Installation"/> finds them.
     /// </summary>
     internal sealed class PlayerBuild : BuildPlayerProcessor
@@ -27,6 +27,11 @@ namespace Collektive.Unity.Editor
 
             var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
             foreach (var simulation in simulations) AddPrograms(simulation, files);
+            foreach (var path in AssetDatabase.GetDependencies(options.scenes ?? new string[0], true))
+            {
+                var library = path.EndsWith("." + ProgramLibrary.Extension, StringComparison.Ordinal) ? AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path) : null;
+                if (library != null) Add(library, files);
+            }
             AddJvms(simulations, platforms, files);
             foreach (var jar in HostJars) Add(Installation.OwnFile(jar), files);
             foreach (var file in files) buildPlayerContext.AddAdditionalPathToStreamingAssets(file.Value, file.Key);
@@ -40,11 +45,19 @@ namespace Collektive.Unity.Editor
             var failed = ProgramBuild.Refresh(SchemaProject.FindAll(new[] { settings }));
             if (failed.Count > 0)
                 throw simulation.Failure(failed[0].Jar + " is older than its sources because the build failed: fix the errors in the console");
-            foreach (var jar in JarsOf(simulation))
+            try
+            {
+                Schemas.Find(settings.SchemaName);
+            }
+            catch (BridgeException error)
+            {
+                throw simulation.Failure(error.Message);
+            }
+            foreach (var library in settings.Libraries()) Add(library, files);
+            foreach (var jar in settings.jars)
             {
                 if (!File.Exists(Installation.PathOf(jar)))
-                    throw simulation.Failure("jar " + jar + " does not exist"
-                        + ": build it with Tools > Collektive > Rebuild Programs, or correct the Simulation Manager's jars");
+                    throw simulation.Failure("jar " + jar + " does not exist: select a library of programs in the Simulation Manager");
                 Add(jar, files);
             }
             if (settings.runtime == AggregateRuntime.BuiltIn) return;
@@ -52,18 +65,6 @@ namespace Collektive.Unity.Editor
                 throw simulation.Failure("the folder of Collektive's jars, " + settings.runtimeJars
                     + ", does not exist: correct Runtime Jars in the Simulation Manager's settings");
             Add(settings.runtimeJars, files);
-        }
-
-        private static List<string> JarsOf(SceneSimulation simulation)
-        {
-            try
-            {
-                return simulation.Settings.JarsFor(Schemas.Find(simulation.Settings.schema));
-            }
-            catch (BridgeException error)
-            {
-                throw simulation.Failure(error.Message);
-            }
         }
 
         private static void AddJvms(List<SceneSimulation> simulations, string[] platforms, SortedDictionary<string, string> files)
@@ -81,6 +82,9 @@ namespace Collektive.Unity.Editor
                 if (Array.IndexOf(missing, platform) < 0) files[Installation.NameInPlayer(Installation.OwnFile(platform))] = Installation.BundledFor(platform);
             }
         }
+
+        private static void Add(ProgramLibrary library, SortedDictionary<string, string> files) =>
+            files[Installation.NameInPlayer(library.NameInPlayer)] = Installation.PathOf(library.File);
 
         private static void Add(string file, SortedDictionary<string, string> files) => files[Installation.NameInPlayer(file)] = Installation.PathOf(file);
     }

@@ -36,7 +36,7 @@ namespace Collektive.Unity.Editor
         internal string Programs => Path.Combine(Path.GetDirectoryName(Schema), "Programs");
 
         /// <summary>The jar, an asset that can be committed.</summary>
-        internal string Jar => Path.ChangeExtension(Schema, "clkprograms");
+        internal string Jar => Path.ChangeExtension(Schema, ProgramLibrary.Extension);
 
         internal bool HasPrograms => SourceHash.KotlinFiles(Programs).Length > 0;
 
@@ -100,8 +100,8 @@ namespace Collektive.Unity.Editor
             return found;
         }
 
-        private bool Uses(SimulationSettings simulation) => simulation.jars.Contains(Jar)
-            || simulation.jars.Count == 0 && Schemas.TryFind(simulation.schema)?.File == Name;
+        private bool Uses(SimulationSettings simulation) => simulation.JarPaths.Contains(Jar)
+            || simulation.JarPaths.Count == 0 && Schemas.TryFind(simulation.schema)?.File == Name;
 
         private static SimulationSettings First(IReadOnlyList<SimulationSettings> simulations, Predicate<SimulationSettings> matches)
         {

@@ -44,7 +44,7 @@ namespace Collektive.Unity.Editor
             for (var i = 0; i < Manager.Nodes.Count; i++)
             {
                 var node = Manager.Nodes[i];
-                var program = node.Program.Length > 0 ? node.Program : Manager.Settings.program;
+                var program = Manager.Settings.ProgramOf(node);
                 if (!Matches(node, program, filter)) continue;
                 var (senders, receivers) = counts[node.Id];
                 rows.Add(new NodeRow(node, program, senders, receivers));

@@ -17,7 +17,7 @@ namespace Collektive.Headless
                 var nodes = new List<Node>();
                 foreach (var node in manager.Nodes)
                 {
-                    if ((node.Program.Length > 0 ? node.Program : manager.Settings.program) == program.Name) nodes.Add(node);
+                    if (manager.Settings.ProgramOf(node) == program.Name) nodes.Add(node);
                 }
                 if (nodes.Count == 0) continue;
                 var parameters = new JObject();

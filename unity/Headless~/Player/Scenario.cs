@@ -36,7 +36,7 @@ namespace Collektive.Headless
             !new[]
             {
                 nameof(SimulationSettings.schema), nameof(SimulationSettings.jars), nameof(SimulationSettings.jvm), nameof(SimulationSettings.stopAfter),
-                nameof(SimulationSettings.record),
+                nameof(SimulationSettings.record), nameof(SimulationSettings.libraries), nameof(SimulationSettings.defaultProgram),
             }.Contains(field.Name)).ToArray();
 
         /// <summary>All keys at the top of a scenario.</summary>

@@ -1,24 +1,72 @@
+using System;
+using System.Collections.Generic;
 using System.IO;
+using System.Text.RegularExpressions;
 using UnityEditor.Headless;
-using UnityEngine;
+using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
     public sealed class AssetDatabase
     {
         public static string GUIDToAssetPath(string guid) => Project.PathOf(guid);
+        public static string AssetPathToGUID(string path) => Project.GuidOf(path);
+        public static string GetAssetPath(Object assetObject) => ImportedAsset.PathOf(assetObject);
 
-        /// Prefabs become objects that are in no scene; any other file that exists is an asset without content.
+        public static bool TryGetGUIDAndLocalFileIdentifier(Object obj, out string guid, out long localId)
+        {
+            var path = GetAssetPath(obj);
+            guid = path.Length > 0 ? AssetPathToGUID(path) : new string('0', 32);
+            localId = path.Length > 0 ? ImportedAsset.Of(path).IdOf(obj) : 0;
+            return path.Length > 0;
+        }
+
+        public static void ImportAsset(string path)
+        {
+            Project.Imported.Add(path);
+            ImportedAsset.Reimport(path);
+        }
+
+        /// Prefabs become objects that are in no scene, and importers make other assets. Any other file that exists is an asset without content.
         public static T LoadAssetAtPath<T>(string assetPath) where T : Object
         {
             var file = string.IsNullOrEmpty(assetPath) ? "" : Project.FileOf(assetPath);
             if (!File.Exists(file)) return null;
-            if (typeof(T) == typeof(GameObject)) return assetPath.EndsWith(".prefab") ? (T)(Object)PrefabFile.Load(file) : null;
+            if (typeof(T) == typeof(UnityEngine.GameObject)) return assetPath.EndsWith(".prefab") ? (T)(Object)PrefabFile.Load(file) : null;
+            if (ImportedAsset.Of(assetPath) is ImportedAsset imported) return imported.Main as T;
             return typeof(T).IsAssignableFrom(typeof(PlainAsset)) ? (T)(Object)new PlainAsset { name = Path.GetFileNameWithoutExtension(file) } : null;
         }
 
+        /// The paths of the assets, and of all that their YAML refers to.
+        public static string[] GetDependencies(string[] pathNames, bool recursive)
+        {
+            var found = new List<string>(pathNames);
+            for (var i = 0; i < found.Count && recursive; i++)
+            {
+                if (!found[i].EndsWith(".unity") && !found[i].EndsWith(".prefab")) continue;
+                foreach (Match reference in Regex.Matches(File.ReadAllText(Project.FileOf(found[i])), "guid: ([0-9a-f]{32})"))
+                {
+                    var path = Project.PathOf(reference.Groups[1].Value);
+                    if (path.Length > 0 && !found.Contains(path)) found.Add(path);
+                }
+            }
+            return found.ToArray();
+        }
+
+        /// Only the filter "t:TYPE" of types that importers make.
+        public static string[] FindAssets(string filter)
+        {
+            var found = new List<string>();
+            foreach (var file in Directory.Exists("Assets") ? Directory.GetFiles("Assets", "*", SearchOption.AllDirectories) : new string[0])
+            {
+                var path = file.Replace('\\', '/');
+                if (ImportedAsset.IsImportable(path) && "t:" + ImportedAsset.Of(path).Main.GetType().Name == filter) found.Add(AssetPathToGUID(path));
+            }
+            found.Sort(StringComparer.Ordinal);
+            return found.ToArray();
+        }
+
         public static void Refresh() => Project.Refreshes++;
-        public static void ImportAsset(string path) => Project.Imported.Add(path);
 
         sealed class PlainAsset : Object { }
     }

@@ -28,9 +28,33 @@ namespace UnityEditor
     public sealed class EditorGUI
     {
         public static int indentLevel { get; set; }
+        public static bool showMixedValue { get; set; }
         public static void BeginChangeCheck() => Gui.Changed = false;
         public static bool EndChangeCheck() => Gui.Changed;
         public static float GetPropertyHeight(SerializedProperty property, GUIContent label, bool includeChildren) => EditorGUIUtility.singleLineHeight;
+
+        public static void HelpBox(Rect position, string message, MessageType type) => Gui.Draw("help", type.ToString(), message);
+        public static void LabelField(Rect position, string label) => Gui.Draw("label", label);
+        public static int IntField(Rect position, GUIContent label, int value) => Draw("int", label, value);
+        public static double DoubleField(Rect position, GUIContent label, double value) => Draw("double", label, value);
+        public static bool Toggle(Rect position, GUIContent label, bool value) => Draw("toggle", label, value);
+        public static string TextField(Rect position, GUIContent label, string text) => Draw("text", label, text);
+
+        public static void ObjectField(Rect position, SerializedProperty property, GUIContent label)
+        {
+            showMixedValue = property.hasMultipleDifferentValues;
+            var old = property.objectReferenceValue;
+            var value = Draw("object", label, old);
+            showMixedValue = false;
+            if (!ReferenceEquals(value, old)) property.objectReferenceValue = value;
+        }
+
+        static T Draw<T>(string kind, GUIContent label, T value)
+        {
+            var text = value is UnityEngine.Object reference ? reference.name : System.Convert.ToString(value, System.Globalization.CultureInfo.InvariantCulture);
+            Gui.Draw(kind, label.text, showMixedValue ? "(mixed)" : text);
+            return Gui.Take(label.text, value);
+        }
 
         public static bool PropertyField(Rect position, SerializedProperty property, GUIContent label, bool includeChildren)
         {

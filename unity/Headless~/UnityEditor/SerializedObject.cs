@@ -1,47 +1,77 @@
 using System;
 using System.Collections;
-using System.Reflection;
+using System.Collections.Generic;
+using System.Text.RegularExpressions;
+using UnityEditor.Headless;
 using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
-    public class SerializedObject
+    /// A copy of the serialised fields of one or several objects; changes arrive with `ApplyModifiedProperties`, which can be undone.
+    public class SerializedObject : IDisposable
     {
-        Action undo;
+        internal readonly SerializedFields[] Copies;
 
-        public SerializedObject(Object obj) => targetObject = obj;
-        public Object targetObject { get; }
-        public SerializedProperty FindProperty(string propertyPath) => SerializedProperty.Of(() => targetObject, _ => { }, propertyPath, step => undo += step);
-        public void Update() { }
+        public SerializedObject(Object obj) : this(new[] { obj }) { }
 
-        /// Whether any changed; then Undo takes all of them back.
+        public SerializedObject(Object[] objs)
+        {
+            targetObjects = objs;
+            Copies = Array.ConvertAll(objs, each => new SerializedFields(each));
+        }
+
+        public Object targetObject => targetObjects[0];
+        public Object[] targetObjects { get; }
+        public void Dispose() { }
+
+        public SerializedProperty FindProperty(string propertyPath)
+        {
+            var property = new SerializedProperty(this, "", Copies[0].Root);
+            foreach (Match step in Regex.Matches(propertyPath, @"Array\.data\[(\d+)\]|\w+"))
+                property = step.Groups[1].Success ? property?.GetArrayElementAtIndex(int.Parse(step.Groups[1].Value)) : property?.FindPropertyRelative(step.Value);
+            return property;
+        }
+
+        public void Update()
+        {
+            foreach (var copy in Copies) copy.Read();
+        }
+
         public bool ApplyModifiedProperties()
         {
-            if (undo == null) return false;
-            Headless.Project.UndoSteps.Push(undo);
-            undo = null;
-            return true;
+            var isChanged = false;
+            foreach (var copy in Copies) isChanged |= copy.Apply();
+            return isChanged;
         }
     }
 
-    /// A field of an object or an element of a list; what is written to it arrives at once.
+    /// A field of the objects, or an element of a list.
     public class SerializedProperty
     {
-        readonly Func<object> get;
-        readonly Action<object> set;
-        readonly Action<Action> toUndo;
+        internal readonly Type Type;
 
-        SerializedProperty(string name, Func<object> get, Action<object> set, Action<Action> toUndo)
+        internal SerializedProperty(SerializedObject owner, string path, Type type)
         {
-            this.toUndo = toUndo;
-            this.name = name;
-            this.get = get;
-            this.set = set;
+            serializedObject = owner;
+            propertyPath = path;
+            Type = type;
         }
 
-        public string name { get; }
-        public bool hasMultipleDifferentValues => false;
-        public int arraySize => List.Count;
+        public SerializedObject serializedObject { get; }
+        public string propertyPath { get; }
+        public string name => propertyPath.EndsWith("]") ? "data" : propertyPath.Substring(propertyPath.LastIndexOf('.') + 1);
+        public bool hasMultipleDifferentValues => Array.Exists(serializedObject.Copies, copy => !SerializedFields.Same(copy.Get(propertyPath), Value));
+        public bool isArray => Value is IList;
+
+        public int arraySize
+        {
+            get => List.Count;
+            set => Change(list =>
+            {
+                while (list.Count > value) list.RemoveAt(list.Count - 1);
+                while (list.Count < value) list.Add(NewElement(list.Count > 0 ? list[list.Count - 1] : null));
+            });
+        }
 
         public string stringValue
         {
@@ -49,45 +79,54 @@ namespace UnityEditor
             set => Value = value;
         }
 
+        public Object objectReferenceValue
+        {
+            get => (Object)Value;
+            set => Value = value == null || Type.IsInstanceOfType(value) ? value : null;
+        }
+
         internal object Value
         {
-            get => get();
+            get => serializedObject.Copies[0].Get(propertyPath);
             set
             {
-                var before = get();
-                if (Equals(before, value)) return;
-                set(value);
-                toUndo(() => set(before));
+                foreach (var copy in serializedObject.Copies) copy.Set(propertyPath, value);
             }
         }
 
-        IList List => (IList)get();
+        IList List => (IList)Value;
 
-        public SerializedProperty FindPropertyRelative(string relativePropertyPath) => Of(get, set, relativePropertyPath, toUndo);
-        public SerializedProperty GetArrayElementAtIndex(int index) =>
-            new SerializedProperty("data", () => List[index], value => List[index] = value, toUndo);
+        public SerializedProperty Copy() => this;
 
-        /// The new element is a copy of the one before it.
-        public void InsertArrayElementAtIndex(int index) =>
-            List.Insert(index, List.Count > 0 ? List[Math.Max(0, index - 1)] : Activator.CreateInstance(List.GetType().GetGenericArguments()[0]));
-
-        public void DeleteArrayElementAtIndex(int index) => List.RemoveAt(index);
-
-        /// A field of what `owner` gives; `changed` gets the owner after a change, which must be stored again if it is a struct.
-        internal static SerializedProperty Of(Func<object> owner, Action<object> changed, string name, Action<Action> toUndo)
+        public SerializedProperty FindPropertyRelative(string relativePropertyPath)
         {
-            for (var type = owner().GetType(); type != null; type = type.BaseType)
+            var field = SerializedFields.FieldOf(Type, relativePropertyPath);
+            return field == null ? null
+                : new SerializedProperty(serializedObject, propertyPath.Length > 0 ? propertyPath + "." + field.Name : field.Name, field.FieldType);
+        }
+
+        public SerializedProperty GetArrayElementAtIndex(int index) =>
+            new SerializedProperty(serializedObject, propertyPath + ".Array.data[" + index + "]", SerializedFields.ElementOf(Type));
+
+        public void InsertArrayElementAtIndex(int index) => Change(list => list.Insert(index, NewElement(list.Count > 0 ? list[Math.Max(0, index - 1)] : null)));
+
+        public void DeleteArrayElementAtIndex(int index) => Change(list => list.RemoveAt(index));
+
+        /// A copy of the one before it.
+        object NewElement(object before)
+        {
+            var type = SerializedFields.ElementOf(Type);
+            return before != null ? SerializedFields.Copy(before) : typeof(Object).IsAssignableFrom(type) ? null : type == typeof(string) ? "" : Activator.CreateInstance(type);
+        }
+
+        void Change(Action<IList> change)
+        {
+            foreach (var copy in serializedObject.Copies)
             {
-                var field = type.GetField(name, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly);
-                if (field == null) continue;
-                return new SerializedProperty(name, () => field.GetValue(owner()), value =>
-                {
-                    var it = owner();
-                    field.SetValue(it, value);
-                    changed(it);
-                }, toUndo);
+                var list = (IList)copy.Get(propertyPath);
+                change(list);
+                copy.Set(propertyPath, list);
             }
-            return null;
         }
     }
 }

@@ -131,12 +131,12 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Without_jars_that_of_the_schema_is_used()
+        public void Without_jars_and_libraries_a_simulation_says_what_to_select()
         {
             Configure("double", settings => settings.jars.Clear());
             MakeNode(1);
             Play(1);
-            Assert.That(Manager.Failure, Is.StringContaining("Library/Collektive/probe.jar"));
+            Assert.That(Manager.Failure, Is.StringContaining("no program library is selected: drag a .clkprograms file to Libraries"));
         }
 
         [Test]

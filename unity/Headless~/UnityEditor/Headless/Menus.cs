@@ -35,7 +35,7 @@ namespace UnityEditor.Headless
             return pages;
         }
 
-        /// The drawer that has [CustomPropertyDrawer] for an attribute.
+        /// The drawer that has [CustomPropertyDrawer] for an attribute or a type.
         public static PropertyDrawer DrawerOf(Type attribute)
         {
             foreach (var type in EditorTypes())
@@ -45,6 +45,23 @@ namespace UnityEditor.Headless
             }
             return null;
         }
+
+        /// The drawer of a field, which has it for an attribute or for its type.
+        internal static PropertyDrawer DrawerOf(FieldInfo field)
+        {
+            foreach (var attribute in field.GetCustomAttributes<PropertyAttribute>())
+            {
+                if (!(DrawerOf(attribute.GetType()) is PropertyDrawer drawer)) continue;
+                drawer.attribute = attribute;
+                return drawer;
+            }
+            return DrawerOf(field.FieldType);
+        }
+
+        /// The entries of the context menu that was shown last.
+        public static IEnumerable<string> ContextItems => GenericMenu.Shown.Items;
+
+        public static void PickContextItem(string item) => GenericMenu.Shown.Pick(item);
 
         public static void ChangePlayMode(PlayModeStateChange change) => EditorApplication.RaisePlayMode(change);
 

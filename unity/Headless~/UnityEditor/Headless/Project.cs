@@ -27,14 +27,19 @@ namespace UnityEditor.Headless
         /// The items of the Progress window, in the order of their starts; the index is the id.
         public static List<(string Description, Progress.Status Status)> ProgressItems { get; } = new List<(string, Progress.Status)>();
 
-        internal static Stack<System.Action> UndoSteps { get; } = new Stack<System.Action>();
+        static readonly Stack<(UnityEngine.Event Cause, System.Action Back)> UndoSteps = new Stack<(UnityEngine.Event, System.Action)>();
 
-        /// Takes back the last change of fields in inspectors and settings, as Edit > Undo does.
+        static readonly Dictionary<string, string> PackagePaths = new Dictionary<string, string>();
+
+        /// Takes back all changes of fields in inspectors and settings by the last event, as Edit > Undo does.
         public static void PerformUndo()
         {
-            UndoSteps.Pop()();
+            var cause = UndoSteps.Peek().Cause;
+            while (UndoSteps.Count > 0 && UndoSteps.Peek().Cause == cause) UndoSteps.Pop().Back();
             Undo.undoRedoPerformed?.Invoke();
         }
+
+        internal static void RecordUndo(System.Action back) => UndoSteps.Push((UnityEngine.Event.current, back));
 
         /// The user's answer to a dialog, by its message.
         public static System.Func<string, bool> Answer { get; set; }
@@ -42,17 +47,33 @@ namespace UnityEditor.Headless
         /// Whether the user clicks Cancel beside a progress bar.
         public static bool CancelsWaiting { get; set; }
 
-        /// The asset path of the package's file that has this GUID; empty if none has it.
+        /// The asset path of the package's or the project's file that has this GUID; empty if none has it.
         internal static string PathOf(string guid)
         {
-            foreach (var meta in Directory.GetFiles(Root, "*.meta", SearchOption.AllDirectories))
-            {
-                if (Regex.IsMatch(File.ReadAllText(meta), "^guid: " + guid + "$", RegexOptions.Multiline))
-                    return Package + meta.Substring(Root.Length, meta.Length - Root.Length - ".meta".Length);
-            }
-            return "";
+            if (PackagePaths.Count == 0) AddPaths(Root, Package, PackagePaths);
+            if (PackagePaths.TryGetValue(guid, out var path)) return path;
+            var own = new Dictionary<string, string>();
+            if (Directory.Exists("Assets")) AddPaths("Assets", "Assets", own);
+            return own.TryGetValue(guid, out path) ? path : "";
+        }
+
+        static void AddPaths(string folder, string prefix, Dictionary<string, string> paths)
+        {
+            foreach (var meta in Directory.GetFiles(folder, "*.meta", SearchOption.AllDirectories))
+                paths[GuidIn(meta)] = prefix + meta.Substring(folder.Length, meta.Length - folder.Length - ".meta".Length).Replace('\\', '/');
+        }
+
+        /// Of an asset, which gets a meta file if it has none; empty if it does not exist.
+        internal static string GuidOf(string asset)
+        {
+            var meta = FileOf(asset) + ".meta";
+            if (!File.Exists(FileOf(asset))) return "";
+            if (!File.Exists(meta)) File.WriteAllText(meta, "fileFormatVersion: 2\nguid: " + System.Guid.NewGuid().ToString("N") + "\n");
+            return GuidIn(meta);
         }
 
         internal static string FileOf(string asset) => asset.StartsWith(Package) ? Root + asset.Substring(Package.Length) : asset;
+
+        static string GuidIn(string meta) => Regex.Match(File.ReadAllText(meta), "^guid: ([0-9a-f]+)$", RegexOptions.Multiline).Groups[1].Value;
     }
 }

@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Reads only a scene's instances of prefabs, with the texts and numbers that the scene gives their scripts.
+    /// Reads only a scene's instances of prefabs, with the texts, numbers and imported assets that the scene gives their scripts.
     static class SceneFile
     {
         internal static void Load(string path)
@@ -18,13 +18,21 @@ namespace UnityEditor.Headless
             {
                 var guid = Regex.Match(instance.Value, @"m_SourcePrefab: .*guid: ([0-9a-f]+)").Groups[1].Value;
                 var made = PrefabFile.Load(Project.FileOf(Project.PathOf(guid)));
-                foreach (Match change in Regex.Matches(instance.Value, @"propertyPath: (.+)\n +value: (.*)\n"))
-                    Change(made, change.Groups[1].Value.Replace(".Array.data[", "[").Split('.'), change.Groups[2].Value);
+                foreach (Match change in Regex.Matches(instance.Value, @"propertyPath: (.+)\n +value: ?(.*)\n +objectReference: (.*)\n"))
+                    Change(made, change.Groups[1].Value.Replace(".Array.data[", "[").Split('.'), Referred(change.Groups[3].Value) ?? change.Groups[2].Value);
             }
         }
 
+        /// The imported object of a reference such as `{fileID: 1, guid: 2, type: 3}`, or null.
+        static object Referred(string reference)
+        {
+            var parts = Regex.Match(reference, @"fileID: (-?\d+), guid: ([0-9a-f]+)");
+            if (!parts.Success) return null;
+            return ImportedAsset.Of(Project.PathOf(parts.Groups[2].Value))?.Find(long.Parse(parts.Groups[1].Value));
+        }
+
         /// Of the first script that has the field.
-        static void Change(GameObject made, string[] path, string value)
+        static void Change(GameObject made, string[] path, object value)
         {
             foreach (var script in made.GetComponents<MonoBehaviour>())
                 if (FieldOf(script, path[0]) != null)
@@ -34,17 +42,20 @@ namespace UnityEditor.Headless
                 }
         }
 
-        static void Change(object owner, string[] path, int at, string value)
+        static void Change(object owner, string[] path, int at, object value)
         {
             var element = Regex.Match(path[at], @"^(.+)\[(\d+)\]$");
             var field = FieldOf(owner, element.Success ? element.Groups[1].Value : path[at]);
             // The size of a list: its elements follow.
             if (field == null || path[path.Length - 1] == "size") return;
-            if (element.Success) ((IList)field.GetValue(owner)).Insert(int.Parse(element.Groups[2].Value), value);
+            if (element.Success) ((IList)field.GetValue(owner)).Insert(int.Parse(element.Groups[2].Value), IsReference(field) ? value as UnityEngine.Object : value);
             else if (at < path.Length - 1) Change(field.GetValue(owner), path, at + 1, value);
-            else if (field.FieldType.IsEnum) field.SetValue(owner, Enum.Parse(field.FieldType, value));
+            else if (value is UnityEngine.Object) field.SetValue(owner, value);
+            else if (field.FieldType.IsEnum) field.SetValue(owner, Enum.Parse(field.FieldType, (string)value));
             else field.SetValue(owner, Convert.ChangeType(value, field.FieldType, CultureInfo.InvariantCulture));
         }
+
+        static bool IsReference(FieldInfo list) => typeof(UnityEngine.Object).IsAssignableFrom(SerializedFields.ElementOf(list.FieldType));
 
         static FieldInfo FieldOf(object owner, string name) =>
             owner.GetType().GetField(name, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);

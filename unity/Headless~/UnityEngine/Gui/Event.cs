@@ -5,6 +5,8 @@ namespace UnityEngine
         MouseDown = 0,
         Repaint = 7,
         Layout = 8,
+        DragUpdated = 9,
+        DragPerform = 10,
         Used = 12,
     }
 
@@ -13,6 +15,7 @@ namespace UnityEngine
     {
         public static Event current { get; set; } = new Event { type = EventType.Layout };
         public EventType type { get; set; }
+        public Vector2 mousePosition { get; set; }
         public void Use() => type = EventType.Used;
     }
 }

@@ -14,5 +14,8 @@ namespace UnityEngine
             this.width = width;
             this.height = height;
         }
+
+        public float yMax => y + height;
+        public readonly bool Contains(Vector2 point) => point.x >= x && point.x < x + width && point.y >= y && point.y < y + height;
     }
 }

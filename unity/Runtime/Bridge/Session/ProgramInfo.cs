@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.Globalization;
 
 namespace Collektive.Bridge
 {
@@ -26,6 +27,7 @@ namespace Collektive.Bridge
             Name = name;
             DefaultValue = defaultValue;
             Description = description;
+            Type = TypeOf(defaultValue);
         }
 
         /// <summary>The parameter's name.</summary>
@@ -36,5 +38,15 @@ namespace Collektive.Bridge
 
         /// <summary>A description; may be empty.</summary>
         public string Description { get; }
+
+        /// <summary>The type of its values.</summary>
+        public ParameterType Type { get; }
+
+        private static ParameterType TypeOf(string value)
+        {
+            if (value == "true" || value == "false") return ParameterType.Boolean;
+            if (int.TryParse(value, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out _)) return ParameterType.Integer;
+            return double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out _) ? ParameterType.Number : ParameterType.Text;
+        }
     }
 }

@@ -14,6 +14,9 @@ namespace Collektive.Unity
         /// <summary>Returns the real path of a file relative to the project's folder. The editor replaces it, because packages are elsewhere.</summary>
         internal static Func<string, string> ToPhysical { get; set; } = InPlayer;
 
+        /// <summary>Returns the path of the asset with a GUID, from the project's folder. Set by the editor; null in a player.</summary>
+        internal static Func<string, string> ToAssetPath { get; set; }
+
         private static string hostJar;
         private static string javaHome;
 
@@ -60,10 +63,6 @@ namespace Collektive.Unity
             if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are invalid: " + problems[0]);
             return settings.ToLaunch(HomeOf(settings), HostJar, Path.Combine(Application.persistentDataPath, "Collektive"));
         }
-
-        /// <summary>Path of the jar that the editor builds from a schema's programs for a runtime, relative to the project's folder.</summary>
-        internal static string JarOf(string schemaFile, AggregateRuntime runtime) =>
-            "Library/Collektive/" + schemaFile + (runtime == AggregateRuntime.BuiltIn ? "" : "-collektive") + ".jar";
 
         /// <summary>
         /// The full path of a file named from the project's folder. Names below <c>Packages/org.collektive.unity</c> are the package's own

@@ -16,13 +16,25 @@ namespace Collektive.Unity
         /// <summary>Shorter ticks would have no physics.</summary>
         private const float MinDeltaTime = 1e-6f;
 
-        /// <summary>Full name of the generated schema class. Empty: the project's only schema.</summary>
-        [Tooltip("Full name of the generated schema class, for example swarm.SwarmSchema. Empty: the project's only schema.")]
+        /// <summary>Libraries with the programs that nodes can run, all compiled with one schema. Ignored if <see cref="jars"/> has entries.</summary>
+        [Tooltip("Libraries (.clkprograms) with the programs that nodes can run, all compiled with one schema.")]
+        public List<ProgramLibrary> libraries = new List<ProgramLibrary>();
+
+        /// <summary>Program of nodes without their own. Its library need not be listed. Ignored if <see cref="program"/> is not empty.</summary>
+        [Tooltip("Program of nodes without their own.")]
+        public AggregateProgram defaultProgram;
+
+        /// <summary>For scripts: full name of the generated schema class. Empty: the schema of the libraries.</summary>
+        [HideInInspector]
         public string schema = "";
 
-        /// <summary>Jars with programs, relative to the project's folder. Empty: the jar that the editor builds from the schema's programs.</summary>
-        [Tooltip("Jars with programs, relative to the project's folder. Empty: Library/Collektive/NAME.jar, built from the schema's programs.")]
+        /// <summary>For scripts: paths of jars, relative to the project's folder, instead of the libraries.</summary>
+        [HideInInspector]
         public List<string> jars = new List<string>();
+
+        /// <summary>For scripts: name of the program of nodes without their own. Empty: <see cref="defaultProgram"/>.</summary>
+        [HideInInspector]
+        public string program = "";
 
         /// <summary>Runtime of the programs.</summary>
         [Tooltip("Runtime of the programs: the built-in one, or Collektive from your jars.")]
@@ -35,10 +47,6 @@ namespace Collektive.Unity
         /// <summary>Collektive only: jar of its compiler plugin, relative to the project's folder.</summary>
         [Tooltip("Collektive only: jar of its compiler plugin, relative to the project's folder. Used to build programs.")]
         public string runtimePlugin = "";
-
-        /// <summary>Program of nodes without their own.</summary>
-        [Tooltip("Program of nodes without their own.")]
-        public string program = "";
 
         /// <summary>Seed of all random numbers.</summary>
         [Tooltip("Seed of all random numbers. The same scene and seed give the same results.")]
@@ -99,13 +107,51 @@ namespace Collektive.Unity
         /// <summary>The error of the command line, or null.</summary>
         internal string ArgumentProblem { get; set; }
 
+        /// <summary>Name of the program of nodes without their own; empty if none is selected.</summary>
+        internal string ProgramName => program.Length > 0 ? program : defaultProgram != null ? defaultProgram.Name : "";
+
+        /// <summary>Name of the schema; empty for the project's only schema.</summary>
+        internal string SchemaName
+        {
+            get
+            {
+                var used = schema.Length > 0 || jars.Count > 0 ? null : Libraries().Find(library => library != null);
+                return used == null ? schema : used.Schema;
+            }
+        }
+
+        /// <summary>Paths of the jars with programs, relative to the project's folder.</summary>
+        internal List<string> JarPaths => jars.Count > 0 ? jars : Libraries().ConvertAll(library => library.File);
+
         /// <summary>By program, values of its parameters for nodes without their own values.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
+
+        /// <summary>Returns the name of the program that a node runs.</summary>
+        internal string ProgramOf(Node node) => node.Program.Length > 0 ? node.Program : ProgramName;
+
+        /// <summary>Returns the program of that name in the libraries, or null.</summary>
+        internal AggregateProgram FindProgram(string name)
+        {
+            foreach (var library in Libraries())
+            {
+                var found = library == null ? null : library.Find(name);
+                if (found != null) return found;
+            }
+            return null;
+        }
+
+        /// <summary>Returns the libraries of the list, and the default program's.</summary>
+        internal List<ProgramLibrary> Libraries()
+        {
+            var all = new List<ProgramLibrary>(libraries);
+            if (defaultProgram != null && !all.Contains(defaultProgram.Library)) all.Add(defaultProgram.Library);
+            return all;
+        }
 
         /// <summary>Returns the parameters of a node: its own, and the manager's for parameters without a value.</summary>
         internal List<NodeParameter> ParametersOf(Node node)
         {
-            if (!ProgramParameters.TryGetValue(node.Program.Length > 0 ? node.Program : program, out var common)) return node.Parameters;
+            if (!ProgramParameters.TryGetValue(ProgramOf(node), out var common)) return node.Parameters;
             var all = new List<NodeParameter>(node.Parameters);
             foreach (var parameter in common)
             {
@@ -115,21 +161,18 @@ namespace Collektive.Unity
         }
 
         /// <summary>Returns the settings that opening a session sends to the JVM.</summary>
-        internal SessionSettings ToSession(DataSchema schema) => new SessionSettings
+        internal SessionSettings ToSession() => new SessionSettings
         {
             Seed = seed,
             Threads = threads,
             Schedule = schedule,
             Network = network,
-            Jars = JarsFor(schema).ConvertAll(Installation.PathOf),
-            Program = program,
+            Jars = JarPaths.ConvertAll(Installation.PathOf),
+            Program = ProgramName,
             Record = string.IsNullOrWhiteSpace(record) ? "" : Path.GetFullPath(record),
             Runtime = runtime,
             RuntimeJars = string.IsNullOrWhiteSpace(runtimeJars) ? "" : Installation.PathOf(runtimeJars),
         };
-
-        /// <summary>Returns the jars in the settings, or the jar of <paramref name="schema"/> for the runtime.</summary>
-        internal List<string> JarsFor(DataSchema schema) => jars.Count > 0 ? jars : new List<string> { Installation.JarOf(schema.File, runtime) };
 
         /// <summary>Returns the first error with its fix, or null.</summary>
         internal string FindProblem()
@@ -146,8 +189,30 @@ namespace Collektive.Unity
             if (runtime == AggregateRuntime.Collektive && string.IsNullOrWhiteSpace(runtimeJars))
                 return "runtime is Collektive, but runtime jars is empty: select the folder of Collektive's jars";
             if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: enter the path, or remove the entry";
-            var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
+            var problem = FindLibraryProblem();
+            if (problem != null) return problem;
+            problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
             return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
+        }
+
+        /// <summary>Returns the error of a node's program, or null. By its name alone the session could run the program of another library.</summary>
+        internal string FindProblem(Node node)
+        {
+            var library = jars.Count > 0 || node.OwnProgram == null ? null : node.OwnProgram.Library;
+            return library == null || Libraries().Contains(library) ? null : "program '" + node.OwnProgram.Name + "' is in "
+                + library.File + ", which is not among the libraries of the Simulation Manager: add it";
+        }
+
+        private string FindLibraryProblem()
+        {
+            if (jars.Count > 0) return null;
+            var all = Libraries();
+            if (all.Count == 0) return "no program library is selected: drag a .clkprograms file to Libraries in the Simulation Manager";
+            if (all.Exists(library => library == null))
+                return "an entry of Libraries in the Simulation Manager is empty, or its file was deleted: select a .clkprograms file, or remove the entry";
+            var other = all.Find(library => library.Schema != all[0].Schema);
+            return other == null ? null : all[0].File + " and " + other.File + " were compiled with different schemas, " + all[0].Schema + " and " + other.Schema
+                + ": use the libraries of one schema";
         }
     }
 }

@@ -30,10 +30,15 @@ namespace Collektive.Unity
         private int id = -1;
 
         [SerializeField]
-        [Tooltip("Program of this node. Empty: the manager's program.")]
+        [Tooltip("Program of this node. None: the manager's program.")]
+        private AggregateProgram ownProgram;
+
+        [SerializeField]
+        [HideInInspector]
         private string program = "";
 
         [SerializeField]
+        [ProgramParameters]
         [Tooltip("Values of the program's parameters. Other parameters have their defaults.")]
         private List<NodeParameter> parameters = new List<NodeParameter>();
 
@@ -63,11 +68,25 @@ namespace Collektive.Unity
             set => id = value;
         }
 
-        /// <summary>The program's name; empty for the manager's. Read when the node joins.</summary>
+        /// <summary>
+        /// Name of the program; empty for the manager's program. A name that a script sets takes precedence over <see cref="OwnProgram"/>. Read
+        /// when the node joins.
+        /// </summary>
         public string Program
         {
-            get => program;
+            get => program.Length > 0 || ownProgram == null ? program : ownProgram.Name;
             set => program = value ?? "";
+        }
+
+        /// <summary>The program; null for the manager's program. Setting it clears <see cref="Program"/>. Read when the node joins.</summary>
+        public AggregateProgram OwnProgram
+        {
+            get => program.Length > 0 ? null : ownProgram;
+            set
+            {
+                ownProgram = value;
+                program = "";
+            }
         }
 
         /// <summary>Values of the program's parameters. Read when the node joins.</summary>

@@ -15,9 +15,9 @@ namespace Collektive.Unity
         {
             var problem = Jvm.FindProblem() ?? settings.FindProblem();
             if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
-            var schema = Schemas.Find(settings.schema);
+            var schema = Schemas.Find(settings.SchemaName);
             StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);
-            return Session.Open(settings.ToSession(schema), schema);
+            return Session.Open(settings.ToSession(), schema);
         }
 
         /// <summary>Stops a JVM in a separate process after its session, unless the settings keep it.</summary>

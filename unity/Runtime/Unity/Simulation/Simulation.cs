@@ -286,7 +286,7 @@ namespace Collektive.Unity
             for (var i = 0; i < registry.Joining.Count && IsOpen; i++)
             {
                 var node = registry.Joining[i];
-                problem = node.StartTimer();
+                problem = Settings.FindProblem(node) ?? node.StartTimer();
                 if (problem != null) Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
             }
             registry.Flush(session.Request);

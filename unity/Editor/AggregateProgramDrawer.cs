@@ -1,0 +1,72 @@
+using System;
+using UnityEditor;
+using UnityEngine;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>
+    /// Draws a reference to a program. Unity tests only the main object of a dragged file, so the drawer itself accepts a library, and offers
+    /// its programs.
+    /// </summary>
+    [CustomPropertyDrawer(typeof(AggregateProgram))]
+    internal sealed class AggregateProgramDrawer : PropertyDrawer
+    {
+        private const int BoxLines = 2;
+
+        /// <inheritdoc/>
+        public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
+            EditorGUIUtility.singleLineHeight * (NameOf(property).stringValue.Length > 0 ? 1 + BoxLines : 1);
+
+        /// <inheritdoc/>
+        public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
+        {
+            var line = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
+            var name = NameOf(property);
+            TakeDrop(line, property);
+            EditorGUI.BeginChangeCheck();
+            EditorGUI.ObjectField(line, property, label);
+            if (EditorGUI.EndChangeCheck()) name.stringValue = "";
+            if (name.stringValue.Length == 0) return;
+            EditorGUI.HelpBox(new Rect(line.x, line.yMax, line.width, BoxLines * line.height),
+                "Program '" + name.stringValue + "' was set by name, by a script or an earlier version of the package. Select a program to replace it.",
+                MessageType.Warning);
+        }
+
+        /// <summary>Returns the field beside the reference with the name that takes precedence.</summary>
+        private static SerializedProperty NameOf(SerializedProperty property)
+        {
+            var path = property.propertyPath;
+            return property.serializedObject.FindProperty(path.Substring(0, path.LastIndexOf('.') + 1) + nameof(SimulationSettings.program));
+        }
+
+        private static void TakeDrop(Rect line, SerializedProperty property)
+        {
+            var now = Event.current;
+            var isDrop = now.type == EventType.DragPerform;
+            if (!isDrop && now.type != EventType.DragUpdated || !line.Contains(now.mousePosition)) return;
+            var library = Array.Find(DragAndDrop.objectReferences, dragged => dragged is ProgramLibrary) as ProgramLibrary;
+            if (library == null || library.Programs.Count == 0) return;
+            DragAndDrop.visualMode = DragAndDropVisualMode.Link;
+            now.Use();
+            if (!isDrop) return;
+            DragAndDrop.AcceptDrag();
+            if (library.Programs.Count == 1) Set(property, library.Programs[0]);
+            else Offer(property.Copy(), library);
+        }
+
+        private static void Offer(SerializedProperty property, ProgramLibrary library)
+        {
+            var menu = new GenericMenu();
+            foreach (var program in library.Programs) menu.AddItem(new GUIContent(program.Name), false, () => Set(property, program));
+            menu.ShowAsContext();
+        }
+
+        private static void Set(SerializedProperty property, AggregateProgram program)
+        {
+            property.serializedObject.Update();
+            property.objectReferenceValue = program;
+            NameOf(property).stringValue = "";
+            property.serializedObject.ApplyModifiedProperties();
+        }
+    }
+}

@@ -1,0 +1,130 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.IO.Compression;
+using System.Security.Cryptography;
+using Collektive.Bridge;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>
+    /// The programs of a jar, read without a JVM from the index that the compiler plugin writes for each class with programs
+    /// (<c>META-INF/collektive/programs/CLASS</c>; ProgramIndex.kt defines the format).
+    /// </summary>
+    internal sealed class ProgramArchive
+    {
+        private const string Index = "META-INF/collektive/programs/";
+        private const string SchemaService = "META-INF/services/org.collektive.frames.data.DataSchema";
+
+        private readonly SortedDictionary<string, ProgramInfo> programs = new SortedDictionary<string, ProgramInfo>(StringComparer.Ordinal);
+
+        private ProgramArchive(ZipArchive jar)
+        {
+            var schemas = Lines(jar, SchemaService);
+            if (schemas.Count != 1)
+                throw new InvalidDataException("it contains " + schemas.Count + " schemas: it must contain the programs and the code of one schema");
+            Schema = schemas[0];
+            using (var binary = Open(jar, "META-INF/collektive/" + Schema + ".bfbs"))
+            using (var hash = SHA256.Create()) SchemaHash = BitConverter.ToString(hash.ComputeHash(binary)).Replace("-", "").ToLowerInvariant();
+            var attributes = ReadManifest(jar);
+            Runtime = attributes.TryGetValue("Collektive-Runtime", out var runtime) ? runtime : "builtIn";
+            SourcesHash = attributes.TryGetValue("Collektive-Sources", out var sources) ? sources : "";
+            foreach (var entry in jar.Entries)
+            {
+                if (!entry.FullName.StartsWith(Index, StringComparison.Ordinal) || entry.Name.Length == 0) continue;
+                // An incremental build can leave the index of a class that is gone.
+                if (jar.GetEntry(entry.Name.Replace('.', '/') + ".class") == null) continue;
+                ReadIndex(Lines(jar, entry.FullName));
+            }
+        }
+
+        /// <summary>Full name of the schema class.</summary>
+        internal string Schema { get; }
+
+        /// <summary>SHA-256 of the binary schema, in hexadecimal.</summary>
+        internal string SchemaHash { get; }
+
+        /// <summary>The runtime that the programs were compiled for, as in the manifest.</summary>
+        internal string Runtime { get; }
+
+        /// <summary>The hash of the sources in the manifest, or an empty text.</summary>
+        internal string SourcesHash { get; }
+
+        /// <summary>The programs, by name in ordinal order.</summary>
+        internal ICollection<ProgramInfo> Programs => programs.Values;
+
+        /// <exception cref="InvalidDataException">The file is not a jar with programs.</exception>
+        /// <exception cref="IOException">The file cannot be read.</exception>
+        internal static ProgramArchive Read(string path)
+        {
+            using (var file = File.OpenRead(path))
+            {
+                try
+                {
+                    using (var jar = new ZipArchive(file, ZipArchiveMode.Read)) return new ProgramArchive(jar);
+                }
+                // The decoders of damaged archives throw these, too.
+                catch (Exception error) when (error is ArgumentException || error is NotSupportedException || error is EndOfStreamException)
+                {
+                    throw new InvalidDataException(error.Message, error);
+                }
+            }
+        }
+
+        private static Stream Open(ZipArchive jar, string name) =>
+            (jar.GetEntry(name) ?? throw new InvalidDataException("its entry " + name + " is missing")).Open();
+
+        private static List<string> Lines(ZipArchive jar, string name)
+        {
+            var lines = new List<string>();
+            using (var reader = new StreamReader(Open(jar, name)))
+            {
+                for (var line = reader.ReadLine(); line != null; line = reader.ReadLine())
+                {
+                    if (line.Length > 0) lines.Add(line);
+                }
+            }
+            return lines;
+        }
+
+        private static Dictionary<string, string> ReadManifest(ZipArchive jar)
+        {
+            var attributes = new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
+            var name = "";
+            foreach (var line in Lines(jar, "META-INF/MANIFEST.MF"))
+            {
+                var colon = line.IndexOf(": ", StringComparison.Ordinal);
+                // A space begins the rest of a long line.
+                if (line[0] == ' ' && name.Length > 0) attributes[name] += line.Substring(1);
+                else if (colon > 0) attributes[name = line.Substring(0, colon)] = line.Substring(colon + 2);
+            }
+            return attributes;
+        }
+
+        private void ReadIndex(List<string> lines)
+        {
+            List<ProgramParameter> parameters = null;
+            foreach (var line in lines)
+            {
+                var columns = Array.ConvertAll(line.Split('\t'), Unescape);
+                if (columns[0] == "program" && columns.Length == 3)
+                {
+                    if (programs.ContainsKey(columns[1])) throw new InvalidDataException("two of its programs are named '" + columns[1] + "': rename one");
+                    parameters = new List<ProgramParameter>();
+                    programs.Add(columns[1], new ProgramInfo(columns[1], parameters));
+                }
+                else if (columns[0] == "parameter" && columns.Length == 4)
+                {
+                    parameters?.Add(new ProgramParameter(columns[1], columns[2], columns[3]));
+                }
+            }
+        }
+
+        private static string Unescape(string column)
+        {
+            var parts = column.Split(new[] { @"\\" }, StringSplitOptions.None);
+            for (var i = 0; i < parts.Length; i++) parts[i] = parts[i].Replace(@"\t", "\t").Replace(@"\n", "\n").Replace(@"\r", "\r");
+            return string.Join(@"\", parts);
+        }
+    }
+}

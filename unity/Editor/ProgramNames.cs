@@ -1,0 +1,132 @@
+using System.Collections.Generic;
+using System.IO;
+using UnityEditor;
+using UnityEditor.SceneManagement;
+using UnityEngine;
+using UnityEngine.SceneManagement;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>
+    /// Replaces the names of programs and jars in scenes of earlier versions with references, when a scene is opened and before Play. Names that fit no
+    /// library stay, and are reported.
+    /// </summary>
+    internal static class ProgramNames
+    {
+        /// <summary>Jar of all samples in earlier versions.</summary>
+        private const string SamplesJar = "collektive-samples.jar";
+
+        [InitializeOnLoadMethod]
+        private static void Listen()
+        {
+            EditorSceneManager.sceneOpened -= Opened;
+            EditorSceneManager.sceneOpened += Opened;
+            EditorApplication.playModeStateChanged -= Changed;
+            EditorApplication.playModeStateChanged += Changed;
+        }
+
+        private static void Opened(Scene scene, OpenSceneMode mode) => Replace(scene);
+
+        private static void Changed(PlayModeStateChange change)
+        {
+            if (change != PlayModeStateChange.ExitingEditMode) return;
+            for (var i = 0; i < SceneManager.sceneCount; i++) Replace(SceneManager.GetSceneAt(i));
+        }
+
+        private static void Replace(Scene scene)
+        {
+            var settings = new SimulationSettings();
+            foreach (var root in scene.GetRootGameObjects())
+            {
+                foreach (var manager in root.GetComponentsInChildren<SimulationManager>(true))
+                {
+                    settings = manager.Settings;
+                    if (settings.jars.Count > 0 || settings.schema.Length > 0 || settings.program.Length > 0) Replace(manager);
+                }
+            }
+            var unknown = new HashSet<string>();
+            foreach (var root in scene.GetRootGameObjects())
+            {
+                foreach (var node in root.GetComponentsInChildren<Node>(true))
+                {
+                    if (node.OwnProgram == null && node.Program.Length > 0 && !TryReplace(node, settings.FindProgram(node.Program)) && unknown.Add(node.Program))
+                        Debug.LogWarning("node '" + node.name + "' names program '" + node.Program + "', which is in no library of the Simulation Manager: "
+                            + "add the library, and select the program in the node", node);
+                }
+            }
+        }
+
+        private static void Replace(SimulationManager manager)
+        {
+            var settings = manager.Settings;
+            var libraries = new List<ProgramLibrary>();
+            foreach (var jar in settings.jars.Count > 0 ? settings.jars : new List<string> { "" })
+            {
+                var library = LibraryOf(jar, settings.schema);
+                if (library == null)
+                {
+                    Debug.LogWarning("'" + manager.name + "' names " + (jar.Length > 0 ? "jar " + jar : "the jar of schema '" + settings.schema + "'")
+                        + ", but Assets has no library of programs for it: choose Tools > Collektive > Rebuild Programs, or copy a jar to Assets with the "
+                        + "extension ." + ProgramLibrary.Extension + ", and add it to Libraries", manager);
+                    return;
+                }
+                if (!settings.libraries.Contains(library) && !libraries.Contains(library)) libraries.Add(library);
+            }
+            using (var target = new SerializedObject(manager))
+            {
+                var fields = target.FindProperty("settings");
+                var list = fields.FindPropertyRelative(nameof(SimulationSettings.libraries));
+                foreach (var library in libraries)
+                {
+                    list.InsertArrayElementAtIndex(list.arraySize);
+                    list.GetArrayElementAtIndex(list.arraySize - 1).objectReferenceValue = library;
+                }
+                fields.FindPropertyRelative(nameof(SimulationSettings.jars)).arraySize = 0;
+                fields.FindPropertyRelative(nameof(SimulationSettings.schema)).stringValue = "";
+                target.ApplyModifiedProperties();
+                var program = settings.FindProgram(settings.program);
+                if (program != null)
+                {
+                    fields.FindPropertyRelative(nameof(SimulationSettings.defaultProgram)).objectReferenceValue = program;
+                    fields.FindPropertyRelative(nameof(SimulationSettings.program)).stringValue = "";
+                    target.ApplyModifiedProperties();
+                }
+                else if (settings.program.Length > 0)
+                {
+                    Debug.LogWarning("'" + manager.name + "' names program '" + settings.program + "', which is in none of its libraries: select another one", manager);
+                }
+            }
+            Debug.Log("'" + manager.name + "' now refers to the libraries of its programs: save the scene", manager);
+        }
+
+        private static bool TryReplace(Node node, AggregateProgram program)
+        {
+            if (program == null) return false;
+            using (var target = new SerializedObject(node))
+            {
+                target.FindProperty("ownProgram").objectReferenceValue = program;
+                target.FindProperty("program").stringValue = "";
+                target.ApplyModifiedProperties();
+            }
+            return true;
+        }
+
+        /// <summary>Returns the library that replaces a jar; null without one, or if several fit.</summary>
+        private static ProgramLibrary LibraryOf(string jar, string schema)
+        {
+            var name = Path.GetFileNameWithoutExtension(jar).Replace("-collektive", "");
+            ProgramLibrary found = null;
+            foreach (var guid in AssetDatabase.FindAssets("t:" + nameof(ProgramLibrary)))
+            {
+                var path = AssetDatabase.GUIDToAssetPath(guid);
+                var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path);
+                if (path == jar) return library;
+                var isNamed = jar.Length == 0 || Path.GetFileName(jar) == SamplesJar || library.name == name;
+                if (!isNamed || schema.Length > 0 && library.Schema != schema) continue;
+                if (found != null) return null;
+                found = library;
+            }
+            return found;
+        }
+    }
+}

@@ -1,0 +1,8 @@
+package probe
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import org.collektive.api.Program
+
+/** In a jar of its own. */
+@Program("triple")
+public fun Aggregate<Int>.triple(sensors: SensorData): ActuatorData = ActuatorData(sensors.value() * 3)

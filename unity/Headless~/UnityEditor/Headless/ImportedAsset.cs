@@ -1,0 +1,119 @@
+using System;
+using System.Collections.Generic;
+using System.IO;
+using System.Reflection;
+using System.Text;
+using UnityEditor.AssetImporters;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace UnityEditor.Headless
+{
+    /// The objects that a scripted importer made of a file. A later import changes the objects that are still there, as Unity does, so that
+    /// references to them remain.
+    sealed class ImportedAsset
+    {
+        static readonly Dictionary<string, ImportedAsset> Known = new Dictionary<string, ImportedAsset>();
+
+        readonly SortedDictionary<string, Object> objects = new SortedDictionary<string, Object>(StringComparer.Ordinal);
+
+        internal Object Main { get; private set; }
+
+        internal IEnumerable<Object> Objects => objects.Values;
+
+        internal static bool IsImportable(string path) => ImporterOf(path) != null;
+
+        /// The asset, imported if it was not yet; null if no importer is for the file.
+        internal static ImportedAsset Of(string path)
+        {
+            var key = KeyOf(path);
+            if (!Known.TryGetValue(key, out var asset) && ImporterOf(path) is Type importer && File.Exists(key))
+            {
+                Known[key] = asset = new ImportedAsset();
+                asset.Import(path, importer);
+            }
+            return asset;
+        }
+
+        internal static void Reimport(string path)
+        {
+            if (Known.TryGetValue(KeyOf(path), out var asset)) asset.Import(path, ImporterOf(path));
+            else Of(path);
+        }
+
+        internal static string PathOf(Object asset)
+        {
+            foreach (var known in Known)
+            {
+                if (known.Value.objects.ContainsValue(asset)) return Path.GetRelativePath(Directory.GetCurrentDirectory(), known.Key);
+            }
+            return "";
+        }
+
+        /// Tests have a project each.
+        static string KeyOf(string path) => Path.GetFullPath(Project.FileOf(path));
+
+        /// The object that a scene refers to by this id.
+        internal Object Find(long fileId)
+        {
+            foreach (var part in objects)
+                if (IdOf(part.Key) == fileId) return part.Value;
+            return null;
+        }
+
+        internal long IdOf(Object asset)
+        {
+            foreach (var part in objects)
+                if (part.Value == asset) return IdOf(part.Key);
+            return 0;
+        }
+
+        /// The id of a ScriptableObject that an importer adds under an identifier.
+        static long IdOf(string identifier) => (long)XxHash64.Of(Encoding.UTF8.GetBytes("Type:MonoBehaviour->" + identifier + "0"));
+
+        void Import(string path, Type importer)
+        {
+            var context = new AssetImportContext(path);
+            ((ScriptedImporter)Activator.CreateInstance(importer, true)).OnImportAsset(context);
+            foreach (var identifier in new List<string>(objects.Keys))
+            {
+                if (context.Objects.ContainsKey(identifier)) continue;
+                Object.DestroyImmediate(objects[identifier], true);
+                objects.Remove(identifier);
+            }
+            var kept = new Dictionary<Object, Object>();
+            foreach (var made in context.Objects)
+            {
+                if (objects.TryGetValue(made.Key, out var old)) kept[made.Value] = old;
+                else objects[made.Key] = made.Value;
+            }
+            foreach (var made in context.Objects.Values) Move(made, kept.TryGetValue(made, out var old) ? old : made, kept);
+            Main = kept.TryGetValue(context.mainObject, out var main) ? main : context.mainObject;
+        }
+
+        /// Copies the name and the serialised fields, whose references to new objects become references to the kept ones.
+        static void Move(Object from, Object to, Dictionary<Object, Object> kept)
+        {
+            to.name = from.name;
+            foreach (var field in from.GetType().GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
+            {
+                var value = field.GetValue(from);
+                if (value is Object single && kept.TryGetValue(single, out var old)) value = old;
+                if (value is Object[] many)
+                    for (var i = 0; i < many.Length; i++)
+                        if (kept.TryGetValue(many[i], out old)) many[i] = old;
+                field.SetValue(to, value);
+            }
+        }
+
+        static Type ImporterOf(string path)
+        {
+            foreach (var type in Menus.EditorTypes())
+            {
+                var mark = type.GetCustomAttribute<ScriptedImporterAttribute>();
+                if (mark != null && Array.Exists(mark.fileExtensions, extension => path.EndsWith("." + extension, StringComparison.Ordinal))) return type;
+            }
+            return null;
+        }
+    }
+}

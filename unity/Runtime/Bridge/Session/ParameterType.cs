@@ -1,0 +1,18 @@
+namespace Collektive.Bridge
+{
+    /// <summary>The type of a program parameter, which follows from its default value.</summary>
+    public enum ParameterType
+    {
+        /// <summary>Any text.</summary>
+        Text,
+
+        /// <summary>A whole number in the range of <see cref="int"/>; the default is one, such as <c>3</c>.</summary>
+        Integer,
+
+        /// <summary>A number; the default is one, such as <c>3.0</c>.</summary>
+        Number,
+
+        /// <summary><c>true</c> or <c>false</c>; the default is one of them.</summary>
+        Boolean,
+    }
+}

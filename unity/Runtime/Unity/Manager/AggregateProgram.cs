@@ -1,0 +1,54 @@
+using System;
+using System.Collections.Generic;
+using Collektive.Bridge;
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>A program of a <see cref="ProgramLibrary"/>, which the Simulation Manager and nodes refer to.</summary>
+    public sealed class AggregateProgram : ScriptableObject
+    {
+        [SerializeField]
+        private string programName = "";
+
+        [SerializeField]
+        private Declaration[] parameters = new Declaration[0];
+
+        [SerializeField]
+        private ProgramLibrary library;
+
+        /// <summary>The name in its <c>@Program</c> annotation.</summary>
+        public string Name => programName;
+
+        /// <summary>The library that contains the program.</summary>
+        public ProgramLibrary Library
+        {
+            get => library;
+            internal set => library = value;
+        }
+
+        /// <summary>The parameters that nodes can set, in the order of their declaration.</summary>
+        public IReadOnlyList<ProgramParameter> Parameters =>
+            Array.ConvertAll(parameters, declared => new ProgramParameter(declared.name, declared.defaultValue, declared.description));
+
+        /// <summary>Sets the content; called once, by the importer.</summary>
+        internal void Set(ProgramInfo program)
+        {
+            programName = program.Name;
+            parameters = new Declaration[program.Parameters.Count];
+            for (var i = 0; i < parameters.Length; i++)
+            {
+                var declared = program.Parameters[i];
+                parameters[i] = new Declaration { name = declared.Name, defaultValue = declared.DefaultValue, description = declared.Description };
+            }
+        }
+
+        [Serializable]
+        private struct Declaration
+        {
+            public string name;
+            public string defaultValue;
+            public string description;
+        }
+    }
+}
