@@ -22,3 +22,9 @@ jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin programs BYPR
 jvm_step(jvm_modules "all modules of the JVM side")
 file(GLOB tests "${JVM}/*/src")
 jvm_step(jvm_tests "tests of the JVM side" WORDS --tests FOLDERS ${tests})
+
+# A library of programs for each sample, from the jar of all samples.
+collektive_python(sample_programs build/sample_programs.py)
+set(libraries "${COLLEKTIVE_BUILD}/generated/sample-programs")
+collektive_step(sample_programs OUTPUT "${libraries}.stamp" COMMAND ${sample_programs} "${libraries}" AND "${CMAKE_COMMAND}" -E touch "${libraries}.stamp"
+  DEPENDS "${COLLEKTIVE_BUILD}/stamp/jvm" scripts/build/sample_programs.py ${schemas})

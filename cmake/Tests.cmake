@@ -9,7 +9,7 @@ set(csharp_needs build:runtime)
 if(COLLEKTIVE_NUNIT)
   add_custom_target(csharp_tests DEPENDS Collektive.Headless.Tests.dll Collektive.Samples.dll Collektive.TestRunner.exe Collektive.Unity.Tests.dll
     Collektive.Unity.PublicApi.Tests.dll Collektive.Unity.Editor.Tests.dll Collektive.TwoEditors.exe Collektive.WithoutLibrary.exe
-    Collektive.Faults.exe Collektive.Soak.exe nunit.framework.dll stubs-Collektive.Bridge.dll documentation)
+    Collektive.Faults.exe Collektive.Soak.exe nunit.framework.dll stubs-Collektive.Bridge.dll documentation sample_programs)
   list(APPEND csharp_needs build:csharp_tests)
   set(runner build:Collektive.TestRunner.exe build:nunit.framework.dll)
 endif()

@@ -59,6 +59,11 @@ def guid_for(asset: str, package: str = "org.collektive.unity") -> str:
     return hashlib.md5((package + "/" + asset.replace(os.sep, "/")).encode()).hexdigest()
 
 
+IMPORTERS[".clkprograms"] = (
+    "ScriptedImporter:\n  internalIDToNameTable: []\n  externalObjects: {}\n  serializedVersion: 2\n  userData: \n  assetBundleName: \n"
+    "  assetBundleVariant: \n  script: {fileID: 11500000, guid: %s, type: 3}\n" % guid_for("unity/Editor/ProgramLibraryImporter.cs"))
+
+
 def guid_in(meta: str) -> str | None:
     """Returns the GUID in the text of a meta, or None."""
     match = re.search(r"^guid: ([0-9a-f]{32})$", meta, re.M)

@@ -3,7 +3,7 @@ import shutil
 import subprocess
 from pathlib import Path
 
-from build import graph, jre, manifest, metas, places, platforms
+from build import graph, jre, manifest, metas, places, platforms, sample_programs
 from build.console import print_progress, run_logged
 from build.places import BUILD, ROOT
 
@@ -12,7 +12,7 @@ GENERATED = BUILD / "generated"
 
 def build_parts(all_platforms: bool) -> None:
     """Builds the contents of the packages."""
-    graph.build("runtime", "jvm_modules", "sample_code")
+    graph.build("runtime", "jvm_modules", "sample_code", "sample_programs")
     if all_platforms:
         platforms.build_platforms()
         for platform in platforms.FLATC_PLATFORMS:
@@ -68,7 +68,6 @@ def _stage(content: Path, all_platforms: bool) -> None:
     _copy(GENERATED / "bridge", unity / "Runtime/Bridge/Generated")
     for jar in (places.HOST_JAR, places.LIBRARY_JAR, places.ADAPTER_JAR):
         _copy(jar, jars / jar.name)
-    _copy(places.SAMPLES_JAR, jars / "collektive-samples.jar")
     for file in (places.GENERATOR_JAR, places.TESTING_JAR, ROOT / "schema/types.fbs", places.LINKS / "Links.kt"):
         _copy(file, tools / file.name)
     _copy(places.compiler_plugin(), tools / "collektive-compiler-plugin.jar")
@@ -81,12 +80,14 @@ def _stage(content: Path, all_platforms: bool) -> None:
             _copy(platforms.fetch_flatc(platform), tools / platform)
     else:
         _strip(places.SHIM / "libcollektive_shim.so", plugins / "linux-x64/libcollektive_shim.so")
-    for sample in (unity / "Samples~").iterdir():
-        if sample.is_dir():
-            _copy(GENERATED / "samples" / sample.name, sample / "Generated")
-            # The samples' Kotlin is in jvm-host/programs, where it is compiled and tested.
-            for program in (places.JVM / "programs/src/main/kotlin" / sample.name.lower()).glob("*.kt"):
-                _copy(program, sample / "Programs" / program.name)
+    for schema in (unity / "Samples~").glob("*/*.fbs"):
+        sample = schema.parent
+        _copy(GENERATED / "samples" / sample.name, sample / "Generated")
+        library = schema.with_suffix(".clkprograms")
+        _copy(places.SAMPLE_PROGRAMS / library.name, library)
+        # The samples' Kotlin is in jvm-host/programs, where it is compiled and tested.
+        for program in sample_programs.sources(schema):
+            _copy(program, sample / "Programs" / program.name)
     metas.write_missing(content)
 
 

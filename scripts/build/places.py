@@ -24,6 +24,8 @@ ADAPTER_JAR = JVM / "host/target/collektive-adapter.jar"
 TESTING_JAR = JVM / "testing/target/collektive-testing.jar"
 TOOLS_JAR = JVM / "tools/target/collektive-tools.jar"
 SAMPLES_JAR = JVM / "programs/target/collektive-programs.jar"
+# A library for each sample.
+SAMPLE_PROGRAMS = BUILD / "generated/sample-programs"
 BENCH_JAR = JVM / "bench/target/collektive-bench.jar"
 GENERATOR_JAR = JVM / "generator/target/collektive-generator.jar"
 # Sources of org.collektive.links, compiled with programs for another runtime.

@@ -6,21 +6,23 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import jdk, managed, processes
-from build.places import ADAPTER_JAR, CSHARP, HOST_JAR, LIBRARY_JAR, ROOT, SAMPLES_JAR
+from build.places import ADAPTER_JAR, CSHARP, HOST_JAR, LIBRARY_JAR, ROOT, SAMPLE_PROGRAMS
 
 ASSEMBLIES = ("Collektive.Unity.Tests", "Collektive.Unity.PublicApi.Tests", "Collektive.Unity.Editor.Tests")
 
 
 def run(results: Path) -> int:
     """Returns the exit code of the last assembly that failed."""
-    # As in a project with the package: its jars, and a JVM.
+    # As in a project with the package: its jars, a sample, and a JVM.
     project = results / "project"
     jars = project / "Packages/org.collektive.unity/unity/Jvm~"
     shutil.rmtree(project, ignore_errors=True)
     jars.mkdir(parents=True)
     for jar in (HOST_JAR, LIBRARY_JAR, ADAPTER_JAR):
         (jars / jar.name).symlink_to(jar)
-    (jars / "collektive-samples.jar").symlink_to(SAMPLES_JAR)
+    sample = project / "Packages/org.collektive.unity/unity/Samples~/LeaderElection/leader_election.clkprograms"
+    sample.parent.mkdir(parents=True)
+    sample.symlink_to(SAMPLE_PROGRAMS / sample.name)
     environment = {**managed.environment("mono-sgen"), "COLLEKTIVE_ROOT": str(ROOT), "JAVA_HOME": str(jdk.find_jdk())}
     code = 0
     for name in ASSEMBLIES:

@@ -2,7 +2,7 @@
 import os
 from pathlib import Path
 
-from build import metas
+from build import inputs, metas, projects, sample_programs
 
 # GUIDs of Unity's built-in meshes, materials and shaders.
 BUILT_IN = {"0000000000000000e000000000000000", "0000000000000000f000000000000000"}
@@ -19,6 +19,12 @@ class Assets:
             guid = guid_of(os.path.join(root, path + ".meta"))
             if guid:
                 self.guids[guid] = path
+        # Libraries that are staged with the samples: the names of their programs by path.
+        self.libraries: dict[str, set[str]] = {}
+        for schema in Path(root, "unity/Samples~").glob("*/*.fbs"):
+            path = os.path.relpath(schema.with_suffix(".clkprograms"), root)
+            self.guids[metas.guid_for(path)] = path
+            self.libraries[path] = projects.program_names(inputs.programs(sample_programs.folder(schema))) or set()
 
     def with_ending(self, *endings: str) -> list[str]:
         return [path for path in self.paths if path.endswith(endings)]

@@ -13,8 +13,9 @@ GUIDS_FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "guids.txt
 def referable(assets: Assets, classes: Iterable[str]) -> dict[str, str]:
     """Returns the assets that files outside the package can refer to, by GUID."""
     names = {name.rsplit(".", 1)[-1] for name in classes}
-    scripts = [path for path in assets.with_ending(".cs") if os.path.basename(path)[:-3] in names]
-    paths = set(scripts + assets.with_ending(".asmdef", ".prefab", ".mat", ".shader", ".unity", ".asset"))
+    # The metas of libraries refer to their importer.
+    scripts = [path for path in assets.with_ending(".cs") if os.path.basename(path)[:-3] in names or path.endswith("Importer.cs")]
+    paths = set(scripts + assets.with_ending(".asmdef", ".prefab", ".mat", ".shader", ".unity", ".asset")) | set(assets.libraries)
     return {guid: path for guid, path in assets.guids.items() if path in paths}
 
 

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from build import local_ids
 from validator import unity_yaml
 from validator.assets import BUILT_IN, Assets
 from validator.serialized_fields import ScriptClass
@@ -20,6 +21,10 @@ CLASSES = {
 YAML_ENDINGS = (".prefab", ".unity", ".mat", ".asset")
 # The file id of an imported asset's main object, and the kind of asset that goes with it.
 IMPORTED = {".cs": ("11500000", "3"), ".shader": ("4800000", "3")}
+# The identifier of a library of programs in ProgramLibraryImporter.cs; the one of a program is its name.
+LIBRARY = "<root>"
+# Fields for scripts. Scenes refer to libraries and programs instead.
+TEXTS = {"Collektive.Unity.SimulationManager": {"settings.schema", "settings.jars", "settings.program"}, "Collektive.Unity.Node": {"program"}}
 # The file id by which a PrefabInstance refers to the whole prefab.
 WHOLE_PREFAB = "100100000"
 # Fields that Unity itself writes for every MonoBehaviour.
@@ -85,6 +90,10 @@ class OneFile:
         target = self.assets.guids.get(guid)
         if target is None:
             return f"no asset of the package has the GUID {guid}"
+        if target in self.assets.libraries:
+            names = [LIBRARY, *sorted(self.assets.libraries[target])]
+            known = {str(local_ids.of_script(name)) for name in names}
+            return None if file_id in known and reference.get("type") == "3" else f"{file_id} is not the id of an object in {target}: {', '.join(names)}"
         imported = IMPORTED.get(os.path.splitext(target)[1])
         if imported:
             return None if (file_id, reference.get("type")) == imported else f"{target} is referred to by fileID {imported[0]} and type {imported[1]}"
@@ -145,6 +154,12 @@ class OneFile:
             yield f"{line}: {known.name} has no serialised field {path}"
         elif not fits(kind, value):
             yield f"{line}: {known.name}.{path} is a {kind}, not {value!r}"
+        elif value:
+            yield from self.check_text(line, known, path)
+
+    def check_text(self, line: int, known: ScriptClass, path: str) -> Iterator[str]:
+        if path in TEXTS.get(known.name, ()):
+            yield f"{line}: {known.name}.{path} names a program, a schema or jars as text: refer to the library or the program"
 
     def check_instance(self, document: Document) -> Iterator[str]:
         source = self.assets.guids.get(document.fields["m_SourcePrefab"].get("guid"))
@@ -160,6 +175,8 @@ class OneFile:
                 known = script and self.class_of(script)
                 if known and path not in known.fields:
                     yield f"{document.line}: {known.name} has no serialised field {path}"
+                elif known:
+                    yield from self.check_text(document.line, known, path)
 
     def script_of(self, document: Document) -> str | None:
         return self.assets.guids.get(document.fields["m_Script"].get("guid"))

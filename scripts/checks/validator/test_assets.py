@@ -10,13 +10,14 @@ import unittest
 
 import validate
 
-from build import managed, metas
+from build import local_ids, managed, metas
 from build.places import CSHARP, ROOT
 from validator import assets, guids, plugins, serialized_fields
 
 PREFAB = "unity/Prefabs/Simulation Manager.prefab"
 NODE = "unity/Prefabs/Node.prefab"
 SCENE = "unity/Samples~/GradientAscent/GradientAscent.unity"
+LIBRARY = "unity/Samples~/GradientAscent/gradient_ascent.clkprograms"
 ASMDEF = "unity/Runtime/Unity/Collektive.Unity.asmdef"
 
 
@@ -36,6 +37,16 @@ class AssetsTest(unittest.TestCase):
 
     def test_assets_are_valid(self) -> None:
         self.assertEqual(list(validate.problems(ROOT, classes())), [])
+
+
+class LocalIdsTest(unittest.TestCase):
+    def test_ids_are_those_of_public_projects(self) -> None:
+        self.assertEqual(local_ids.of_script("<root>"), -944628639613478452)
+        self.assertEqual(local_ids.of("Shader", "MainAsset"), -6465566751694194690)
+
+    def test_the_hash_is_xxh64(self) -> None:
+        for text, value in [("", 0xEF46DB3751D8E999), ("abc", 0x44BC2CF5AD770999), ("Nobody inspects the spammish repetition", 0xFBCEA83C8A378BF1)]:
+            self.assertEqual(local_ids.xxh64(text.encode()), value)
 
 
 class ValidatorTest(unittest.TestCase):
@@ -121,8 +132,20 @@ class ValidatorTest(unittest.TestCase):
         self.assert_problem(PREFAB, "SimulationManager.paused", "number")
 
     def test_finds_a_changed_setting_that_the_script_does_not_have(self) -> None:
-        self.change(SCENE, "propertyPath: settings.program", "propertyPath: settings.programme")
-        self.assert_problem(SCENE, "settings.programme")
+        self.change(SCENE, "propertyPath: settings.defaultProgram", "propertyPath: settings.defaultProgramme")
+        self.assert_problem(SCENE, "settings.defaultProgramme")
+
+    def test_finds_programs_schemas_and_jars_as_text(self) -> None:
+        for field, path in [("program", "program"), ("schema", "schema"), ("jars", r"jars.Array.data[0]")]:
+            with self.subTest(field):
+                self.change(SCENE, r"propertyPath: settings\.\S+\n      value: ?.*", f"propertyPath: settings.{path}\n      value: text")
+                self.assert_problem(SCENE, f"SimulationManager.settings.{field} names a program, a schema or jars as text")
+        self.change(NODE, "  m_EditorClassIdentifier: \n", "  m_EditorClassIdentifier: \n  program: hops\n")
+        self.assert_problem(NODE, "Node.program names a program")
+
+    def test_finds_a_reference_to_a_program_that_a_library_does_not_have(self) -> None:
+        self.change(SCENE, r"fileID: -944628639613478452, guid: [0-9a-f]+", f"fileID: 12, guid: {metas.guid_for(LIBRARY)}")
+        self.assert_problem(SCENE, "12 is not the id of an object in", LIBRARY, "<root>, gradient-ascent")
 
     def test_finds_a_reference_to_no_object_of_the_file(self) -> None:
         self.change(SCENE, r"m_GameObject: \{fileID: \d+\}", "m_GameObject: {fileID: 12}")

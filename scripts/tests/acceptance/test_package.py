@@ -28,7 +28,7 @@ class InstalledProject:
         installed.compile_project(Path(self.folder))
         sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
         scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample,
-                    "schema": sample + "/gradient_ascent.fbs", "programs": "Packages/org.collektive.unity/unity/Jvm~/collektive-samples.jar",
+                    "schema": sample + "/gradient_ascent.fbs", "programs": sample + "/gradient_ascent.clkprograms",
                     "program": "gradient-ascent", "fields": {"nodes": 30}, "seconds": 1}
         with open(os.path.join(self.folder, "scenario.json"), "w") as file:
             json.dump(scenario, file)
@@ -36,7 +36,7 @@ class InstalledProject:
     def play(self, hidden=(), **environment):
         """Runs the scene with only these environment variables, and with empty hidden folders."""
         command = ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
-                   "--jar", "Packages/org.collektive.unity/Jvm~/collektive-samples.jar", "--out", "out"]
+                   "--jar", "Packages/org.collektive.unity/Samples~/GradientAscent/gradient_ascent.clkprograms", "--out", "out"]
         if hidden:
             hide = 'until [ "$1" = -- ]; do mount -t tmpfs none "$1" || exit 99; shift; done; shift; exec "$@"'
             command = ["unshare", "--mount", "sh", "-c", hide, "sh", *hidden, "--", *command]
@@ -78,12 +78,13 @@ class PackageTest(Packaged):
         # Scenarios are for runs from the clone, the manifest in unity/ is for git URLs.
         left_out = re.compile(r"unity/package\.json|unity/Samples~/[^/]*/scenario\.json")
         wanted = {path for path in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, path)) and not left_out.fullmatch(path)}
-        built = ["Jvm~/collektive-adapter.jar", "Jvm~/collektive-host.jar", "Jvm~/collektive-library.jar", "Jvm~/collektive-samples.jar",
+        built = ["Jvm~/collektive-adapter.jar", "Jvm~/collektive-host.jar", "Jvm~/collektive-library.jar",
                  "Runtime/Plugins/Collektive.FlatBuffers.dll",
                  "Runtime/Plugins/linux-x64/libcollektive_shim.so", "Samples~/GradientAscent/Programs/GradientAscent.kt",
                  "Tools~/Links.kt", "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar",
                  "Tools~/collektive-testing.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
         wanted |= {"unity/" + path for path in built}
+        wanted |= {str(path.relative_to(ROOT).with_suffix(".clkprograms")) for path in (ROOT / "unity/Samples~").glob("*/*.fbs")}
         for code in (BUILD / "generated/bridge").rglob("*.cs"):
             wanted.add(f"unity/Runtime/Bridge/Generated/{code.relative_to(BUILD / 'generated/bridge')}")
         for code in (BUILD / "generated/samples").rglob("*.cs"):

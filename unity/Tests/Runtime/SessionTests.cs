@@ -19,7 +19,7 @@ namespace Collektive.Unity.Tests
             var settings = new SessionSettings
             {
                 Program = "leader-election",
-                Jars = new[] { Installation.PathOf("Packages/org.collektive.unity/Jvm~/collektive-samples.jar") },
+                Jars = new[] { Installation.PathOf("Packages/org.collektive.unity/Samples~/LeaderElection/leader_election.clkprograms") },
             };
             using (var session = Session.Open(settings, new ElectionSchema()))
             {

@@ -1,7 +1,8 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
-using System.Text.RegularExpressions;
+using System.Security.Cryptography;
+using System.Text;
 using Collektive.Unity;
 using Collektive.Unity.Editor;
 using NUnit.Framework;
@@ -19,7 +20,7 @@ namespace Collektive.Headless.Tests.Editor
         private const string Manager = "de7f1c418113b5c64bd5634bfb1c00c4";
         private const string Schema = "probe.ProbeSchema";
         private const string Assets = "player/Swarm_Data/StreamingAssets";
-        private const string Samples = "Packages/org.collektive.unity/Jvm~/collektive-samples.jar";
+        private const string Library = "Assets/Swarm/swarm.clkprograms";
 
         [SetUp]
         public void InstallJvms()
@@ -29,8 +30,7 @@ namespace Collektive.Headless.Tests.Editor
                 Write("Packages/org.collektive.unity.jvm." + platform + "/Jvm~/" + platform + "/lib/modules", platform);
                 Write("Packages/org.collektive.unity.jvm." + platform + "/package.json", "{}");
             }
-            Write(Path.Combine(Project.PackageCache, "unity/Jvm~/collektive-samples.jar"), "samples");
-            Write("Library/Collektive/swarm.jar", "swarm");
+            ProgramLibraryTests.Pack(Library, Schema);
         }
 
         [TearDown]
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Editor
         public void A_player_takes_the_JVMs_of_its_platform_along(BuildTarget target, string architecture, string platforms)
         {
             Select(target, architecture);
-            Players.Build(target, Assets, Scene("jars.Array.data[0]", Samples));
+            Players.Build(target, Assets, Scene());
             var jvms = Array.ConvertAll(Directory.GetDirectories(Assets + "/Collektive/Packages/org.collektive.unity/Jvm"), Path.GetFileName);
             Array.Sort(jvms, StringComparer.Ordinal);
             Assert.That(string.Join(" ", jvms), Is.EqualTo(platforms));
@@ -62,22 +62,15 @@ namespace Collektive.Headless.Tests.Editor
         [Test]
         public void The_player_finds_what_was_taken_along()
         {
-            var outside = "../" + Path.GetFileName(Directory.GetCurrentDirectory()) + ".jar";
-            File.WriteAllText(outside, "outside");
-            var absolute = Path.GetFullPath("absolute.jar");
-            File.WriteAllText(absolute, "absolute");
-            Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene(
-                "jars.Array.data[0]", Samples, "jars.Array.data[1]", "Library/Collektive/swarm.jar", "jars.Array.data[2]", outside,
-                "jars.Array.data[3]", absolute));
-            File.Delete(outside);
-            File.Delete(absolute);
+            var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>(Library);
+            var content = File.ReadAllBytes(Library);
+            Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene());
+            Directory.Delete("Assets", true);
             EnterPlayer();
 
             var taken = Loop.DataPath + "/StreamingAssets/Collektive/";
-            Assert.That(File.ReadAllText(Installation.PathOf(Samples)), Is.EqualTo("samples"));
-            Assert.That(File.ReadAllText(Installation.PathOf("Library/Collektive/swarm.jar")), Is.EqualTo("swarm"));
-            Assert.That(File.ReadAllText(Installation.PathOf(outside)), Is.EqualTo("outside"));
-            Assert.That(File.ReadAllText(Installation.PathOf(absolute)), Is.EqualTo("absolute"));
+            Assert.That(Installation.PathOf(library.File), Is.StringStarting(taken));
+            Assert.That(File.ReadAllBytes(Installation.PathOf(library.File)), Is.EqualTo(content));
             Assert.That(Installation.HostJar, Is.StringStarting(taken));
             Assert.That(File.ReadAllBytes(Installation.HostJar), Is.EqualTo(File.ReadAllBytes(Path.Combine(Root, "jvm-host/host/target/collektive-host.jar"))));
             Assert.That(File.Exists(Installation.LibraryJar), Is.True);
@@ -86,10 +79,42 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void Exactly_the_libraries_that_scenes_refer_to_come_along()
+        {
+            foreach (var name in new[] { "byDefault", "byNode", "byPrefab", "byNothing" })
+                ProgramLibraryTests.Pack("Assets/" + name + "/swarm.clkprograms", ("swarm.SwarmKt", ProgramLibraryTests.Program(name)));
+            var scene = Scene("defaultProgram", ProgramOf("byDefault"));
+            File.AppendAllText(scene, "--- !u!114 &5\nMonoBehaviour:\n  ownProgram: " + ProgramOf("byNode") + "\n");
+            Write("Assets/Drone.prefab", "%YAML 1.1\n--- !u!114 &6\nMonoBehaviour:\n  ownProgram: " + ProgramOf("byPrefab") + "\n");
+            File.AppendAllText(scene, "--- !u!114 &7\nMonoBehaviour:\n  drone: {fileID: 6, guid: " + AssetDatabase.AssetPathToGUID("Assets/Drone.prefab") + ", type: 3}\n");
+            Players.Build(BuildTarget.StandaloneLinux64, Assets, scene);
+
+            var expected = new List<string>();
+            foreach (var path in new[] { Library, "Assets/byDefault/swarm.clkprograms", "Assets/byNode/swarm.clkprograms", "Assets/byPrefab/swarm.clkprograms" })
+                expected.Add(Assets + "/Collektive/" + AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path).NameInPlayer);
+            Assert.That(Directory.GetFiles(Assets + "/Collektive/Programs", "*", SearchOption.AllDirectories), Is.EquivalentTo(expected));
+        }
+
+        [Test]
+        public void Jars_of_earlier_versions_of_a_scene_come_along()
+        {
+            var outside = "../" + Path.GetFileName(Directory.GetCurrentDirectory()) + ".jar";
+            File.WriteAllText(outside, "outside");
+            var absolute = Path.GetFullPath("absolute.jar");
+            File.WriteAllText(absolute, "absolute");
+            Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene("jars.Array.data[0]", outside, "jars.Array.data[1]", absolute, "schema", Schema));
+            File.Delete(outside);
+            File.Delete(absolute);
+            EnterPlayer();
+            Assert.That(File.ReadAllText(Installation.PathOf(outside)), Is.EqualTo("outside"));
+            Assert.That(File.ReadAllText(Installation.PathOf(absolute)), Is.EqualTo("absolute"));
+        }
+
+        [Test]
         public void The_jars_of_Collektive_come_along()
         {
             Write("jars/dsl.jar", "dsl");
-            Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene("jars.Array.data[0]", Samples, "runtime", "Collektive", "runtimeJars", "jars"));
+            Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene("runtime", "Collektive", "runtimeJars", "jars"));
             EnterPlayer();
             Assert.That(File.ReadAllText(Path.Combine(Installation.PathOf("jars"), "dsl.jar")), Is.EqualTo("dsl"));
         }
@@ -100,27 +125,30 @@ namespace Collektive.Headless.Tests.Editor
             UseKotlin();
             Write("Assets/Swarm/swarm.fbs", BuildTests.Schema);
             Write("Assets/Swarm/Programs/Count.kt", BuildTests.Kotlin);
-            Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene("jars.Array.data[0]", "Assets/Swarm/swarm.clkprograms"));
-            Assert.That(new FileInfo(Assets + "/Collektive/Assets/Swarm/swarm.clkprograms").Length, Is.GreaterThan(1000), string.Join("\n", Log));
+            Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene());
+            var built = Assets + "/Collektive/" + AssetDatabase.LoadAssetAtPath<ProgramLibrary>(Library).NameInPlayer;
+            Assert.That(new FileInfo(built).Length, Is.GreaterThan(1000), string.Join("\n", Log));
 
             Write("Assets/Swarm/Programs/Count.kt", BuildTests.Kotlin.Replace("heard.neighbors.size", "heard.neighbours.size"));
-            Fails("Assets/Swarm/swarm.clkprograms is older than its sources because the build failed", "jars.Array.data[0]", "Assets/Swarm/swarm.clkprograms");
+            Fails(Library + " is older than its sources because the build failed");
         }
 
         [Test]
         public void A_scene_that_could_not_start_fails_the_build()
         {
-            Fails("jar missing.jar does not exist: build it with Tools > Collektive > Rebuild Programs", "jars.Array.data[0]", "missing.jar");
-            Fails("delta time is 0 s", "jars.Array.data[0]", Samples, "deltaTime", "0");
-            Fails("schema 'no.Such' does not exist", "schema", "no.Such");
-            Fails("the folder of Collektive's jars, jars, does not exist", "jars.Array.data[0]", Samples, "runtime", "Collektive", "runtimeJars", "jars");
+            Fails("jar missing.jar does not exist: select a library of programs", "jars.Array.data[0]", "missing.jar", "schema", Schema);
+            Fails("delta time is 0 s", "deltaTime", "0");
+            ProgramLibraryTests.Pack("Assets/Other/other.clkprograms", "no.Such");
+            Fails("schema 'no.Such' does not exist", "libraries.Array.data[0]", LibraryAt("Assets/Other/other.clkprograms"));
+            Fails("an entry of Libraries in the Simulation Manager is empty", "libraries.Array.data[0]", "{fileID: 0}");
+            Fails("the folder of Collektive's jars, jars, does not exist", "runtime", "Collektive", "runtimeJars", "jars");
         }
 
         [Test]
         public void A_platform_without_a_JVM_fails_the_build()
         {
             Directory.Delete("Packages/org.collektive.unity.jvm.win-x64", true);
-            var error = Assert.Throws<BuildFailedException>(() => Players.Build(BuildTarget.StandaloneWindows64, Assets, Scene("jars.Array.data[0]", Samples)));
+            var error = Assert.Throws<BuildFailedException>(() => Players.Build(BuildTarget.StandaloneWindows64, Assets, Scene()));
             Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: no JVM package is installed"));
             Assert.That(error.Message, Is.StringContaining("install org.collektive.unity.jvm.win-x64, or set Location in the JVM settings to JAVA_HOME"));
             Assert.That(Directory.Exists(Assets), Is.False, "nothing is half done");
@@ -130,7 +158,7 @@ namespace Collektive.Headless.Tests.Editor
         public void A_JVM_for_one_of_two_kinds_of_Mac_is_enough()
         {
             Directory.Delete("Packages/org.collektive.unity.jvm.mac-x64", true);
-            Players.Build(BuildTarget.StandaloneOSX, Assets, Scene("jars.Array.data[0]", Samples));
+            Players.Build(BuildTarget.StandaloneOSX, Assets, Scene());
             Assert.That(Logged("the player has no JVM for mac-x64"), Is.StringEnding("install org.collektive.unity.jvm.mac-x64"));
         }
 
@@ -142,7 +170,7 @@ namespace Collektive.Headless.Tests.Editor
         public void Other_platforms_fail_the_build_with_one_error(BuildTarget target, string architecture, string name)
         {
             Select(target, architecture);
-            var error = Assert.Throws<BuildFailedException>(() => Players.Build(target, Assets, Scene("jars.Array.data[0]", Samples)));
+            var error = Assert.Throws<BuildFailedException>(() => Players.Build(target, Assets, Scene()));
             Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: Collektive does not support " + name
                 + ": select "));
             Assert.That(Directory.Exists(Assets), Is.False);
@@ -154,7 +182,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             Select(BuildTarget.StandaloneLinux64, "ARM64");
             Directory.Delete("Packages/org.collektive.unity.jvm.linux-arm64", true);
-            Fails("players for Linux on ARM64 need the native library in org.collektive.unity.jvm.linux-arm64", "jars.Array.data[0]", Samples);
+            Fails("players for Linux on ARM64 need the native library in org.collektive.unity.jvm.linux-arm64");
         }
 
         [Test]
@@ -180,13 +208,26 @@ namespace Collektive.Headless.Tests.Editor
         [TestCase("LeaderElection")]
         [TestCase("Rescue")]
         [TestCase("Swarm")]
-        public void Samples_become_players(string sample)
+        public void Scenes_of_samples_refer_to_their_libraries(string sample)
         {
-            var scene = "Assets/" + sample + ".unity";
-            var text = File.ReadAllText(Path.Combine(Root, "unity/Samples~", sample, sample + ".unity"));
-            Write(scene, Regex.Replace(text, @"value: \w+\.\w+Schema\n", "value: " + Schema + "\n"));
-            Players.Build(BuildTarget.StandaloneLinux64, Assets, scene);
-            Assert.That(File.Exists(Assets + "/Collektive/Packages/org.collektive.unity/Jvm/collektive-samples.jar"), Is.True);
+            var folder = Path.Combine(Root, "unity/Samples~", sample);
+            var schema = Path.GetFileNameWithoutExtension(Directory.GetFiles(folder, "*.fbs")[0]);
+            // As imported with its library, whose GUID comes from its path in the package.
+            Directory.CreateDirectory("Assets/" + sample);
+            var library = "Assets/" + sample + "/" + schema + ".clkprograms";
+            File.Copy(Path.Combine(Root, "build/generated/sample-programs", schema + ".clkprograms"), library, true);
+            using (var hash = MD5.Create())
+            {
+                var path = Encoding.UTF8.GetBytes("org.collektive.unity/unity/Samples~/" + sample + "/" + schema + ".clkprograms");
+                Write(library + ".meta", "guid: " + BitConverter.ToString(hash.ComputeHash(path)).Replace("-", "").ToLowerInvariant() + "\n");
+            }
+            var scene = "Assets/" + sample + "/" + sample + ".unity";
+            File.Copy(Path.Combine(folder, sample + ".unity"), scene);
+            var program = AssetDatabase.LoadAssetAtPath<ProgramLibrary>(library).Programs[0];
+            var opened = SceneSimulation.FindAll(new[] { scene })[0].Settings;
+            Assert.That(opened.defaultProgram, Is.SameAs(program));
+            Assert.That(opened.libraries, Is.EqualTo(new[] { program.Library }));
+            Assert.That(AssetDatabase.GetDependencies(new[] { scene }, true), Has.Some.EqualTo(library));
         }
 
         private static void Select(BuildTarget target, string architecture) =>
@@ -198,16 +239,35 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(error.Message, Is.StringContaining("Assets/Swarm.unity cannot start in the player: " + problem));
         }
 
-        /// <summary>Writes a scene with a manager that has these settings, as names and values, beside its schema.</summary>
+        /// <summary>Writes a scene with a manager that has these settings, as names and values or references, and a library.</summary>
         private static string Scene(params string[] settings)
         {
-            if (Array.IndexOf(settings, "schema") < 0) settings = new List<string>(settings) { "schema", Schema }.ToArray();
+            if (Array.IndexOf(settings, "libraries.Array.data[0]") < 0)
+                settings = new List<string>(settings) { "libraries.Array.data[0]", LibraryAt(Library) }.ToArray();
             var text = "%YAML 1.1\n--- !u!1001 &1\nPrefabInstance:\n  m_Modification:\n    m_Modifications:\n";
             for (var i = 0; i < settings.Length; i += 2)
+            {
+                var isReference = settings[i + 1].StartsWith("{", StringComparison.Ordinal);
                 text += "    - target: {fileID: 2, guid: " + Manager + ", type: 3}\n      propertyPath: settings." + settings[i]
-                    + "\n      value: " + settings[i + 1] + "\n      objectReference: {fileID: 0}\n";
+                    + "\n      value: " + (isReference ? "" : settings[i + 1])
+                    + "\n      objectReference: " + (isReference ? settings[i + 1] : "{fileID: 0}") + "\n";
+            }
             Write("Assets/Swarm.unity", text + "  m_SourcePrefab: {fileID: 1, guid: " + Manager + ", type: 3}\n");
             return "Assets/Swarm.unity";
+        }
+
+        private static string LibraryAt(string path) => Reference(path, AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path));
+
+        private static string ProgramOf(string folder)
+        {
+            var path = "Assets/" + folder + "/swarm.clkprograms";
+            return Reference(path, AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path).Find(folder));
+        }
+
+        private static string Reference(string path, UnityEngine.Object asset)
+        {
+            AssetDatabase.TryGetGUIDAndLocalFileIdentifier(asset, out var guid, out var id);
+            return "{fileID: " + id + ", guid: " + guid + ", type: 3}";
         }
 
         /// <summary>Goes on as the player that was built: elsewhere, without the project and the editor's ways.</summary>
@@ -217,6 +277,7 @@ namespace Collektive.Headless.Tests.Editor
             Directory.Delete("Library", true);
             Directory.Delete("Packages", true);
             Installation.ToPhysical = Installation.InPlayer;
+            Installation.ToAssetPath = null;
         }
     }
 }
