@@ -15,7 +15,7 @@ namespace Collektive.Unity.Editor
 
         /// <inheritdoc/>
         public override float GetPropertyHeight(SerializedProperty property, GUIContent label) =>
-            EditorGUIUtility.singleLineHeight * (NameOf(property).stringValue.Length > 0 ? 1 + BoxLines : 1);
+            EditorGUIUtility.singleLineHeight * (IsNamed(NameOf(property)) ? 1 + BoxLines : 1);
 
         /// <inheritdoc/>
         public override void OnGUI(Rect position, SerializedProperty property, GUIContent label)
@@ -25,14 +25,16 @@ namespace Collektive.Unity.Editor
             TakeDrop(line, property);
             EditorGUI.BeginChangeCheck();
             EditorGUI.ObjectField(line, property, label);
-            if (EditorGUI.EndChangeCheck()) name.stringValue = "";
-            if (name.stringValue.Length == 0) return;
+            if (EditorGUI.EndChangeCheck() && name != null) name.stringValue = "";
+            if (!IsNamed(name)) return;
             EditorGUI.HelpBox(new Rect(line.x, line.yMax, line.width, BoxLines * line.height),
                 "Program '" + name.stringValue + "' was set by name, by a script or an earlier version of the package. Select a program to replace it.",
                 MessageType.Warning);
         }
 
-        /// <summary>Returns the field beside the reference with the name that takes precedence.</summary>
+        private static bool IsNamed(SerializedProperty name) => name != null && name.stringValue.Length > 0;
+
+        /// <summary>Returns the field beside the reference with the name that takes precedence; null in scripts of users.</summary>
         private static SerializedProperty NameOf(SerializedProperty property)
         {
             var path = property.propertyPath;
@@ -65,7 +67,8 @@ namespace Collektive.Unity.Editor
         {
             property.serializedObject.Update();
             property.objectReferenceValue = program;
-            NameOf(property).stringValue = "";
+            var name = NameOf(property);
+            if (name != null) name.stringValue = "";
             property.serializedObject.ApplyModifiedProperties();
         }
     }

@@ -27,7 +27,7 @@ namespace Collektive.Unity.Editor
 
             var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
             foreach (var simulation in simulations) AddPrograms(simulation, files);
-            foreach (var path in AssetDatabase.GetDependencies(options.scenes ?? new string[0], true))
+            foreach (var path in AssetDatabase.GetDependencies(ScenesOf(options, simulations), true))
             {
                 var library = path.EndsWith("." + ProgramLibrary.Extension, StringComparison.Ordinal) ? AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path) : null;
                 if (library != null) Add(library, files);
@@ -36,6 +36,10 @@ namespace Collektive.Unity.Editor
             foreach (var jar in HostJars) Add(Installation.OwnFile(jar), files);
             foreach (var file in files) buildPlayerContext.AddAdditionalPathToStreamingAssets(file.Value, file.Key);
         }
+
+        /// <summary>Returns the named scenes, or the open ones that are saved.</summary>
+        private static string[] ScenesOf(BuildPlayerOptions options, List<SceneSimulation> simulations) =>
+            options.scenes?.Length > 0 ? options.scenes : simulations.ConvertAll(simulation => simulation.Scene).FindAll(scene => scene.Length > 0).ToArray();
 
         private static void AddPrograms(SceneSimulation simulation, SortedDictionary<string, string> files)
         {

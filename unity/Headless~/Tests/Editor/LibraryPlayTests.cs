@@ -100,6 +100,7 @@ namespace Collektive.Headless.Tests.Editor
             var library = Import("swarm", "COLLEKTIVE_PROBE_JAR");
             Assert.That(settings.FindProblem(), Is.StringContaining("no program library is selected"));
             settings.libraries.Add(null);
+            Assert.That(settings.JarPaths, Is.Empty, "builds before Play read it");
             Assert.That(settings.FindProblem(), Is.StringContaining("is empty, or its file was deleted"));
             settings.libraries[0] = library;
             Assert.That(settings.FindProblem(), Is.Null);

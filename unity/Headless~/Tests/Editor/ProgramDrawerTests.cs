@@ -65,6 +65,14 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void A_users_script_can_have_a_program_too()
+        {
+            var script = ScriptableObject.CreateInstance<Mission>();
+            Drag(EventType.DragPerform, new SerializedObject(script).FindProperty("goal"), Import("single", ProgramLibraryTests.Program("only")));
+            Assert.That(script.goal.Name, Is.EqualTo("only"));
+        }
+
+        [Test]
         public void Other_drops_are_left_to_the_field()
         {
             var property = new SerializedObject(node).FindProperty("ownProgram");
@@ -143,6 +151,11 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Gui.Lines, Has.Some.EqualTo("help Error: Program 'hops' has no parameter 'stepps'. Clear the field to remove the value."));
             Act("stepps", "");
             Assert.That(node.Parameters, Is.Empty);
+        }
+
+        private sealed class Mission : ScriptableObject
+        {
+            public AggregateProgram goal = null;
         }
 
         private static ProgramLibrary Import(string name, params string[] programs)

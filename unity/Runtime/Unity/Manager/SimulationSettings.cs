@@ -121,7 +121,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Paths of the jars with programs, relative to the project's folder.</summary>
-        internal List<string> JarPaths => jars.Count > 0 ? jars : Libraries().ConvertAll(library => library.File);
+        internal List<string> JarPaths => jars.Count > 0 ? jars : Libraries().FindAll(library => library != null).ConvertAll(library => library.File);
 
         /// <summary>By program, values of its parameters for nodes without their own values.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
