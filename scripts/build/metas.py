@@ -61,7 +61,7 @@ def guid_for(asset: str, package: str = "org.collektive.unity") -> str:
 
 IMPORTERS[".clkprograms"] = (
     "ScriptedImporter:\n  internalIDToNameTable: []\n  externalObjects: {}\n  serializedVersion: 2\n  userData: \n  assetBundleName: \n"
-    "  assetBundleVariant: \n  script: {fileID: 11500000, guid: %s, type: 3}\n" % guid_for("unity/Editor/ProgramLibraryImporter.cs"))
+    f"  assetBundleVariant: \n  script: {{fileID: 11500000, guid: {guid_for('unity/Editor/ProgramLibraryImporter.cs')}, type: 3}}\n")
 
 
 def guid_in(meta: str) -> str | None:

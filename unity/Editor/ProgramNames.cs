@@ -49,7 +49,8 @@ namespace Collektive.Unity.Editor
             {
                 foreach (var node in root.GetComponentsInChildren<Node>(true))
                 {
-                    if (node.OwnProgram == null && node.Program.Length > 0 && !TryReplace(node, settings.FindProgram(node.Program)) && unknown.Add(node.Program))
+                    if (node.OwnProgram != null || node.Program.Length == 0 || TryReplace(node, settings.FindProgram(node.Program))) continue;
+                    if (unknown.Add(node.Program))
                         Debug.LogWarning("node '" + node.name + "' names program '" + node.Program + "', which is in no library of the Simulation Manager: "
                             + "add the library, and select the program in the node", node);
                 }
@@ -93,7 +94,8 @@ namespace Collektive.Unity.Editor
                 }
                 else if (settings.program.Length > 0)
                 {
-                    Debug.LogWarning("'" + manager.name + "' names program '" + settings.program + "', which is in none of its libraries: select another one", manager);
+                    Debug.LogWarning("'" + manager.name + "' names program '" + settings.program + "', which is in none of its libraries: select another one",
+                        manager);
                 }
             }
             Debug.Log("'" + manager.name + "' now refers to the libraries of its programs: save the scene", manager);

@@ -45,7 +45,8 @@ class LocalIdsTest(unittest.TestCase):
         self.assertEqual(local_ids.of("Shader", "MainAsset"), -6465566751694194690)
 
     def test_the_hash_is_xxh64(self) -> None:
-        for text, value in [("", 0xEF46DB3751D8E999), ("abc", 0x44BC2CF5AD770999), ("Nobody inspects the spammish repetition", 0xFBCEA83C8A378BF1)]:
+        ishmael = "Call me Ishmael. Some years ago--never mind how long precisely-"
+        for text, value in [("", 0xEF46DB3751D8E999), ("abc", 0x44BC2CF5AD770999), (ishmael, 0x02A2E85470D6FD96)]:
             self.assertEqual(local_ids.xxh64(text.encode()), value)
 
 

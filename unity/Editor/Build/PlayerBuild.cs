@@ -29,7 +29,7 @@ namespace Collektive.Unity.Editor
             foreach (var simulation in simulations) AddPrograms(simulation, files);
             foreach (var path in AssetDatabase.GetDependencies(ScenesOf(options, simulations), true))
             {
-                var library = path.EndsWith("." + ProgramLibrary.Extension, StringComparison.Ordinal) ? AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path) : null;
+                var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path);
                 if (library != null) Add(library, files);
             }
             AddJvms(simulations, platforms, files);

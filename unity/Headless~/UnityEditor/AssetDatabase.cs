@@ -37,7 +37,7 @@ namespace UnityEditor
             return typeof(T).IsAssignableFrom(typeof(PlainAsset)) ? (T)(Object)new PlainAsset { name = Path.GetFileNameWithoutExtension(file) } : null;
         }
 
-        /// The paths of the assets, and of all that their YAML refers to.
+        /// The paths of the assets, and of the assets that their YAML refers to.
         public static string[] GetDependencies(string[] pathNames, bool recursive)
         {
             var found = new List<string>(pathNames);

@@ -51,7 +51,7 @@ namespace UnityEditor
 
         static T Draw<T>(string kind, GUIContent label, T value)
         {
-            var text = value is UnityEngine.Object reference ? reference.name : System.Convert.ToString(value, System.Globalization.CultureInfo.InvariantCulture);
+            var text = value is UnityEngine.Object reference ? reference.name : Convert.ToString(value, System.Globalization.CultureInfo.InvariantCulture);
             Gui.Draw(kind, label.text, showMixedValue ? "(mixed)" : text);
             return Gui.Take(label.text, value);
         }

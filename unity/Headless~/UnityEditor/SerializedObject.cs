@@ -28,7 +28,10 @@ namespace UnityEditor
         {
             var property = new SerializedProperty(this, "", Copies[0].Root);
             foreach (Match step in Regex.Matches(propertyPath, @"Array\.data\[(\d+)\]|\w+"))
-                property = step.Groups[1].Success ? property?.GetArrayElementAtIndex(int.Parse(step.Groups[1].Value)) : property?.FindPropertyRelative(step.Value);
+            {
+                var index = step.Groups[1];
+                property = index.Success ? property?.GetArrayElementAtIndex(int.Parse(index.Value)) : property?.FindPropertyRelative(step.Value);
+            }
             return property;
         }
 
@@ -108,7 +111,8 @@ namespace UnityEditor
         public SerializedProperty GetArrayElementAtIndex(int index) =>
             new SerializedProperty(serializedObject, propertyPath + ".Array.data[" + index + "]", SerializedFields.ElementOf(Type));
 
-        public void InsertArrayElementAtIndex(int index) => Change(list => list.Insert(index, NewElement(list.Count > 0 ? list[Math.Max(0, index - 1)] : null)));
+        public void InsertArrayElementAtIndex(int index) =>
+            Change(list => list.Insert(index, NewElement(list.Count > 0 ? list[Math.Max(0, index - 1)] : null)));
 
         public void DeleteArrayElementAtIndex(int index) => Change(list => list.RemoveAt(index));
 
@@ -116,7 +120,8 @@ namespace UnityEditor
         object NewElement(object before)
         {
             var type = SerializedFields.ElementOf(Type);
-            return before != null ? SerializedFields.Copy(before) : typeof(Object).IsAssignableFrom(type) ? null : type == typeof(string) ? "" : Activator.CreateInstance(type);
+            if (before != null) return SerializedFields.Copy(before);
+            return typeof(Object).IsAssignableFrom(type) ? null : type == typeof(string) ? "" : Activator.CreateInstance(type);
         }
 
         void Change(Action<IList> change)

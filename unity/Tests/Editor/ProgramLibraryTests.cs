@@ -32,7 +32,6 @@ namespace Collektive.Unity.Editor.Tests
         {
             var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>(Copy);
             Assert.That(library.Programs.Count, Is.EqualTo(1));
-            Assert.That(library.File, Is.EqualTo(Copy));
             Assert.That(IdOf(library), Is.EqualTo(-944628639613478452));
             Assert.That(IdOf(library.Find("leader-election")), Is.EqualTo(6966890540590597578));
         }

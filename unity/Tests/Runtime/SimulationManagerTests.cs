@@ -28,6 +28,7 @@ namespace Collektive.Unity.Tests
         {
             LogAssert.Expect(LogType.Error, new Regex("Simulation stopped: schema 'nowhere.NoSchema' does not exist.*Select one in the Simulation Manager"));
             var manager = Make<SimulationManager>("Manager");
+            manager.Settings.jars.Add("programs.jar");
             manager.Settings.schema = "nowhere.NoSchema";
             yield return null;
             yield return null;

@@ -86,12 +86,16 @@ namespace Collektive.Headless.Tests.Editor
             var scene = Scene("defaultProgram", ProgramOf("byDefault"));
             File.AppendAllText(scene, "--- !u!114 &5\nMonoBehaviour:\n  ownProgram: " + ProgramOf("byNode") + "\n");
             Write("Assets/Drone.prefab", "%YAML 1.1\n--- !u!114 &6\nMonoBehaviour:\n  ownProgram: " + ProgramOf("byPrefab") + "\n");
-            File.AppendAllText(scene, "--- !u!114 &7\nMonoBehaviour:\n  drone: {fileID: 6, guid: " + AssetDatabase.AssetPathToGUID("Assets/Drone.prefab") + ", type: 3}\n");
+            var drone = AssetDatabase.AssetPathToGUID("Assets/Drone.prefab");
+            File.AppendAllText(scene, "--- !u!114 &7\nMonoBehaviour:\n  drone: {fileID: 6, guid: " + drone + ", type: 3}\n");
             Players.Build(BuildTarget.StandaloneLinux64, Assets, scene);
 
             var expected = new List<string>();
-            foreach (var path in new[] { Library, "Assets/byDefault/swarm.clkprograms", "Assets/byNode/swarm.clkprograms", "Assets/byPrefab/swarm.clkprograms" })
-                expected.Add(Assets + "/Collektive/" + AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path).NameInPlayer);
+            foreach (var folder in new[] { "Swarm", "byDefault", "byNode", "byPrefab" })
+            {
+                var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>("Assets/" + folder + "/swarm.clkprograms");
+                expected.Add(Assets + "/Collektive/" + library.NameInPlayer);
+            }
             Assert.That(Directory.GetFiles(Assets + "/Collektive/Programs", "*", SearchOption.AllDirectories), Is.EquivalentTo(expected));
         }
 

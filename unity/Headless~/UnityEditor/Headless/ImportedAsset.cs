@@ -9,7 +9,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor.Headless
 {
-    /// The objects that a scripted importer made of a file. A later import changes the objects that are still there, as Unity does, so that
+    /// The objects that a scripted importer created from a file. A later import changes the objects that are still there, as Unity does, so that
     /// references to them remain.
     sealed class ImportedAsset
     {

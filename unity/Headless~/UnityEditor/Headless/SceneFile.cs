@@ -48,7 +48,8 @@ namespace UnityEditor.Headless
             var field = FieldOf(owner, element.Success ? element.Groups[1].Value : path[at]);
             // The size of a list: its elements follow.
             if (field == null || path[path.Length - 1] == "size") return;
-            if (element.Success) ((IList)field.GetValue(owner)).Insert(int.Parse(element.Groups[2].Value), IsReference(field) ? value as UnityEngine.Object : value);
+            if (element.Success && IsReference(field)) value = value as UnityEngine.Object;
+            if (element.Success) ((IList)field.GetValue(owner)).Insert(int.Parse(element.Groups[2].Value), value);
             else if (at < path.Length - 1) Change(field.GetValue(owner), path, at + 1, value);
             else if (value is UnityEngine.Object) field.SetValue(owner, value);
             else if (field.FieldType.IsEnum) field.SetValue(owner, Enum.Parse(field.FieldType, (string)value));

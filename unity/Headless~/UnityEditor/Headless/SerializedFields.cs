@@ -141,7 +141,7 @@ namespace UnityEditor.Headless
             return IsObject(a) && IsObject(b) ? FieldsOf(a.GetType()).TrueForAll(field => Same(field.GetValue(a), field.GetValue(b))) : Equals(a, b);
         }
 
-        /// Whether the value has fields of its own.
+        /// Whether the value has fields.
         internal static bool IsObject(object value) => value != null && !(value is Object) && !(value is string) && !(value is IList)
             && !value.GetType().IsPrimitive && !value.GetType().IsEnum && value.GetType().IsDefined(typeof(SerializableAttribute), false);
     }

@@ -211,8 +211,8 @@ namespace Collektive.Unity
             if (all.Exists(library => library == null))
                 return "an entry of Libraries in the Simulation Manager is empty, or its file was deleted: select a .clkprograms file, or remove the entry";
             var other = all.Find(library => library.Schema != all[0].Schema);
-            return other == null ? null : all[0].File + " and " + other.File + " were compiled with different schemas, " + all[0].Schema + " and " + other.Schema
-                + ": use the libraries of one schema";
+            return other == null ? null : all[0].File + " and " + other.File + " were compiled with different schemas, " + all[0].Schema + " and "
+                + other.Schema + ": use the libraries of one schema";
         }
     }
 }
