@@ -26,7 +26,7 @@ namespace Collektive.Unity.Editor
             Schema = schemas[0];
             using (var binary = Open(jar, "META-INF/collektive/" + Schema + ".bfbs"))
             using (var hash = SHA256.Create()) SchemaHash = BitConverter.ToString(hash.ComputeHash(binary)).Replace("-", "").ToLowerInvariant();
-            var attributes = ReadManifest(jar);
+            var attributes = JarManifest.Read(jar);
             Runtime = attributes.TryGetValue("Collektive-Runtime", out var runtime) ? runtime : "builtIn";
             SourcesHash = attributes.TryGetValue("Collektive-Sources", out var sources) ? sources : "";
             foreach (var entry in jar.Entries)
@@ -85,20 +85,6 @@ namespace Collektive.Unity.Editor
                 }
             }
             return lines;
-        }
-
-        private static Dictionary<string, string> ReadManifest(ZipArchive jar)
-        {
-            var attributes = new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
-            var name = "";
-            foreach (var line in Lines(jar, "META-INF/MANIFEST.MF"))
-            {
-                var colon = line.IndexOf(": ", StringComparison.Ordinal);
-                // A space begins the rest of a long line.
-                if (line[0] == ' ' && name.Length > 0) attributes[name] += line.Substring(1);
-                else if (colon > 0) attributes[name = line.Substring(0, colon)] = line.Substring(colon + 2);
-            }
-            return attributes;
         }
 
         private void ReadIndex(List<string> lines)

@@ -232,6 +232,13 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(opened.defaultProgram, Is.SameAs(program));
             Assert.That(opened.libraries, Is.EqualTo(new[] { program.Library }));
             Assert.That(AssetDatabase.GetDependencies(new[] { scene }, true), Has.Some.EqualTo(library));
+
+            File.Copy(Path.Combine(folder, schema + ".fbs"), "Assets/" + sample + "/" + schema + ".fbs");
+            Directory.CreateDirectory("Assets/" + sample + "/Programs");
+            var package = program.Library.Schema.Substring(0, program.Library.Schema.IndexOf('.'));
+            foreach (var kotlin in Directory.GetFiles(Path.Combine(Root, "jvm-host/programs/src/main/kotlin", package)))
+                File.Copy(kotlin, "Assets/" + sample + "/Programs/" + Path.GetFileName(kotlin));
+            Assert.That(SchemaProject.FindAll().Find(project => project.Jar == library).IsStale, Is.False, "it plays without a JDK");
         }
 
         private static void Select(BuildTarget target, string architecture) =>

@@ -238,12 +238,14 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void Schemas_of_others_and_samples_that_run_from_the_packages_jar_are_left_alone()
+        public void Schemas_that_no_simulation_uses_are_left_alone()
         {
             File.Delete(Count);
             Save(Schema);
             Build();
-            new GameObject("Manager").AddComponent<SimulationManager>().Settings.jars.Add("Packages/org.collektive.unity/Jvm~/collektive-samples.jar");
+            ProgramLibraryTests.Pack("Assets/Other/other.clkprograms", "other.OtherSchema");
+            new GameObject("Manager").AddComponent<SimulationManager>().Settings.libraries.Add(
+                AssetDatabase.LoadAssetAtPath<ProgramLibrary>("Assets/Other/other.clkprograms"));
             Write(Count, BuildTests.Kotlin);
             Assert.That(Play(), Is.True);
             Assert.That(Log, Is.Empty);
@@ -280,10 +282,8 @@ namespace Collektive.Headless.Tests.Editor
         /// <summary>Writes the jar that a colleague's editor built.</summary>
         private static void Commit(SchemaProject project)
         {
-            using (var jar = new ZipArchive(File.Create(project.Jar), ZipArchiveMode.Create))
-            using (var writer = new StreamWriter(jar.CreateEntry("META-INF/MANIFEST.MF").Open()))
-                writer.Write("Manifest-Version: 1.0\r\nCollektive-Runtime: builtIn\r\nCollektive-Version: " + PackageState.Version
-                    + "\r\nCollektive-Sources: " + project.Sources.Insert(40, "\r\n ") + "\r\n");
+            ProgramLibraryTests.Pack(project.Jar, "Manifest-Version: 1.0\r\nCollektive-Runtime: builtIn\r\nCollektive-Version: " + PackageState.Version
+                + "\r\nCollektive-Sources: " + project.Sources.Insert(40, "\r\n ") + "\r\n", "swarm.SwarmSchema");
         }
 
         /// <summary>The classes with programs in the jar, by the index that the compiler plugin wrote.</summary>

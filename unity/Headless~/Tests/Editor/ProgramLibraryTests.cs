@@ -141,7 +141,7 @@ namespace Collektive.Headless.Tests.Editor
         /// <summary>Writes the jar of a schema without programs.</summary>
         internal static void Pack(string path, string schema) => Pack(path, "Manifest-Version: 1.0\r\n", schema);
 
-        private static void Pack(string path, string manifest, string schemas, params (string ClassName, string Index)[] classes)
+        internal static void Pack(string path, string manifest, string schemas, params (string ClassName, string Index)[] classes)
         {
             Directory.CreateDirectory(System.IO.Path.GetDirectoryName(path));
             using (var jar = new ZipArchive(File.Create(path), ZipArchiveMode.Create))

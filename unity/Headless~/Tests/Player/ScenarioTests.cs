@@ -12,7 +12,7 @@ namespace Collektive.Headless.Tests.Player
     [TestFixture]
     public sealed class ScenarioTests
     {
-        private static readonly string[] RenamedKeys = { "schema", "jars", "record", "stopAfter", "jvm" };
+        private static readonly string[] RenamedKeys = { "schema", "jars", "libraries", "defaultProgram", "record", "stopAfter", "jvm" };
 
         private readonly string folder = Path.Combine(Path.GetTempPath(), "collektive-scenario-" + Guid.NewGuid());
 
