@@ -29,6 +29,18 @@ namespace Collektive.Headless.Tests.Simulation
             foreach (var threads in new[] { 1, 2, 4, 8 }) Assert.That(Digests(With(threads), 0), Is.EqualTo(once), threads + " threads");
         }
 
+        [TestCase(1, false)]
+        [TestCase(4, true)]
+        public void Reloading_the_same_programs_does_not_change_the_digests(int threads, bool isLossy)
+        {
+            Action<SimulationSettings> settings = changed =>
+            {
+                changed.threads = threads;
+                if (isLossy) changed.network = new NetworkModel { loss = 0.2, delay = 0.02, jitter = 0.1, retention = 0.3 };
+            };
+            Assert.That(Digests(settings, 0, tick => tick % 3 == 0), Is.EqualTo(Digests(settings, 0)));
+        }
+
         [Test]
         public void Another_seed_gives_other_digests()
         {
@@ -49,7 +61,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         /// <summary>The digest after each tick of a little swarm that moves at random; the last bit of one sensor flips at a tick.</summary>
-        private List<ulong> Digests(Action<SimulationSettings> change, int flipAt)
+        private List<ulong> Digests(Action<SimulationSettings> change, int flipAt, Predicate<int> isReloaded = null)
         {
             StopPlaying();
             StartPlaying();
@@ -59,7 +71,7 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 var place = new Vector3(Manager.Random.Range(0f, 10f), 0, Manager.Random.Range(0f, 10f));
                 nodes.Add(MakeNode(i + 1, place));
-                nodes[i].Node.Program = i % 3 == 0 ? "random" : i % 3 == 1 ? "scaled" : "sum";
+                nodes[i].Node.Program = i % 4 == 0 ? "scaled" : i % 4 == 1 ? "random" : i % 4 == 2 ? "sum" : "far";
                 nodes[i].Node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = 2;
             }
             Rejoin(nodes);
@@ -67,6 +79,7 @@ namespace Collektive.Headless.Tests.Simulation
             for (var tick = 1; tick <= Ticks; tick++)
             {
                 if (tick == flipAt) nodes[4].Sensor.Value = BitConverter.Int32BitsToSingle(BitConverter.SingleToInt32Bits(nodes[4].Sensor.Value) ^ 1);
+                if (isReloaded != null && isReloaded(tick)) Manager.ReloadPrograms();
                 Play(1);
                 if (tick == flipAt) nodes[4].Sensor.Value = 5;
                 foreach (var node in nodes) node.Node.transform.position += new Vector3(node.Node.Random.Range(-0.5f, 0.5f), 0, 0);

@@ -131,6 +131,25 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Programs_that_cannot_be_reloaded_are_reported_and_the_previous_ones_continue()
+        {
+            Configure("count");
+            var node = MakeNode(0);
+            Play(2);
+            var jars = Manager.Settings.jars;
+            Manager.Settings.jars = new List<string> { "missing.jar" };
+            Manager.ReloadPrograms();
+            Play(1);
+            Assert.That(Errors.Single(), Is.StringContaining("programs not reloaded").And.StringContaining("missing.jar"));
+            Assert.That(node.Answer, Is.EqualTo(3));
+            Manager.Settings.jars = jars;
+            Manager.ReloadPrograms();
+            Play(1);
+            Assert.That(Log, Has.Some.StringContaining("programs reloaded in tick 4: kept 1 of 1 stored values"));
+            Assert.That(node.Answer, Is.EqualTo(4));
+        }
+
+        [Test]
         public void Without_jars_and_libraries_a_simulation_says_what_to_select()
         {
             Configure("double", settings => settings.jars.Clear());

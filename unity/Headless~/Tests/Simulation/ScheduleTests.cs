@@ -299,6 +299,9 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.SetGlobals<probe.GlobalData>(data => data.Wind = data.Wind * 2);
             Play(1);
             Assert.That(node.Answer, Is.EqualTo(8));
+            Manager.ReloadPrograms();
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(8), "programs that are loaded again receive the last data");
         }
 
         [Test]

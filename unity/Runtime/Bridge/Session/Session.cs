@@ -87,6 +87,13 @@ namespace Collektive.Bridge
             Request.Clear();
             Point(answer);
             Answer.Read(answerBuffer);
+            if (Answer.HasReload) ReadReload();
+        }
+
+        private void ReadReload()
+        {
+            var reload = Answer.ReloadedPrograms;
+            Programs = ReadPrograms(reload.ProgramsLength, i => reload.Programs(i).GetValueOrDefault());
         }
 
         /// <summary>Closes a session that is still open, for example when its C# domain is unloaded.</summary>
@@ -125,15 +132,16 @@ namespace Collektive.Bridge
                 slot.Slot, offset, builder.DataBuffer.Length - offset, settings.OpenLimitMs, &opened, &answer));
             handle = opened;
             Point(answer);
-            Programs = ReadPrograms(Frame.OpenResponse.GetRootAsOpenResponse(answerBuffer));
+            var response = Frame.OpenResponse.GetRootAsOpenResponse(answerBuffer);
+            Programs = ReadPrograms(response.ProgramsLength, i => response.Programs(i).GetValueOrDefault());
         }
 
-        private static ProgramInfo[] ReadPrograms(Frame.OpenResponse response)
+        private static ProgramInfo[] ReadPrograms(int count, Func<int, Frame.ProgramInfo> read)
         {
-            var programs = new ProgramInfo[response.ProgramsLength];
+            var programs = new ProgramInfo[count];
             for (var i = 0; i < programs.Length; i++)
             {
-                var program = response.Programs(i).GetValueOrDefault();
+                var program = read(i);
                 var parameters = new ProgramParameter[program.ParametersLength];
                 for (var p = 0; p < parameters.Length; p++)
                 {

@@ -46,6 +46,22 @@ namespace Collektive.Bridge
         /// <summary>Message counts of the step.</summary>
         public NetworkCounts Network => new NetworkCounts(response.Sent, response.Dropped, response.Delayed, response.Expired);
 
+        /// <summary>Whether the step replaced the programs, or tried to.</summary>
+        public bool HasReload => response.Reload != null;
+
+        /// <summary>The outcome of the replacement. Allocates.</summary>
+        public ReloadOutcome Reload
+        {
+            get
+            {
+                var reload = response.Reload.GetValueOrDefault();
+                return new ReloadOutcome(reload.Error, reload.Stored, reload.Kept);
+            }
+        }
+
+        /// <summary>The programs after the replacement.</summary>
+        internal Frame.ReloadResponse ReloadedPrograms => response.Reload.GetValueOrDefault();
+
         /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
         public int Node(int index) => response.Nodes(index);
 

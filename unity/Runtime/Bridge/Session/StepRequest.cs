@@ -14,6 +14,8 @@ namespace Collektive.Bridge
         private readonly GrowingArray<int> nodesRemoved = new GrowingArray<int>();
         private readonly List<NewNode> nodesAdded = new List<NewNode>();
         private readonly GrowingArray<int> due = new GrowingArray<int>();
+        private IReadOnlyList<string> reloadedJars;
+        private bool hasSentGlobals;
 
         internal StepRequest(SensorBuffer sensors, GlobalBuffer globals)
         {
@@ -66,6 +68,14 @@ namespace Collektive.Bridge
             LinksRemoved.Add(link);
         }
 
+        /// <summary>Replaces the programs of all nodes by those of <paramref name="jars"/>, paths, before the next step.</summary>
+        public void Reload(IReadOnlyList<string> jars)
+        {
+            reloadedJars = jars;
+            // The new programs have classes of their own for it.
+            GlobalsChanged |= hasSentGlobals;
+        }
+
         /// <summary>Schedules a round of a node in the next step. Call in ascending order of ids.</summary>
         public void AddDue(int id)
         {
@@ -85,7 +95,9 @@ namespace Collektive.Bridge
             LinksRemoved.Clear();
             Links.Clear();
             due.Clear();
+            hasSentGlobals |= GlobalsChanged;
             GlobalsChanged = false;
+            reloadedJars = null;
         }
 
         internal unsafe void Write(FlatBufferBuilder builder, ulong tick, double time, double deltaTime)
@@ -95,11 +107,19 @@ namespace Collektive.Bridge
             var dueVector = Block(builder, due, sizeof(int));
             var linksVector = Block(builder, Links, sizeof(LinkRecord));
             var linksRemovedVector = Block(builder, LinksRemoved, sizeof(LinkEnds));
+            var reload = reloadedJars == null ? default : WriteReload(builder);
             var nodesAddedVector = WriteNodesAdded(builder);
             var nodesRemovedVector = Block(builder, nodesRemoved, sizeof(int));
             builder.Finish(Frame.StepRequest.CreateStepRequest(
                 builder, tick, time, deltaTime, nodesRemovedVector, nodesAddedVector, linksRemovedVector, linksVector, dueVector,
-                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals)).Value);
+                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload).Value);
+        }
+
+        private Offset<Frame.ReloadRequest> WriteReload(FlatBufferBuilder builder)
+        {
+            var paths = new StringOffset[reloadedJars.Count];
+            for (var i = 0; i < paths.Length; i++) paths[i] = builder.CreateString(reloadedJars[i]);
+            return Frame.ReloadRequest.CreateReloadRequest(builder, Frame.ReloadRequest.CreateJarsVector(builder, paths));
         }
 
         private static unsafe VectorOffset Block<T>(FlatBufferBuilder builder, GrowingArray<T> array, int elementSize)

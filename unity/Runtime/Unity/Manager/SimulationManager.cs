@@ -192,6 +192,13 @@ namespace Collektive.Unity
         }
 
         /// <summary>
+        /// Loads the programs again before the next tick, for example after their jars were rebuilt. A node keeps state and messages at each path
+        /// that its old and new program share, unless a value's class is in the jars and cannot be copied by Java serialization. If its first
+        /// round fails, it starts afresh. The log has the outcome; without valid programs the previous ones continue.
+        /// </summary>
+        public void ReloadPrograms() => Simulation.ReloadPrograms();
+
+        /// <summary>
         /// Stops the simulation with an error and disables the manager. The editor and the JVM go on. A click on the message selects
         /// <paramref name="context"/>, or the manager.
         /// </summary>

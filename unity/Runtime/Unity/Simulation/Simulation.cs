@@ -174,6 +174,12 @@ namespace Collektive.Unity
             return IsOpen;
         }
 
+        /// <summary>Loads the programs again before the next tick. Nodes keep state and messages at paths that old and new programs share.</summary>
+        internal void ReloadPrograms()
+        {
+            if (IsOpen) session.Request.Reload(SessionStart.JarsOf(Settings));
+        }
+
         /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="context"/>, or the manager.</summary>
         internal void Fail(string message, UnityEngine.Object context = null)
         {
@@ -345,11 +351,19 @@ namespace Collektive.Unity
             Digest = answer.Digest;
             Network = answer.Network;
             HostMicros = (answer.HostMicros, answer.RoundMicros);
+            if (answer.HasReload) LogReload(answer.Reload);
             for (var i = 0; i < answer.ErrorCount; i++)
             {
                 var (id, program, message) = answer.Error(i);
                 Errors.AddRound(Find(id), id, program, answer.Tick, message);
             }
+        }
+
+        private void LogReload(ReloadOutcome reload)
+        {
+            if (reload.Error.Length == 0)
+                Debug.Log("programs reloaded in tick " + TickInProgress + ": kept " + reload.Kept + " of " + reload.Stored + " stored values", Manager);
+            else Debug.LogError("programs not reloaded, the previous ones continue: " + reload.Error, Manager);
         }
 
         private void Act()

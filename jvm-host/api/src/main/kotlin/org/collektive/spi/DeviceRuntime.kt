@@ -23,6 +23,13 @@ public interface DeviceRuntime {
      * The export stays readable until the first [round] after the next [commit], or longer while it is [retained][Export.retain].
      */
     public fun commit(): Export
+
+    /**
+     * Removes the state, and the messages that receivers have not read. Call it only while no round runs.
+     *
+     * @throws UnsupportedOperationException when this runtime does not support new programs.
+     */
+    public fun forget(): Unit = throw UnsupportedOperationException("this runtime cannot replace programs")
 }
 
 /** The links into a device, in ascending order of the senders' ids. */
@@ -57,6 +64,17 @@ public interface DeviceRuntimes {
      * Call it only while no round runs. Cheap if nothing can be freed.
      */
     public fun freeUnused(devices: List<DeviceRuntime>)
+
+    /**
+     * Replaces all values that [devices], all devices of the session, have stored or sent, and the pivots of their paths, by [conversion].
+     * Removes values that are lost, and all values at a path with a lost pivot.
+     *
+     * Call it only while no round runs. The default removes everything.
+     */
+    public fun convert(devices: List<DeviceRuntime>, conversion: Conversion): StoredValues {
+        devices.forEach(DeviceRuntime::forget)
+        return StoredValues(0, 0)
+    }
 }
 
 /** Decides which values must not outlive a round. Thread-safe. */

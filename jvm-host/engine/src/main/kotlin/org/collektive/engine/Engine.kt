@@ -21,6 +21,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private val deliveryTask = RoundPool.Task(::deliverRange)
     private var turns = IntArray(0)
     private var linkCount = 0
+    private var reloadedCount = 0
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
         override fun get(index: Int) = nodes.node(index).runtime
@@ -36,6 +37,12 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     public fun wake() {
         pool.wake()
     }
+
+    /**
+     * Returns a new node for each existing one, in order of their ids, from [create], which receives the id and the [NewNode.source]. Changes
+     * nothing.
+     */
+    public fun replacements(create: (Int, Any?) -> NewNode): List<NewNode> = List(nodes.size) { create(nodes.keys[it], nodes.node(it).source) }
 
     /**
      * Applies the changes of [tick], then runs one round of each due node.
@@ -60,6 +67,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         findDue(tick)
         val begin = System.nanoTime()
         runRounds(data, deadline)
+        if (reloadedCount > 0) endFirstRounds()
         deliver(deadline)
         result.roundNanos = System.nanoTime() - begin
         return result
@@ -75,6 +83,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         clock.time = tick.time
         clock.readsBefore = if (isSequential) tick.number + 1 else tick.number
         clock.deltaTime = tick.deltaTime
+        tick.reload?.let(::reload)
         tick.globals?.let { clock.globals = it }
         removeNodes(tick)
         addNodes(tick)
@@ -102,10 +111,27 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
         }
     }
 
+    private fun reload(reload: Reload) {
+        clock.globals = null
+        reload.replacements.forEachIndexed { index, new -> nodes.node(index).reload(new) }
+        reloadedCount = nodes.size
+        result.storedValues = runtimes.convert(runtimesOfNodes, reload.conversion)
+    }
+
+    private fun endFirstRounds() {
+        for (index in 0 until result.size) {
+            val node = result.node(index)
+            if (!node.isReloaded) continue
+            node.endFirstRound(hasFailed = result.failure(index) != null)
+            reloadedCount--
+        }
+    }
+
     private fun removeNodes(tick: Tick) {
         if (tick.nodesRemoved.size == 0) return
         for (removed in 0 until tick.nodesRemoved.size) {
             val node = existing(tick.nodesRemoved[removed])
+            if (node.isReloaded) reloadedCount--
             for (index in node.incoming.size - 1 downTo 0) unlink(node.incoming.node(index), node)
             for (index in node.outgoing.size - 1 downTo 0) unlink(node, node.outgoing.node(index))
         }
@@ -116,7 +142,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     private fun addNodes(tick: Tick) {
         if (tick.nodesAdded.isEmpty()) return
         val added = tick.nodesAdded.map {
-            Node(it.id, it.program, it.parameters, runtimes.device(it.id), clock, settings.seed, settings.network.isIdeal)
+            Node(it, runtimes.device(it.id), clock, settings.seed, settings.network.isIdeal)
         }
         nodes.insertAll(added.sortedBy(Node::id))
         order.addAll(added)

@@ -1,25 +1,24 @@
 package org.collektive.engine
 
-import org.collektive.api.Parameters
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.RoundProgram
 
 /** One node of a session: its links, its exports, its program and the runtime that runs it. */
-internal class Node(
-    val id: Int,
-    val program: NodeProgram,
-    parameters: Parameters,
-    val runtime: DeviceRuntime,
-    clock: Clock,
-    seed: Long,
-    isIdeal: Boolean,
-) : Outbox() {
+internal class Node(new: NewNode, val runtime: DeviceRuntime, clock: Clock, seed: Long, isIdeal: Boolean) : Outbox() {
+    val id = new.id
+
+    var program = new.program
+        private set
+
+    /** See [NewNode.source]. */
+    val source = new.source
+
     /** [id], boxed once. */
     val boxedId: Any = id
     val incoming = IncomingLinks(id, isIdeal, clock)
     val outgoing = NodeList()
 
-    private val device = NodeDevice(this, parameters, clock, seed)
+    private val device = NodeDevice(this, new.parameters, clock, seed)
     private val roundProgram = RoundProgram { aggregate, sensors -> program.round(aggregate, sensors, device) }
 
     /** The tick in which this node was last ordered, and its index among the due nodes. Used by [RoundOrder]. */
@@ -28,6 +27,23 @@ internal class Node(
 
     /** Number of the last validation that removes this node. Used by [TickValidator]. */
     var mark = 0L
+
+    /** Whether the node has a new program, and its first round has not succeeded yet. */
+    var isReloaded = false
+        private set
+
+    /** Replaces the program and its parameters. */
+    fun reload(new: NewNode) {
+        program = new.program
+        device.parameters = new.parameters
+        isReloaded = true
+    }
+
+    /** Ends the first round with a new program. If it failed, the node starts afresh: a value of the old program may not fit the new one. */
+    fun endFirstRound(hasFailed: Boolean) {
+        isReloaded = false
+        if (hasFailed) runtime.forget()
+    }
 
     /** See [DeviceRuntime.round]. */
     fun round(sensors: Any?): Any? = runtime.round(incoming, roundProgram, sensors)

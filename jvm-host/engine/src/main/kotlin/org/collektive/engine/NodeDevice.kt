@@ -4,7 +4,7 @@ import org.collektive.api.Parameters
 import kotlin.random.Random
 
 /** The [node] as a device, for its program. */
-internal class NodeDevice(private val node: Node, override val parameters: Parameters, private val clock: Clock, seed: Long) : RoundDevice {
+internal class NodeDevice(private val node: Node, override var parameters: Parameters, private val clock: Clock, seed: Long) : RoundDevice {
     override val id: Int get() = node.id
     override val random: Random = Philox(seed, node.id, purpose = 0)
     override val time: Double get() = clock.time

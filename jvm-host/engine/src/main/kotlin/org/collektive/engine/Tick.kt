@@ -1,6 +1,7 @@
 package org.collektive.engine
 
 import org.collektive.api.Parameters
+import org.collektive.spi.Conversion
 
 /**
  * The input of one tick. Fill it, pass it to [Engine.step], then [clear] and reuse it.
@@ -16,6 +17,9 @@ public class Tick {
 
     /** Simulated seconds since the previous tick, 0 or greater. */
     public var deltaTime: Double = 0.0
+
+    /** New programs, which apply before all other changes; `null` leaves the programs unchanged. */
+    public var reload: Reload? = null
 
     /** Ids of the nodes to remove. */
     public val nodesRemoved: IntList = IntList()
@@ -37,6 +41,7 @@ public class Tick {
 
     /** Resets everything except [number], [time] and [deltaTime]; keeps the memory. */
     public fun clear() {
+        reload = null
         nodesRemoved.clear()
         nodesAdded.clear()
         linksRemoved.clear()
@@ -46,8 +51,20 @@ public class Tick {
     }
 }
 
-/** A node to add; [id] must be unused and 0 or greater. */
-public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters)
+/**
+ * A node to add; [id] must be unused and 0 or greater.
+ *
+ * @property source what the owner of the engine needs to create the node again with another [program]; see [Engine.replacements].
+ */
+public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters, public val source: Any? = null)
+
+/**
+ * New programs of all nodes.
+ *
+ * @property replacements see [Engine.replacements].
+ * @property conversion converts values of the previous programs.
+ */
+public class Reload(internal val replacements: List<NewNode>, internal val conversion: Conversion)
 
 /** Thrown when a tick is invalid. Nothing has changed; [message] names the tick, the id and the value. */
 public class InvalidTickException(public val tick: Long, message: String) : IllegalArgumentException("tick $tick: $message")

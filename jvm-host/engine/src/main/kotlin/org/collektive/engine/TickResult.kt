@@ -1,5 +1,7 @@
 package org.collektive.engine
 
+import org.collektive.spi.StoredValues
+
 /** The outcome of one tick. The engine owns it and reuses it for the next tick. */
 public class TickResult internal constructor() {
     private var nodes = arrayOfNulls<Node>(0)
@@ -29,6 +31,10 @@ public class TickResult internal constructor() {
     /** Number of rounds that failed. */
     public var failureCount: Int = 0
         private set
+
+    /** Values that the tick's reload found and kept; `null` without a reload. */
+    public var storedValues: StoredValues? = null
+        internal set
 
     /** Counts of messages. */
     public val network: NetworkCounts = NetworkCounts()
@@ -61,6 +67,7 @@ public class TickResult internal constructor() {
         size = count
         failureCount = 0
         roundNanos = 0
+        storedValues = null
         network.clear()
     }
 

@@ -40,10 +40,10 @@ internal object ProbeJars {
         return jar(folder.fileName.toString(), both, root.resolve("jvm-host/host/src/test/programs"), others)
     }
 
-    /** The schema of [programs], with [java] as `probe/Bad.java`. */
-    fun withClass(java: String): Path {
-        val folder = createTempDirectory(work, "bad")
-        folder.resolve("probe").createDirectories().resolve("Bad.java").writeText(java)
+    /** The schema of [programs], with [java] as the class `probe.[name]`. */
+    fun withClass(java: String, name: String = "Bad"): Path {
+        val folder = createTempDirectory(work, "class")
+        folder.resolve("probe").createDirectories().resolve("$name.java").writeText(java)
         return jar(folder.fileName.toString(), generated, folder)
     }
 

@@ -9,6 +9,7 @@ import org.collektive.frame.NodeAdded
 import org.collektive.frame.OpenRequest
 import org.collektive.frame.OpenResponse
 import org.collektive.frame.Parameter
+import org.collektive.frame.ReloadRequest
 import org.collektive.frame.StepRequest
 import org.collektive.frame.StepResponse
 import org.collektive.frame.TypeFingerprint
@@ -16,6 +17,7 @@ import org.collektive.host.shim.LogLevel
 import org.collektive.host.shim.ShimCalls
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
+import java.nio.file.Path
 import java.util.concurrent.ConcurrentLinkedQueue
 
 /** The shim's functions on a plain JVM: memory, error message, log. */
@@ -50,6 +52,7 @@ internal class Step(val tick: Long) {
     var due = emptyList<Int>()
     var sensors: List<Sensor>? = null
     var wind: Float? = null
+    var reload: Path? = null
 
     class Added(val id: Int, val program: String? = null, val parameters: Map<String, String> = emptyMap())
 
@@ -79,9 +82,13 @@ internal class Step(val tick: Long) {
         linked.asReversed().forEach { Link.createLink(builder, it.first, it.second, 1f, 0f) }
         val linkedVector = builder.endVector()
         val dueVector = StepRequest.createDueVector(builder, due.toIntArray())
+        val reloadTable = reload?.let {
+            ReloadRequest.createReloadRequest(builder, ReloadRequest.createJarsVector(builder, intArrayOf(builder.createString("$it"))))
+        } ?: 0
         builder.finish(
             StepRequest.createStepRequest(
                 builder, tick, time, deltaTime, removedVector, addedVector, unlinkedVector, linkedVector, dueVector, sensorTable, globals,
+                reloadTable,
             ),
         )
         return direct(builder)

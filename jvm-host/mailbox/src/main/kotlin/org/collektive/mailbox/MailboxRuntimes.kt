@@ -61,6 +61,14 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
         return outbound
     }
 
+    override fun forget() {
+        state = emptyMap()
+        newState = emptyMap()
+        inbound = Inbound(emptyList())
+        outbound.clear()
+        reached = null
+    }
+
     override val inMemory: Boolean get() = true
 
     override fun currentInbound(): NeighborsData<Int> = inbound
@@ -91,8 +99,13 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     private fun place(path: Path?): String = "node $id" + if (path == null) "" else " at ${path.toMultilineString(" > ")}"
 
     /** The messages of one round: one for [each] neighbour of that round, and the [default] one for all others. */
-    private class Messages(private val each: Map<Int, Message<Int, *>>, private val default: Message<Int, *>?) : Export() {
+    private class Messages(private var each: Map<Int, Message<Int, *>>, private var default: Message<Int, *>?) : Export() {
         fun message(receiver: Int): Message<Int, *>? = each[receiver] ?: default
+
+        fun clear() {
+            each = emptyMap()
+            default = null
+        }
     }
 
     private class Inbound(private val messages: List<Message<Int, *>>) : NeighborsData<Int> {

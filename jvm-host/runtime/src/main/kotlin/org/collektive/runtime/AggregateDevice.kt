@@ -70,6 +70,22 @@ internal class AggregateDevice<ID : Any>(
         return valid
     }
 
+    override fun forget() {
+        valid.clear()
+        running.clear()
+        for (record in older) record.clear()
+    }
+
+    /** Number of values that the next round can read from the last one. */
+    fun countStored(): Int = valid.countKept()
+
+    /** Applies [conversion] to everything that neighbours or this device's next round can still read. */
+    fun convert(conversion: ConvertedPaths) {
+        valid.convert(conversion)
+        running.clear()
+        for (record in older) if (record.isRetained) record.convert(conversion) else record.clear()
+    }
+
     /** Returns a free record for the next round and stores [held] among the older ones. */
     private fun replacementOf(held: RoundRecord): RoundRecord {
         for (index in older.indices) {

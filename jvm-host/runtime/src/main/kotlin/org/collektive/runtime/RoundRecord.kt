@@ -87,6 +87,28 @@ internal class RoundRecord : Export() {
         return sent
     }
 
+    /** The number of paths at which a value was stored. */
+    fun countKept(): Int {
+        var kept = 0
+        forEachPath { if (keptAt(it) !== Nothing) kept++ }
+        return kept
+    }
+
+    /** Replaces all paths and values by those of [conversion]. */
+    fun convert(conversion: ConvertedPaths) {
+        val paths = ArrayList<PathNode>(count)
+        forEachPath(paths::add)
+        val kept = paths.map(::keptAt)
+        val sent = paths.map(::sentAt)
+        clear()
+        for (index in paths.indices) {
+            val path = conversion.path(paths[index]) ?: continue
+            if (!reserve(path)) continue
+            keep(path, conversion.value(kept[index]))
+            send(path, conversion.value(sent[index]))
+        }
+    }
+
     /** The value stored at [path], or [Nothing]. */
     fun keptAt(path: PathNode): Any? = if (path === path0) {
         kept0

@@ -34,6 +34,12 @@ public val OpenRequest.types: Map<String, Long>
 
 /** Writes an `OpenResponse` that lists [programs]. Returns its position, see [AnswerBuffer.finish]. */
 public fun AnswerBuffer.writeOpenResponse(programs: Collection<Program>): Long {
+    val vector = OpenResponse.createProgramsVector(builder, writePrograms(programs))
+    return finish(OpenResponse.createOpenResponse(builder, vector))
+}
+
+/** Writes a `ProgramInfo` of each of [programs], and returns their offsets. */
+internal fun AnswerBuffer.writePrograms(programs: Collection<Program>): IntArray {
     val infos = programs.map { program ->
         val parameters = program.parameters.map {
             ParameterInfo.createParameterInfo(
@@ -46,6 +52,5 @@ public fun AnswerBuffer.writeOpenResponse(programs: Collection<Program>): Long {
         val name = builder.createString(program.name)
         ProgramInfo.createProgramInfo(builder, name, ProgramInfo.createParametersVector(builder, parameters.toIntArray()))
     }
-    val vector = OpenResponse.createProgramsVector(builder, infos.toIntArray())
-    return finish(OpenResponse.createOpenResponse(builder, vector))
+    return infos.toIntArray()
 }

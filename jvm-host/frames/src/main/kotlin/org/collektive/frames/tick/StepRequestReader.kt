@@ -33,16 +33,27 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
     private val tick = Tick()
 
     /**
-     * Verifies [frame] and reads it.
+     * Verifies [frame], which the next [read] reads.
      *
-     * @return the tick, valid until the next call and as long as the frame. [UserData.accept] makes its global data current.
-     * @throws MalformedFrameException when the frame is malformed, a node sets a parameter twice, or the user's data does not match the
-     *   due nodes.
+     * @throws MalformedFrameException when the frame is malformed.
      */
-    public fun read(frame: ByteBuffer): Tick {
+    public fun check(frame: ByteBuffer) {
         root = checker.checkRoot(frame, FrameLayouts.STEP_REQUEST)
         this.frame = frame
         request.__assign(root, frame)
+    }
+
+    /** The jars with which the checked frame replaces all programs, or `null`. Allocates. */
+    public val reloadedJars: List<String>?
+        get() = if (target(frame, root, FrameLayouts.STEP_REQUEST_RELOAD) == 0) null else request.reload().let { List(it.jarsLength(), it::jars) }
+
+    /**
+     * Reads the checked frame.
+     *
+     * @return the tick, valid until the next call and as long as the frame. [UserData.accept] makes its global data current.
+     * @throws MalformedFrameException when a node sets a parameter twice, or the user's data does not match the due nodes.
+     */
+    public fun read(): Tick {
         tick.clear()
         tick.number = request.tick()
         tick.time = request.time()
@@ -68,7 +79,10 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
         if (vector != 0) addAll(frame, vector + OFFSET_BYTES, width * frame.getInt(vector))
     }
 
-    private fun newNode(added: NodeAdded): NewNode {
+    private fun newNode(added: NodeAdded): NewNode =
+        newNodes.node(added.id(), added.program().orEmpty(), if (added.parametersLength() == 0) emptyMap() else parameters(added))
+
+    private fun parameters(added: NodeAdded): Map<String, String> {
         val parameters = LinkedHashMap<String, String>()
         for (index in 0 until added.parametersLength()) {
             added.parameters(parameter, index)
@@ -76,7 +90,7 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
                 throw MalformedFrameException("node ${added.id()} sets the parameter '${parameter.name()}' twice")
             }
         }
-        return newNodes.node(added.id(), added.program().orEmpty(), parameters)
+        return parameters
     }
 
     /** The vector of `Link`s of a frame. */

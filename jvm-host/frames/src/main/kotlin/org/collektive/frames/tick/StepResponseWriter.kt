@@ -1,29 +1,37 @@
 package org.collektive.frames.tick
 
+import org.collektive.api.Program
 import org.collektive.engine.IntList
 import org.collektive.engine.RoundDigest
 import org.collektive.engine.TickResult
+import org.collektive.frame.ReloadResponse
 import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
 import org.collektive.frames.AnswerBuffer
+import org.collektive.frames.session.writePrograms
+import org.collektive.spi.StoredValues
+
+/** The outcome of a reload: [error], or empty; the [programs] in use; and [values], or `null` if the reload failed. */
+public class ReloadOutcome(internal val error: String, internal val programs: Collection<Program>, internal val values: StoredValues?)
 
 /** Writes the `StepResponse` of each tick of a session, with the chained digest. */
-public class StepResponseWriter(private val data: UserData, private val buffer: AnswerBuffer) {
+public class StepResponseWriter(private val buffer: AnswerBuffer) {
     private val digest = RoundDigest()
 
     /**
-     * Writes [result].
+     * Writes [result], whose answers [data] has packed.
      *
      * @param due the ids of the tick's due nodes.
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
      * @return the position of the response, see [AnswerBuffer.finish].
      */
-    public fun write(result: TickResult, due: IntList, begin: Long): Long {
+    public fun write(result: TickResult, data: UserData, due: IntList, begin: Long, reload: ReloadOutcome?): Long {
         val builder = buffer.builder
         digest.begin(result.tick)
         val actuators = data.answers.write(result, buffer, digest)
         digest.end()
         val errors = if (result.failureCount == 0) 0 else writeErrors(result)
+        val reloaded = if (reload == null) 0 else write(reload)
         StepResponse.startNodesVector(builder, result.size - result.failureCount)
         // putInt neither grows nor aligns the buffer, but startNodesVector has done both.
         for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(due[index])
@@ -41,9 +49,17 @@ public class StepResponseWriter(private val data: UserData, private val buffer: 
         StepResponse.addDropped(builder, count(network.dropped))
         StepResponse.addDelayed(builder, count(network.delayed))
         StepResponse.addExpired(builder, count(network.expired))
+        if (reloaded != 0) StepResponse.addReload(builder, reloaded)
         StepResponse.addRoundMicros(builder, micros(result.roundNanos))
         StepResponse.addHostMicros(builder, micros(System.nanoTime() - begin))
         return buffer.finish(StepResponse.endStepResponse(builder))
+    }
+
+    private fun write(reload: ReloadOutcome): Int {
+        val builder = buffer.builder
+        val error = builder.createString(reload.error)
+        val programs = ReloadResponse.createProgramsVector(builder, buffer.writePrograms(reload.programs))
+        return ReloadResponse.createReloadResponse(builder, error, programs, reload.values?.stored ?: 0, reload.values?.kept ?: 0)
     }
 
     private fun writeErrors(result: TickResult): Int {

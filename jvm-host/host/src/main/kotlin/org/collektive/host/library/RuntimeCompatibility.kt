@@ -1,5 +1,6 @@
 package org.collektive.host.library
 
+import org.collektive.host.programs.ConstantPool
 import org.collektive.host.programs.ProgramJar
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
@@ -43,7 +44,7 @@ internal class RuntimeCompatibility(private val library: AggregateLibrary) {
         val known = HashSet<String>()
         for ((entry, bytes) in jar.entries) {
             if (!entry.endsWith(".class")) continue
-            for (name in ClassReferences.of(bytes)) {
+            for (name in ConstantPool.of(bytes).classes) {
                 if (PREFIXES.none(name::startsWith) || !known.add(name) || "$name.class" in own || library.contains(name)) continue
                 val isBuiltIn = name.startsWith(ALIGNMENT)
                 val other = "one of its jars is missing or of another version"

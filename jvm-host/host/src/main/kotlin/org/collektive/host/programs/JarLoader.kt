@@ -10,6 +10,9 @@ import java.util.Enumeration
 
 /** A class loader that reads from memory and keeps no files open. Searches [parent] first, then [jars] in order. */
 public open class JarLoader(name: String, private val jars: List<ProgramJar>, parent: ClassLoader) : ClassLoader(name, parent) {
+    /** The class files of the jars. */
+    internal val classFiles: List<ByteArray> get() = jars.flatMap { jar -> jar.entries.filterKeys { it.endsWith(".class") }.values }
+
     override fun findClass(name: String): Class<*> {
         val bytes = find(name.replace('.', '/') + ".class") ?: throw ClassNotFoundException(name)
         return defineClass(name, bytes, 0, bytes.size)

@@ -2,29 +2,48 @@ package org.collektive.host.programs
 
 import org.collektive.api.Program
 import org.collektive.engine.NewNode
+import org.collektive.frames.data.DataSchema
 import org.collektive.frames.tick.NewNodes
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 
-/** The programs of a session by name. Nodes that do not name a program run [default]. */
-internal class Programs(private val byName: Map<String, LoadedProgram>, default: String) : NewNodes {
+/**
+ * The programs of a session by name. Nodes that do not name a program run [default].
+ *
+ * @property schema the schema of the user data.
+ */
+internal class Programs(
+    private val byName: Map<String, LoadedProgram>,
+    val schema: DataSchema,
+    val loader: JarLoader,
+    private val default: String,
+) : NewNodes {
     /** The annotations of all programs, sorted by name. */
     val infos: List<Program> = byName.values.map(LoadedProgram::info)
 
-    private val default = if (default.isEmpty()) null else find(default) { "the session" }
+    private val defaultProgram = if (default.isEmpty()) null else find(default) { "the session" }
 
     override fun node(id: Int, program: String, parameters: Map<String, String>): NewNode {
         val selected = if (program.isNotEmpty()) {
             find(program) { "node $id" }
         } else {
-            default
+            defaultProgram
                 ?: throw HostException(
                     HostError.PROGRAM,
                     "node $id has no program, and the session has no default program; set one of them",
                 )
         }
-        return NewNode(id, selected, selected.parameters(id, parameters))
+        val source = if (program.isEmpty() && parameters.isEmpty()) DEFAULT else Source(program, parameters)
+        return NewNode(id, selected, selected.parameters(id, parameters), source)
     }
+
+    /** Creates the node [id] again, with its program in this set; [source] is its [NewNode.source]. */
+    fun node(id: Int, source: Any?): NewNode {
+        val (program, parameters) = source as Source
+        return node(id, program, parameters)
+    }
+
+    private data class Source(val program: String, val parameters: Map<String, String>)
 
     private inline fun find(name: String, owner: () -> String) = byName[name] ?: throw HostException(
         HostError.PROGRAM,
@@ -34,4 +53,9 @@ internal class Programs(private val byName: Map<String, LoadedProgram>, default:
             "the jars contain ${byName.keys}. Correct the name, or rebuild the jars"
         },
     )
+
+    private companion object {
+        /** The source of nodes that run the default program with its default parameters. */
+        val DEFAULT = Source("", emptyMap())
+    }
 }

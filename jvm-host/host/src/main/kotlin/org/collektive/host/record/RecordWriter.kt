@@ -29,6 +29,15 @@ public class RecordWriter internal constructor(private val path: String, private
     /** Writes the `StepRequest` between position and limit of [frame]. */
     public fun step(frame: ByteBuffer): Unit = write(Chunk.STEP, frame)
 
+    /** Writes the jars that the last step loads. */
+    public fun jars(jars: List<JarBytes>) {
+        for (jar in jars) {
+            val name = jar.path.encodeToByteArray()
+            val payload = ByteBuffer.allocate(Int.SIZE_BYTES + name.size + jar.bytes.size).order(ByteOrder.LITTLE_ENDIAN)
+            write(Chunk.JAR, payload.putInt(name.size).put(name).put(jar.bytes).flip())
+        }
+    }
+
     /** Writes the `StepResponse` between position and limit of [frame]. */
     public fun done(frame: ByteBuffer): Unit = write(Chunk.DONE, frame)
 
@@ -51,11 +60,7 @@ public class RecordWriter internal constructor(private val path: String, private
         while (header.hasRemaining()) channel.write(header)
         write(Chunk.HEAD, text("java=${Runtime.version()}\nos=${System.getProperty("os.name")} ${System.getProperty("os.arch")}\n"))
         write(Chunk.OPEN, open)
-        for (jar in jars) {
-            val name = jar.path.encodeToByteArray()
-            val payload = ByteBuffer.allocate(Int.SIZE_BYTES + name.size + jar.bytes.size).order(ByteOrder.LITTLE_ENDIAN)
-            write(Chunk.JAR, payload.putInt(name.size).put(name).put(jar.bytes).flip())
-        }
+        jars(jars)
     }
 
     private fun write(kind: Int, payload: ByteBuffer) {

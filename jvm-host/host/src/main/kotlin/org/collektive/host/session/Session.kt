@@ -3,6 +3,7 @@ package org.collektive.host.session
 import org.collektive.engine.Engine
 import org.collektive.engine.IntList
 import org.collektive.engine.InvalidTickException
+import org.collektive.engine.Reload
 import org.collektive.engine.RoundTimeoutException
 import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
@@ -10,7 +11,7 @@ import org.collektive.frames.AnswerBuffer
 import org.collektive.frames.MalformedFrameException
 import org.collektive.frames.data.DataSchema
 import org.collektive.frames.session.writeOpenResponse
-import org.collektive.frames.tick.StepRequestReader
+import org.collektive.frames.tick.ReloadOutcome
 import org.collektive.frames.tick.StepResponseWriter
 import org.collektive.frames.tick.UserData
 import org.collektive.host.programs.Programs
@@ -23,30 +24,28 @@ import java.io.IOException
 import java.nio.ByteBuffer
 import java.util.concurrent.TimeUnit
 
-/**
- * One simulation: reads its frames, runs them on its engine and writes the answers. Not thread-safe.
- *
- * @property schema the schema of the user data.
- */
+/** One simulation: reads its frames, runs them on its engine and writes the answers. Not thread-safe. */
 public class Session internal constructor(
-    public val schema: DataSchema,
-    private val programs: Programs,
+    programs: Programs,
+    private val reload: ProgramReload,
     threads: Int,
     private val engine: Engine,
     private val shim: ShimCalls,
     private val record: RecordWriter?,
 ) : AutoCloseable {
-    private val data = UserData(schema, threads)
-    private val requests = StepRequestReader(programs, data)
+    private var loaded = LoadedPrograms(programs, threads)
     private val buffer = AnswerBuffer(ShimSlots(shim))
-    private val response = StepResponseWriter(data, buffer)
+    private val response = StepResponseWriter(buffer)
     private val events = TickEvents()
     private var failure: String? = null
+
+    /** The schema of the user data. */
+    public val schema: DataSchema get() = loaded.programs.schema
 
     /** Writes the `OpenResponse` to [answer], the current buffer of [slot]. Returns its position, `offset << 32 | length`. */
     internal fun answerOpen(slot: Long, answer: ByteBuffer): Long {
         buffer.begin(slot, answer)
-        return buffer.writeOpenResponse(programs.infos)
+        return buffer.writeOpenResponse(loaded.programs.infos)
     }
 
     /**
@@ -76,15 +75,31 @@ public class Session internal constructor(
     private fun run(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
         events.begin(begin)
         engine.wake()
-        val tick = reading { requests.read(frame) }
-        val result = runRounds(tick, begin, deadline)
-        data.accept(tick)
-        val place = write(result, tick.due, slot, answer, begin)
+        reading { loaded.requests.check(frame) }
+        val prepared = loaded.requests.reloadedJars?.let { prepare(it, frame) }
+        val next = prepared?.loaded ?: loaded
+        val tick = reading { next.requests.read() }
+        tick.reload = prepared?.change
+        val result = runRounds(tick, next.data, begin, deadline)
+        next.data.accept(tick)
+        loaded = next
+        val outcome = prepared?.let { ReloadOutcome(it.error, next.programs.infos, result.storedValues) }
+        val place = write(result, tick.due, outcome, slot, answer, begin)
         events.end(result, frame.remaining(), place.toInt())
         return place
     }
 
-    private fun runRounds(tick: Tick, begin: Long, deadline: Long): TickResult = try {
+    private fun prepare(paths: List<String>, frame: ByteBuffer): PreparedReload {
+        val jars = try {
+            reload.read(paths)
+        } catch (e: HostException) {
+            return PreparedReload(loaded, null, e.message.orEmpty())
+        }
+        recording { jars(jars) }
+        return reload.prepare(jars, loaded).also { reading { it.loaded.requests.check(frame) } }
+    }
+
+    private fun runRounds(tick: Tick, data: UserData, begin: Long, deadline: Long): TickResult = try {
         engine.step(tick, data, deadline)
     } catch (e: InvalidTickException) {
         throw HostException(HostError.FRAME, e.message.orEmpty(), e)
@@ -100,10 +115,10 @@ public class Session internal constructor(
         throw fail(e) { "tick ${tick.number} failed with an internal error: $e" }
     }
 
-    private fun write(result: TickResult, due: IntList, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
+    private fun write(result: TickResult, due: IntList, reload: ReloadOutcome?, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
         events.write()
         buffer.begin(slot, answer)
-        response.write(result, due, begin)
+        response.write(result, loaded.data, due, begin, reload)
     } catch (e: Throwable) {
         throw fail(e) { "cannot write the answer of tick ${result.tick}: $e" }
     }

@@ -6,21 +6,14 @@ import org.collektive.engine.NetworkModel
 import org.collektive.engine.Schedule
 import org.collektive.frame.Network
 import org.collektive.frame.OpenRequest
-import org.collektive.frames.data.DataSchema
 import org.collektive.frames.data.ViewRule
 import org.collektive.frames.session.openRequest
-import org.collektive.frames.session.types
 import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
 import org.collektive.host.library.AggregateLibrary
 import org.collektive.host.library.AggregateRuntime
-import org.collektive.host.library.RuntimeCompatibility
 import org.collektive.host.programs.JarBytes
-import org.collektive.host.programs.ProgramFinder
-import org.collektive.host.programs.ProgramJar
-import org.collektive.host.programs.ProgramLoader
 import org.collektive.host.programs.Programs
-import org.collektive.host.programs.SchemaFinder
 import org.collektive.host.record.RecordWriter
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
@@ -43,10 +36,17 @@ public object SessionOpening {
     /**
      * Opens the session of [request], a verified frame, with the programs of [jars].
      *
+     * @param readJars reads the jars of a later reload from their paths.
      * @param record creates the session's record; called last, so that a failed opening does not overwrite a file.
      * @throws HostException when the library, the programs or their schema cannot be loaded, or a setting is out of range.
      */
-    public fun open(request: OpenRequest, jars: List<JarBytes>, shim: ShimCalls, record: () -> RecordWriter?): Session {
+    public fun open(
+        request: OpenRequest,
+        jars: List<JarBytes>,
+        shim: ShimCalls,
+        readJars: (List<String>) -> List<JarBytes> = { it.map(JarBytes::read) },
+        record: () -> RecordWriter?,
+    ): Session {
         val event = if (SessionEvents.isRecorderInitialized) SessionStartEvent() else null
         event?.begin()
         if (request.protocol() != PROTOCOL.toLong()) {
@@ -56,25 +56,21 @@ public object SessionOpening {
             )
         }
         val settings = settings(request)
-        val programJars = jars.map(ProgramJar::open)
         val library = AggregateLibrary.of(AggregateRuntime.of(request.runtime()), request.runtimeJars().orEmpty())
-        RuntimeCompatibility(library).check(programJars)
-        val loader = ProgramLoader(programJars, library.loader)
-        val schemas = SchemaFinder.all(loader, programJars)
-        val schema = SchemaFinder.find(request.schema(), request.types, schemas, programJars)
-        val programs = Programs(ProgramFinder(programJars, loader, schema, schemas).find(), request.program().orEmpty())
+        val source = ProgramSource(library, request)
+        val programs = source.load(jars)
         return Engine(settings, library.runtimes(ViewRule)).orClose { engine ->
             record().orClose { writer ->
-                Session(schema, programs, settings.threads, engine, shim, writer).also {
-                    if (event != null) commit(event, programs, schema, settings)
+                Session(programs, ProgramReload(source, engine, settings.threads, readJars), settings.threads, engine, shim, writer).also {
+                    if (event != null) commit(event, programs, settings)
                 }
             }
         }
     }
 
-    private fun commit(event: SessionStartEvent, programs: Programs, schema: DataSchema, settings: EngineSettings) {
+    private fun commit(event: SessionStartEvent, programs: Programs, settings: EngineSettings) {
         event.programs = programs.infos.joinToString { it.name }
-        event.schema = schema.name
+        event.schema = programs.schema.name
         event.schedule = settings.schedule.name
         event.seed = settings.seed
         event.threads = settings.threads

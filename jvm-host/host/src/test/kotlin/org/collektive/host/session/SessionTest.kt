@@ -102,7 +102,7 @@ class SessionTest {
 
     private fun open(jar: Path, record: () -> RecordWriter?): Session {
         val request = OpenRequest.getRootAsOpenRequest(openFrame(listOf(jar.toString())))
-        return SessionOpening.open(request, listOf(JarBytes.read(jar.toString())), shim, record)
+        return SessionOpening.open(request, listOf(JarBytes.read(jar.toString())), shim, record = record)
     }
 
     private fun rounds(): Set<Thread> = Thread.getAllStackTraces().keys.filterTo(HashSet()) { it is RoundThread }

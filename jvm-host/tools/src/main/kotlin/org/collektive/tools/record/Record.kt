@@ -60,14 +60,19 @@ internal class Record private constructor(private val path: Path, private val ch
             return null
         }
         if (step.kind != Chunk.STEP) throw damaged(step.offset, "found a chunk ${step.name}, but expected a step or the end")
-        val outcome = chunk()
+        val jars = ArrayList<JarBytes>(0)
+        var outcome = chunk()
+        while (outcome.kind == Chunk.JAR) {
+            jars += jar(outcome)
+            outcome = chunk()
+        }
         return when (outcome.kind) {
-            Chunk.FAIL -> RecordedStep(step.payload, null, text(outcome))
+            Chunk.FAIL -> RecordedStep(step.payload, jars, null, text(outcome))
 
             Chunk.DONE -> {
                 val answer = verified(outcome) { StepResponseReader(outcome.payload) }
                 tick = answer.response.tick()
-                RecordedStep(step.payload, answer, null)
+                RecordedStep(step.payload, jars, answer, null)
             }
 
             else -> throw damaged(outcome.offset, "found a chunk ${outcome.name}, but expected the outcome of a step")
@@ -184,8 +189,8 @@ internal class Record private constructor(private val path: Path, private val ch
     }
 }
 
-/** A recorded step: its `StepRequest`, and either the answer or the reason of the failure. */
-internal class RecordedStep(val request: ByteBuffer, val answer: StepResponseReader?, val failure: String?)
+/** A recorded step: its `StepRequest`, the jars that it loads, and either the answer or the reason of the failure. */
+internal class RecordedStep(val request: ByteBuffer, val jars: List<JarBytes>, val answer: StepResponseReader?, val failure: String?)
 
 /** Thrown when a record cannot be used, or only partly; [message] states the reason, the position, and what to do. */
 internal sealed class RecordException(message: String) : RuntimeException(message)

@@ -71,11 +71,9 @@ private fun replay(arguments: List<String>, report: Report): Int {
     Record.open(path(file)).use { record ->
         report.line(describe(record))
         for (jar in jars) report.line("programs of ${jar.path}, SHA-256 ${sha256(jar)}")
-        if (jars.isEmpty() &&
-            !isTrusted
-        ) {
-            KnownPrograms(options.filter { it.first == "--own" }.map { path(it.second) }).require(record, file)
-        }
+        val known = KnownPrograms(options.filter { it.first == "--own" }.map { path(it.second) })
+        val check: (List<JarBytes>) -> Unit = { if (jars.isEmpty() && !isTrusted) known.require(it, file) }
+        check(record.jars)
         val request = record.settings.unpack()
         last["--runtime"]?.let { request.runtime = runtime(it).ordinal }
         val runtimeJars = last["--runtime-jars"]
@@ -90,7 +88,9 @@ private fun replay(arguments: List<String>, report: Report): Int {
         // The settings that the record of the replay contains.
         request.jars = programs.map(JarBytes::path).toTypedArray()
         request.record = last["--out"].orEmpty()
-        return code(Replay(record, request, programs, last["--out"], report).run())
+        // With other programs, a recorded reload loads these again.
+        val reloaded: (RecordedStep) -> List<JarBytes> = { step -> jars.ifEmpty { step.jars.also(check) } }
+        return code(Replay(record, request, programs, reloaded, last["--out"], report).run())
     }
 }
 

@@ -22,15 +22,18 @@ import java.util.concurrent.TimeUnit
  *
  * @property request the settings of the session.
  * @property programs the jars of its programs.
+ * @property reloaded returns the jars that a step with a reload loads.
  * @property out the file that records the replay; `null` to record nothing.
  */
 internal class Replay(
     private val record: Record,
     private val request: OpenRequestT,
     private val programs: List<JarBytes>,
+    private val reloaded: (RecordedStep) -> List<JarBytes>,
     private val out: String?,
     private val report: Report,
 ) : ShimCalls {
+    private var current: RecordedStep? = null
     private var answer: ByteBuffer = ByteBuffer.allocate(FIRST_ANSWER_BYTES)
     private var ticks = 0L
     private var failedRounds = 0L
@@ -41,7 +44,10 @@ internal class Replay(
     /** Runs all steps of the record. Returns whether every answer equals the recorded one. */
     fun run(): Boolean {
         val frame = openFrame(request)
-        val session = SessionOpening.open(openRequest(frame), programs, this) { out?.let { RecordWriter.create(it, frame, programs) } }
+        val readJars = { _: List<String> -> reloaded(checkNotNull(current)) }
+        val session = SessionOpening.open(openRequest(frame), programs, this, readJars) {
+            out?.let { RecordWriter.create(it, frame, programs) }
+        }
         val out = System.out
         val err = System.err
         HostLog(this).install()
@@ -90,6 +96,7 @@ internal class Replay(
     /** Runs [step]. Returns the answer as a [StepResponseReader], or the error message as a [String]. */
     private fun step(session: Session, step: RecordedStep): Any {
         val begin = System.nanoTime()
+        current = step
         return try {
             val written = session.step(step.request, 0, answer, begin, begin + LIMIT_NANOS)
             val offset = (written ushr Int.SIZE_BITS).toInt()

@@ -108,6 +108,23 @@ class RecordTest {
     }
 
     @Test
+    fun `a replay repeats reloads with the jars of the record`() {
+        val jars = listOf("sensors.value() + 1", "sensors.value() + 2", "sensors.value() + 3").mapIndexed { index, value ->
+            folder.resolve("reloaded-$index.jar").also { Files.copy(summing(value), it) }
+        }
+        val file = record { reload = if (tick % 3 == 0L) jars.getOrNull((tick / 3 - 1).toInt()) else null }
+        jars.forEach(Files::delete)
+        val result = run("replay", file)
+        assertEquals(0, result.code, result.results + result.messages)
+        assertContains(result.results, "$TICKS ticks replayed, all digests equal the record")
+        val own = Files.createDirectory(folder.resolve("own"))
+        Files.createFile(own.resolve(sha256(JarBytes.read(ProbeJars.programs.toString()))))
+        val refused = run("replay", file, "--own", own)
+        assertEquals(2, refused.code)
+        assertContains(refused.messages, "programs that have never run here")
+    }
+
+    @Test
     fun `a changed program is reported at the first answer that differs`() {
         val file = record(jar = summing("sensors.value()"))
         assertEquals(0, run("replay", file, "--programs", summing("sensors.value() + 0")).code)

@@ -1,0 +1,16 @@
+package org.collektive.spi
+
+/** Converts values of previous programs to values of the programs that replace them. Used by one thread. */
+public interface Conversion {
+    /** Returns [value] as the new programs know it, or [Lost]. */
+    public fun value(value: Any?): Any?
+
+    /** Returns [token], a call or a pivot on a path, as the new programs know it, or [Lost]. */
+    public fun token(token: Any?): Any?
+
+    /** Marks a value that the new programs cannot read. */
+    public object Lost
+}
+
+/** Number of values that devices had [stored] before a [Conversion], and how many of them are [kept]. */
+public class StoredValues(public val stored: Int, public val kept: Int)

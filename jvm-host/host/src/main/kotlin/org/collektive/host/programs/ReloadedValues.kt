@@ -1,0 +1,116 @@
+package org.collektive.host.programs
+
+import org.collektive.spi.Conversion
+import org.collektive.spi.Conversion.Lost
+import java.io.ByteArrayInputStream
+import java.io.ByteArrayOutputStream
+import java.io.IOException
+import java.io.ObjectInputStream
+import java.io.ObjectOutputStream
+import java.io.ObjectStreamClass
+import java.io.OutputStream
+import java.lang.reflect.Modifier
+import java.util.Collections
+import java.util.IdentityHashMap
+
+/**
+ * Converts values of the programs of [old] to those of [new].
+ *
+ * A value without objects of the user's classes stays the same. Other values are copied by Java serialization, which reads a class by its
+ * name and fails if its form has changed.
+ */
+internal class ReloadedValues(private val old: JarLoader, private val new: JarLoader) : Conversion {
+    // Calls by their identity, without the line, which changes with the text above the call.
+    private val calls = HashMap<String, String>()
+
+    init {
+        for (bytes in new.classFiles) for (text in ConstantPool.of(bytes).texts) identityOf(text)?.let { calls[it] = text }
+    }
+
+    override fun token(token: Any?): Any? {
+        val identity = (token as? String)?.let(::identityOf) ?: return value(token)
+        return calls[identity] ?: token
+    }
+
+    override fun value(value: Any?): Any? = if (isSimple(value)) value else try {
+        if (contains(value, IDENTITY_SET(), 0)) copy(value) else value
+    } catch (_: UnknownContent) {
+        copy(value)
+    }
+
+    /** Returns whether [value] contains an object of the old programs. @throws UnknownContent when that is unknown. */
+    private fun contains(value: Any?, seen: MutableSet<Any>, depth: Int): Boolean = when {
+        isSimple(value) || value == null || !seen.add(value) -> false
+        value.javaClass.classLoader === old -> true
+        depth == MAX_DEPTH -> throw UnknownContent
+        value is Array<*> -> value.any { contains(it, seen, depth + 1) }
+        value.javaClass.isArray -> false
+        value.javaClass.classLoader != null -> fields(value).any { contains(it, seen, depth + 1) }
+        value is Collection<*> -> value.any { contains(it, seen, depth + 1) }
+        value is Map<*, *> -> value.any { (key, item) -> contains(key, seen, depth + 1) || contains(item, seen, depth + 1) }
+        else -> throw UnknownContent
+    }
+
+    /** The references in an object of a library; the JDK's own classes do not permit to read them. */
+    private fun fields(value: Any): List<Any?> = generateSequence<Class<*>>(value.javaClass) { it.superclass }
+        .flatMap { it.declaredFields.asSequence() }
+        .filter { !Modifier.isStatic(it.modifiers) && !it.type.isPrimitive }
+        .map { if (it.trySetAccessible()) it.get(value) else throw UnknownContent }
+        .toList()
+
+    private fun copy(value: Any?): Any? = try {
+        val bytes = ByteArrayOutputStream()
+        val output = Output(bytes)
+        output.use { it.writeObject(value) }
+        if (output.hasOld) Input(bytes.toByteArray()).use(ObjectInputStream::readObject) else value
+    } catch (_: IOException) {
+        Lost
+    } catch (_: ReflectiveOperationException) {
+        Lost
+    } catch (_: RuntimeException) {
+        // Code of the user's classes.
+        Lost
+    } catch (_: LinkageError) {
+        Lost
+    } catch (_: StackOverflowError) {
+        Lost
+    }
+
+    private inner class Output(bytes: OutputStream) : ObjectOutputStream(bytes) {
+        var hasOld = false
+
+        override fun annotateClass(type: Class<*>) {
+            if (elementOf(type).classLoader === old) hasOld = true
+        }
+    }
+
+    private inner class Input(bytes: ByteArray) : ObjectInputStream(ByteArrayInputStream(bytes)) {
+        override fun resolveClass(description: ObjectStreamClass): Class<*> = try {
+            Class.forName(description.name, false, new)
+        } catch (_: ClassNotFoundException) {
+            // Names of primitive types.
+            super.resolveClass(description)
+        }
+    }
+
+    private object UnknownContent : RuntimeException() {
+        private fun readResolve(): Any = UnknownContent
+
+        override fun fillInStackTrace(): Throwable = this
+    }
+
+    private companion object {
+        const val MAX_DEPTH = 64
+
+        /** A call of the compiler plugin, such as `share@Swarm.kt:12#9c1d3a5e7f00b2d4`. */
+        val CALL = Regex("(.+@[^:]+):\\d+(#[0-9a-f]{16})")
+        val IDENTITY_SET: () -> MutableSet<Any> = { Collections.newSetFromMap(IdentityHashMap()) }
+
+        fun identityOf(text: String): String? = CALL.matchEntire(text)?.let { it.groupValues[1] + it.groupValues[2] }
+
+        fun isSimple(value: Any?) = value == null || value is String || value is Boolean || value is Char || value is Unit ||
+            value is Number && value.javaClass.classLoader == null
+
+        tailrec fun elementOf(type: Class<*>): Class<*> = if (type.isArray) elementOf(type.componentType) else type
+    }
+}

@@ -1,0 +1,196 @@
+package org.collektive.host
+
+import org.collektive.frame.ReloadResponse
+import org.collektive.frame.StepResponse
+import org.junit.jupiter.api.AfterEach
+import org.junit.jupiter.api.Test
+import org.junit.jupiter.api.Timeout
+import org.junit.jupiter.api.io.TempDir
+import java.lang.management.ManagementFactory
+import java.nio.file.Path
+import kotlin.io.path.writeText
+import kotlin.test.assertContains
+import kotlin.test.assertEquals
+import kotlin.test.assertNull
+import kotlin.test.assertTrue
+
+/** New programs for the nodes of a running session. */
+@Timeout(120)
+class ReloadTest {
+    private val shim = TestShim()
+    private val session = TestSession(shim)
+    private var tick = 0L
+
+    @TempDir
+    lateinit var folder: Path
+
+    @AfterEach
+    fun close() = session.close()
+
+    private fun open(java: String, threads: Int = 2, network: List<Double>? = null) {
+        check(session.open(listOf(jar(java).toString()), threads = threads, network = network) >= 0) { shim.error }
+    }
+
+    /** A jar with the program "sum"; [body] returns its text. */
+    private fun jar(body: String, members: String = "", annotation: String = "@Program(name = \"sum\")"): Path = ProbeJars.withClass(
+        """
+        package probe;
+        import it.unibo.collektive.aggregate.*;
+        import it.unibo.collektive.aggregate.api.*;
+        import org.collektive.api.*;
+        public final class Reloaded {
+          $annotation
+          public static ActuatorData sum(Aggregate<Integer> aggregate, SensorData sensors, Device device) {
+            return new ActuatorData(0, run(aggregate, device));
+          }
+          static String run(Aggregate<Integer> aggregate, Device device) { $body }
+          static int count(Aggregate<Integer> aggregate, String path) {
+            return aggregate.alignedOn(path, () -> aggregate.<Integer>evolve(0, n -> n + 1));
+          }
+          $members
+        }
+        """,
+        "Reloaded",
+    )
+
+    private fun step(reload: Path? = null, wind: Float? = null): StepResponse = session.ok(
+        Step(++tick).also {
+            if (tick == 1L) {
+                it.added = listOf(Step.Added(1), Step.Added(2))
+                it.linked = listOf(1 to 2, 2 to 1)
+            }
+            it.due = listOf(1, 2)
+            it.reload = reload
+            it.wind = wind
+        },
+    )
+
+    /** The text of node 1. */
+    private fun text(answer: StepResponse): String? {
+        assertEquals(emptyMap(), session.errors(answer))
+        return session.answers(answer).getValue(1).second
+    }
+
+    private fun assertReloaded(reload: ReloadResponse?, stored: Int, kept: Int) {
+        assertEquals("", reload?.error().orEmpty())
+        assertEquals(stored to kept, reload?.stored() to reload?.kept())
+    }
+
+    @Test
+    fun `state at equal paths is kept, and other state starts at its initial value`() {
+        open("""return count(aggregate, "kept") + " " + count(aggregate, "removed");""")
+        repeat(4) { step() }
+        val answer = step(jar("""return count(aggregate, "kept") + " " + count(aggregate, "added");"""))
+        assertReloaded(answer.reload(), stored = 4, kept = 4)
+        assertEquals("5 1", text(answer))
+        assertEquals("6 2", text(step()))
+    }
+
+    @Test
+    fun `a call that moved to another line keeps its state`() {
+        open("""return "" + count(aggregate, "evolve@Swarm.kt:12#0123456789abcdef");""")
+        repeat(2) { step() }
+        assertEquals("3", text(step(jar("""return "" + count(aggregate, "evolve@Swarm.kt:15#0123456789abcdef");"""))))
+        assertEquals("1", text(step(jar("""return "" + count(aggregate, "evolve@Swarm.kt:15#fedcba9876543210");"""))))
+    }
+
+    @Test
+    fun `messages at equal paths are received`() {
+        val body = """return "" + aggregate.neighboring(device.getId(), InMemory.INSTANCE).getNeighbors().getSize();"""
+        open(body)
+        repeat(2) { step() }
+        assertEquals("1", text(step(jar(body))))
+    }
+
+    @Test
+    fun `messages that are delayed are received`() {
+        val body = """return "" + aggregate.neighboring(device.getId(), InMemory.INSTANCE).getNeighbors().getSize();"""
+        open(body, network = listOf(0.0, 0.0, 0.0, 0.12, 0.0, 0.0))
+        repeat(2) { step() }
+        assertEquals(listOf("0", "1", "1"), listOf(text(step(jar(body))), text(step()), text(step())))
+    }
+
+    @Test
+    fun `values of the user's classes are kept if they are serializable and have the same form`() {
+        val evolve = """
+            Counter last = aggregate.alignedOn("state", () -> aggregate.<Counter>evolve(new Counter(0), c -> new Counter(c.value + 1)));
+            java.util.List<Object> list = aggregate.alignedOn("list", () ->
+                aggregate.<java.util.List<Object>>evolve(java.util.List.of(0), l -> java.util.List.of((Integer) l.get(0) + 1, new Counter(7))));
+            return last.value + " " + list.get(0);"""
+        fun counter(form: String) = "static final class Counter $form { final int value; Counter(int value) { this.value = value; } }"
+        open("return \"\" + count(aggregate, \"unused\");")
+        step()
+        step(jar(evolve, counter("implements java.io.Serializable")))
+        step()
+        val same = step(jar(evolve, counter("implements java.io.Serializable")))
+        assertReloaded(same.reload(), stored = 4, kept = 4)
+        assertEquals("3 3", text(same))
+        val changed = counter("implements java.io.Serializable").replace("{ final", "{ private static final long serialVersionUID = 3; final")
+        val other = step(jar(evolve, changed))
+        assertReloaded(other.reload(), stored = 4, kept = 0)
+        assertEquals("1 1", text(other))
+        val plain = step(jar(evolve, counter("")))
+        assertReloaded(plain.reload(), stored = 4, kept = 0)
+        assertReloaded(step(jar(evolve, counter(""))).reload(), stored = 4, kept = 0)
+    }
+
+    @Test
+    fun `a node whose first round fails starts afresh`() {
+        open("""return "" + aggregate.alignedOn("x", () -> aggregate.<Integer>evolve(0, n -> n + 1));""")
+        repeat(2) { step() }
+        val failed = step(jar("""return aggregate.alignedOn("x", () -> aggregate.<String>evolve("a", s -> s.concat("b")));"""))
+        assertContains(session.errors(failed).getValue(1), "ClassCastException")
+        assertEquals("ab", text(step()))
+    }
+
+    @Test
+    fun `new programs receive the global data of their first tick, and are listed`() {
+        open("""return "" + ((GlobalData) device.getGlobals()).wind();""")
+        assertEquals("2.5", text(step(wind = 2.5f)))
+        val answer = step(jar("""return "new " + ((GlobalData) device.getGlobals()).wind();"""), wind = 2.5f)
+        assertEquals("new 2.5", text(answer))
+        assertEquals(listOf("sum"), List(answer.reload()?.programsLength() ?: 0) { answer.reload()?.programs(it)?.name() })
+    }
+
+    @Test
+    fun `programs that cannot be loaded change nothing and report why`() {
+        open("""return "" + count(aggregate, "kept");""")
+        step()
+        val damaged = folder.resolve("damaged.jar").also { it.writeText("no zip") }
+        val expected = mapOf(
+            folder.resolve("missing.jar") to "does not exist",
+            damaged to "damaged",
+            jar("return \"\";", annotation = "@Program(name = \"other\")") to "unknown program 'sum'",
+            ProbeJars.withClass("package probe; class Bad {}") to "unknown program 'sum'",
+        )
+        for ((path, reason) in expected) {
+            val answer = step(path)
+            assertContains(answer.reload()?.error().orEmpty(), reason)
+            assertEquals("$tick", text(answer))
+        }
+        assertNull(step().reload())
+    }
+
+    @Test
+    fun `classes of previous programs are unloaded`() {
+        val jars = List(2) { jar("""return "$it " + count(aggregate, "kept");""") }
+        open("""return "" + count(aggregate, "kept");""")
+        step()
+        val classes = ManagementFactory.getClassLoadingMXBean()
+        fun loaded(): Int {
+            repeat(3) { System.gc() }
+            return classes.loadedClassCount
+        }
+        repeat(20) { step(jars[it % 2]) }
+        step()
+        val before = loaded()
+        repeat(RELOADS) { step(jars[it % 2]) }
+        step()
+        assertTrue(loaded() <= before + 20, "${loaded() - before} classes are left")
+        assertEquals("1 ${RELOADS + 24}", text(step()))
+    }
+
+    private companion object {
+        const val RELOADS = 1000
+    }
+}
