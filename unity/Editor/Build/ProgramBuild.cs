@@ -158,7 +158,14 @@ namespace Collektive.Unity.Editor
             var built = current;
             Finish(code == 0 ? Progress.Status.Succeeded : Progress.Status.Failed);
             if (code == 0) AssetDatabase.ImportAsset(built.Jar);
+            if (code == 0) ReloadWhilePlaying();
             if (built.HasGeneratedSince(begun)) AssetDatabase.Refresh();
+        }
+
+        /// <summary>Gives a running simulation the new programs, unless the project's settings forbid it.</summary>
+        internal static void ReloadWhilePlaying()
+        {
+            if (SimulationManager.Current != null && ProjectSettings.instance.reloadWhilePlaying) SimulationManager.Current.ReloadPrograms();
         }
 
         /// <summary>Other builds would fail for the same reason: a missing tool.</summary>

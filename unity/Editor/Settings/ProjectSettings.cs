@@ -10,6 +10,9 @@ namespace Collektive.Unity.Editor
         /// <summary>Whether Play starts with the previous programs after a failed build.</summary>
         public WhenProgramsFail whenProgramsFail = WhenProgramsFail.Ask;
 
+        /// <summary>Whether a running simulation continues with programs that are saved and built while it runs.</summary>
+        public bool reloadWhilePlaying = true;
+
         /// <summary>Up to version 0.2: now in <see cref="PersonalSettings"/>.</summary>
         [HideInInspector]
         public string jdk = "";

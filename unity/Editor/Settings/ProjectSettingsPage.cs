@@ -17,9 +17,13 @@ namespace Collektive.Unity.Editor
         private static SettingsProvider Make() => new ProjectSettingsPage();
 
         /// <inheritdoc/>
-        protected override void Draw() =>
+        protected override void Draw()
+        {
             EditorGUILayout.PropertyField(Fields.FindProperty(nameof(ProjectSettings.whenProgramsFail)), new GUIContent("Play Previous Programs",
                 "Whether Play starts with the previous programs when the current ones do not compile."), true);
+            EditorGUILayout.PropertyField(Fields.FindProperty(nameof(ProjectSettings.reloadWhilePlaying)), new GUIContent("Reload While Playing",
+                "Whether a running simulation continues with programs that are saved while it runs. Nodes keep their state."), true);
+        }
 
         /// <inheritdoc/>
         protected override void Store() => ProjectSettings.instance.Store();

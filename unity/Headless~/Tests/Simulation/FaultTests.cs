@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq;
 using Collektive.Bridge;
 using Collektive.Unity;
+using Collektive.Unity.Editor;
 using NUnit.Framework;
 using UnityEngine;
 using Object = UnityEngine.Object;
@@ -147,6 +148,20 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Assert.That(Log, Has.Some.StringContaining("programs reloaded in tick 4: kept 1 of 1 stored values"));
             Assert.That(node.Answer, Is.EqualTo(4));
+        }
+
+        [TestCase(true, 1)]
+        [TestCase(false, 0)]
+        public void Programs_that_were_built_during_play_are_reloaded_if_the_project_allows_it(bool isAllowed, int expected)
+        {
+            Configure("count");
+            MakeNode(0);
+            Play(1);
+            ProjectSettings.instance.reloadWhilePlaying = isAllowed;
+            ProgramBuild.ReloadWhilePlaying();
+            Play(1);
+            ProjectSettings.instance.reloadWhilePlaying = true;
+            Assert.That(Log.FindAll(line => line.Contains("programs reloaded")).Count, Is.EqualTo(expected));
         }
 
         [Test]

@@ -1,4 +1,3 @@
-using System.Collections.Generic;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -20,10 +19,6 @@ namespace Collektive.Unity
             StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);
             return Session.Open(settings.ToSession(), schema);
         }
-
-        /// <summary>Returns the paths of the jars that a session with these settings loads.</summary>
-        /// <exception cref="BridgeException">The schema is unknown.</exception>
-        internal static IReadOnlyList<string> JarsOf(SimulationSettings settings) => settings.ToSession(Schemas.Find(settings.schema)).Jars;
 
         /// <summary>Stops a JVM in a separate process after its session, unless the settings keep it.</summary>
         /// <exception cref="BridgeException">The JVM did not end within the time limit and was killed.</exception>

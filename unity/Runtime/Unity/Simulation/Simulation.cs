@@ -177,7 +177,7 @@ namespace Collektive.Unity
         /// <summary>Loads the programs again before the next tick. Nodes keep state and messages at paths that old and new programs share.</summary>
         internal void ReloadPrograms()
         {
-            if (IsOpen) session.Request.Reload(SessionStart.JarsOf(Settings));
+            if (IsOpen) session.Request.Reload(Settings.ToSession().Jars);
         }
 
         /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="context"/>, or the manager.</summary>
