@@ -9,9 +9,23 @@ namespace UnityEditor
 {
     public sealed class AssetDatabase
     {
-        public static string GUIDToAssetPath(string guid) => Project.PathOf(guid);
-        public static string AssetPathToGUID(string path) => Project.GuidOf(path);
-        public static string GetAssetPath(Object assetObject) => ImportedAsset.PathOf(assetObject);
+        public static string GUIDToAssetPath(string guid)
+        {
+            AssetState.CheckCall();
+            return Project.PathOf(guid);
+        }
+
+        public static string AssetPathToGUID(string path)
+        {
+            AssetState.CheckCall();
+            return Project.GuidOf(path);
+        }
+
+        public static string GetAssetPath(Object assetObject)
+        {
+            AssetState.CheckCall();
+            return ImportedAsset.PathOf(assetObject);
+        }
 
         public static bool TryGetGUIDAndLocalFileIdentifier(Object obj, out string guid, out long localId)
         {
@@ -23,6 +37,7 @@ namespace UnityEditor
 
         public static void ImportAsset(string path)
         {
+            AssetState.CheckChange();
             Project.Imported.Add(path);
             ImportedAsset.Reimport(path);
         }
@@ -30,6 +45,7 @@ namespace UnityEditor
         /// Prefabs become objects that are in no scene, and importers make other assets. Any other file that exists is an asset without content.
         public static T LoadAssetAtPath<T>(string assetPath) where T : Object
         {
+            AssetState.CheckCall();
             var file = string.IsNullOrEmpty(assetPath) ? "" : Project.FileOf(assetPath);
             if (!File.Exists(file)) return null;
             if (typeof(T) == typeof(UnityEngine.GameObject)) return assetPath.EndsWith(".prefab") ? (T)(Object)PrefabFile.Load(file) : null;
@@ -40,6 +56,7 @@ namespace UnityEditor
         /// The paths of the assets, and of the assets that their YAML refers to.
         public static string[] GetDependencies(string[] pathNames, bool recursive)
         {
+            AssetState.CheckCall();
             var found = new List<string>(pathNames);
             for (var i = 0; i < found.Count && recursive; i++)
             {
@@ -66,7 +83,11 @@ namespace UnityEditor
             return found.ToArray();
         }
 
-        public static void Refresh() => Project.Refreshes++;
+        public static void Refresh()
+        {
+            AssetState.CheckChange();
+            Project.Refreshes++;
+        }
 
         sealed class PlainAsset : Object { }
     }

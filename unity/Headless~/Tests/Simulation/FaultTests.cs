@@ -307,6 +307,42 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Nodes_of_an_additive_scene_join_and_leave_with_it()
+        {
+            MakeNode(1);
+            Play(1);
+            var scene = UnityEngine.Headless.AdditiveScene.Load("More", () =>
+            {
+                MakeNode(2);
+                MakeNode(3);
+            });
+            Play(1);
+            Assert.That(Manager.Nodes.Count, Is.EqualTo(3));
+            UnityEngine.Headless.AdditiveScene.Unload(scene);
+            Play(1);
+            Assert.That(Manager.Nodes.Count, Is.EqualTo(1));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void A_simulation_ends_with_the_scene_of_its_manager_and_nodes_wait_for_the_next()
+        {
+            Object.DestroyImmediate(Manager.gameObject);
+            var node = MakeNode(4);
+            SimulationManager manager = null;
+            for (var i = 0; i < 2; i++)
+            {
+                var scene = UnityEngine.Headless.AdditiveScene.Load("Manager", () => manager = MakeManager("double"));
+                UnityEngine.Headless.Loop.Frame(0.05f);
+                Assert.That((SimulationManager.Current == manager, node.Node.Id), Is.EqualTo((true, 0)));
+                Assert.That(node.Answer, Is.EqualTo(8));
+                UnityEngine.Headless.AdditiveScene.Unload(scene);
+                Assert.That((SimulationManager.Current == null, node.Node.Id), Is.EqualTo((true, -1)));
+            }
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void A_part_that_moves_to_another_node_works_for_that_node()
         {
             Configure("double");

@@ -74,7 +74,7 @@ namespace UnityEditor.Headless
         void Import(string path, Type importer)
         {
             var context = new AssetImportContext(path);
-            ((ScriptedImporter)Activator.CreateInstance(importer, true)).OnImportAsset(context);
+            AssetState.Import(() => ((ScriptedImporter)Activator.CreateInstance(importer, true)).OnImportAsset(context));
             foreach (var identifier in new List<string>(objects.Keys))
             {
                 if (context.Objects.ContainsKey(identifier)) continue;

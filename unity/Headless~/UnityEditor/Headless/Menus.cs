@@ -24,7 +24,7 @@ namespace UnityEditor.Headless
         /// Calls all [InitializeOnLoadMethod]s, as a loaded domain does.
         public static void Load()
         {
-            foreach (var method in Marked(typeof(InitializeOnLoadMethodAttribute))) method.Invoke(null, null);
+            foreach (var method in Marked(typeof(InitializeOnLoadMethodAttribute))) AssetState.Reload(() => method.Invoke(null, null));
         }
 
         /// All pages of the project settings.

@@ -96,10 +96,11 @@ namespace UnityEngine
             foreach (var child in gameObject.TransformUnchecked.children) Collect(child.owner, into);
         }
 
-        /// All objects of the scene, in the order of their roots.
+        /// All objects of all scenes, in the order of their roots.
         public static void DestroyScene()
         {
-            while (Scene.Roots.Count > 0) Destroy(Scene.Roots[0]);
+            foreach (var scene in Scene.Loaded)
+                while (scene.rootCount > 0) Destroy(scene.Roots[0]);
             Requests.Clear();
         }
     }

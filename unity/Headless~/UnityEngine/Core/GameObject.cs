@@ -28,14 +28,19 @@ namespace UnityEngine
         {
             NameImpl = name;
             tag = "Untagged";
-            activeSelf = activeInHierarchy = active;
+            activeSelf = active;
+            activeInHierarchy = active && together == null;
+            together?.Add(this);
             ownTransform = new Transform();
             Own(ownTransform);
-            Scene.Roots.Add(this);
+            sceneOfRoot.Roots.Add(this);
         }
 
         public GameObject gameObject => this;
-        public Scene scene => Scene.Active;
+        /// Of an object without a parent.
+        internal Scene sceneOfRoot = Scene.Active;
+
+        public Scene scene => ownTransform.root.owner.sceneOfRoot;
         public string tag { get; set; }
         public bool CompareTag(string tag) => this.tag == tag;
         public bool isStatic { get; set; }
@@ -289,7 +294,7 @@ namespace UnityEngine
         internal void RefreshActivity()
         {
             var parent = ownTransform.parentOrNull;
-            var active = activeSelf && (parent is null || parent.owner.activeInHierarchy);
+            var active = activeSelf && together == null && (parent is null || parent.owner.activeInHierarchy);
             if (active == activeInHierarchy) return;
             var affected = new List<Component>();
             MarkActivity(active, affected);
@@ -304,11 +309,31 @@ namespace UnityEngine
                 if (child.owner.activeSelf) child.owner.MarkActivity(active, affected);
         }
 
+        static List<GameObject> together;
+
+        /// Objects that `build` creates are inactive until its end, and then become active together, as those of a scene file.
+        internal static void CreateTogether(Action build)
+        {
+            var created = together = new List<GameObject>();
+            try
+            {
+                build();
+            }
+            finally
+            {
+                together = null;
+            }
+            var affected = new List<Component>();
+            foreach (var root in created)
+                if (root && root.ownTransform.parentOrNull is null && !root.activeInHierarchy && root.activeSelf) root.MarkActivity(true, affected);
+            Lifecycle.ActivityChanged(affected, true);
+        }
+
         // ---- Search and primitives ----------------------------------------------------------------------------------
 
         public static GameObject Find(string name)
         {
-            foreach (var root in Scene.Roots)
+            foreach (var root in Scene.AllRoots())
                 if (FindActive(root, name) is GameObject found) return found;
             return null;
         }

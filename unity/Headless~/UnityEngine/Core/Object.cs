@@ -112,13 +112,13 @@ namespace UnityEngine
             if (obj) Destruction.Destroy(obj);
         }
 
-        public static void DontDestroyOnLoad(Object target) { } // the one scene is never replaced
+        public static void DontDestroyOnLoad(Object target) { } // the player's scene is never replaced
 
-        /// Only the roots and their children of the one scene.
+        /// Only objects of scenes.
         public static T[] FindObjectsByType<T>(FindObjectsSortMode sortMode) where T : Object
         {
             var found = new System.Collections.Generic.List<T>();
-            foreach (var root in SceneManagement.Scene.Roots)
+            foreach (var root in SceneManagement.Scene.AllRoots())
                 if (root.activeInHierarchy) found.AddRange(root.GetComponentsInChildren<T>());
             return found.ToArray();
         }
@@ -131,7 +131,7 @@ namespace UnityEngine
         public static Object FindAnyObjectByType(Type type, FindObjectsInactive findObjectsInactive)
         {
             var inactiveToo = findObjectsInactive == FindObjectsInactive.Include;
-            foreach (var root in SceneManagement.Scene.Roots)
+            foreach (var root in SceneManagement.Scene.AllRoots())
             {
                 if (type == typeof(GameObject) && (inactiveToo || root.activeInHierarchy)) return root;
                 var found = root.FindInChildren(type, inactiveToo);

@@ -307,8 +307,10 @@ namespace UnityEngine
             Follow();
             Vector3 worldPosition = position, worldScale = lossyScale;
             var worldRotation = rotation;
+            var scene = owner.scene;
             Detach();
             parentOrNull = parent;
+            owner.sceneOfRoot = scene;
             Attach(int.MaxValue);
             if (worldPositionStays)
             {
@@ -325,13 +327,13 @@ namespace UnityEngine
         /// Takes the object out of the list that holds it: its parent's children, or the scene's roots.
         internal void Detach()
         {
-            if (parentOrNull is null) Scene.Roots.Remove(owner);
+            if (parentOrNull is null) owner.sceneOfRoot.Roots.Remove(owner);
             else parentOrNull.children.Remove(this);
         }
 
         void Attach(int index)
         {
-            if (parentOrNull is null) Scene.Roots.Insert(Math.Min(index, Scene.Roots.Count), owner);
+            if (parentOrNull is null) owner.sceneOfRoot.Roots.Insert(Math.Min(index, owner.sceneOfRoot.rootCount), owner);
             else parentOrNull.children.Insert(Math.Min(index, parentOrNull.children.Count), this);
         }
 
@@ -360,7 +362,7 @@ namespace UnityEngine
             while (children.Count > 0) children[0].SetParent(null);
         }
 
-        public int GetSiblingIndex() => parentOrNull is null ? Scene.Roots.IndexOf(owner) : parentOrNull.children.IndexOf(this);
+        public int GetSiblingIndex() => parentOrNull is null ? owner.sceneOfRoot.Roots.IndexOf(owner) : parentOrNull.children.IndexOf(this);
         public void SetAsFirstSibling() => SetSiblingIndex(0);
         public void SetAsLastSibling() => SetSiblingIndex(int.MaxValue);
 

@@ -26,7 +26,7 @@ namespace UnityEngine.Headless
         public static void Clear() => Drawn.Clear();
 
         /// Draws as the editor does: a pass for the layout, and one for the event, here a repaint or what `Act` has ordered. `between` happens
-        /// between the two. A repaint with more controls than the layout is an error; a pass whose event a control has used may have any.
+        /// between the two. A repaint with other controls than the layout is an error; a pass whose event a control has used may have any.
         public static void Passes(Action draw, Action between = null)
         {
             var shown = Drawn.Count;
@@ -35,13 +35,19 @@ namespace UnityEngine.Headless
             try
             {
                 draw();
-                var controls = Drawn.Count - shown;
-                Drawn.RemoveRange(shown, controls);
+                var controls = Drawn.GetRange(shown, Drawn.Count - shown).ConvertAll(KindAndName);
+                Drawn.RemoveRange(shown, controls.Count);
                 between?.Invoke();
                 Event.current = new Event { type = Actions.Count > 0 ? EventType.MouseDown : EventType.Repaint };
                 draw();
-                if (Event.current.type != EventType.Used && Drawn.Count - shown > controls)
-                    throw new ArgumentException($"Getting control {controls}'s position in a group with only {controls} controls when doing repaint");
+                if (Event.current.type == EventType.Used) return;
+                var repainted = Drawn.GetRange(shown, Drawn.Count - shown).ConvertAll(KindAndName);
+                for (var i = 0; i < Math.Max(controls.Count, repainted.Count); i++)
+                {
+                    if (i < controls.Count && i < repainted.Count && controls[i] == repainted[i]) continue;
+                    throw new ArgumentException("The layout had the control '" + (i < controls.Count ? controls[i] : "none") + "' where the repaint has '"
+                        + (i < repainted.Count ? repainted[i] : "none") + "'");
+                }
             }
             finally
             {
@@ -49,6 +55,9 @@ namespace UnityEngine.Headless
                 isPassing = false;
             }
         }
+
+        /// Values may change between layout and repaint.
+        static string KindAndName(string line) => line.IndexOf(": ", StringComparison.Ordinal) is int end && end >= 0 ? line.Substring(0, end) : line;
 
         public static void Draw(string kind, string name, string value = null) =>
             Drawn.Add((DisabledDepth > 0 ? "(disabled) " : "") + kind + " " + name + (value == null ? "" : ": " + value));

@@ -50,7 +50,7 @@ namespace UnityEngine.Headless
             var methods = InitializeMethods();
             foreach (var type in BeforeScene) Initialize(methods, type);
             buildScene?.Invoke();
-            SceneManagement.SceneManager.RaiseLoaded();
+            SceneManagement.SceneManager.RaiseLoaded(SceneManagement.Scene.Active, SceneManagement.LoadSceneMode.Single);
             Initialize(methods, RuntimeInitializeLoadType.AfterSceneLoad);
         }
 
@@ -81,12 +81,12 @@ namespace UnityEngine.Headless
         {
             if (!started) return;
             var scripts = new List<MonoBehaviour>();
-            foreach (var root in SceneManagement.Scene.Active.GetRootGameObjects()) scripts.AddRange(root.GetComponentsInChildren<MonoBehaviour>());
+            foreach (var root in SceneManagement.Scene.AllRoots()) scripts.AddRange(root.GetComponentsInChildren<MonoBehaviour>());
             foreach (var script in scripts)
                 if (script && script.isActiveAndEnabled) Messages.Send(script.messages.OnApplicationQuit, script);
             Application.RaiseQuitting();
             Destruction.DestroyScene();
-            SceneManagement.SceneManager.RaiseUnloaded();
+            SceneManagement.SceneManager.RaiseUnloaded(SceneManagement.Scene.Active);
             started = false;
         }
 

@@ -8,11 +8,17 @@ namespace UnityEngine.Headless
     {
         public static Scene Open(Action build)
         {
-            var first = Scene.Roots.Count;
-            build();
-            var roots = Scene.Roots.GetRange(first, Scene.Roots.Count - first);
-            Scene.Roots.RemoveRange(first, roots.Count);
-            return Scene.Preview(roots);
+            var before = Scene.Active;
+            var scene = Scene.Active = new Scene("");
+            try
+            {
+                build();
+            }
+            finally
+            {
+                Scene.Active = before;
+            }
+            return scene;
         }
 
         public static bool Close(Scene scene)

@@ -2,36 +2,56 @@ using System.Collections.Generic;
 
 namespace UnityEngine.SceneManagement
 {
-    /// The headless player has one scene; the editor also opens previews of others.
+    /// A loaded scene, or a preview of the editor.
     public struct Scene
     {
-        internal static readonly List<GameObject> Roots = new List<GameObject>();
+        /// The loaded ones; the first is the player's own.
+        internal static readonly List<Scene> Loaded = new List<Scene> { new Scene("Scene") };
 
-        internal static Scene Active => new Scene { roots = Roots };
+        internal static Scene Active = Loaded[0];
 
-        List<GameObject> roots;
+        readonly Content content;
 
-        internal static Scene Preview(List<GameObject> roots) => new Scene { roots = roots };
+        internal Scene(string name) => content = new Content { Name = name };
 
-        bool IsActive => roots == Roots;
+        internal sealed class Content
+        {
+            internal readonly List<GameObject> Roots = new List<GameObject>();
+            internal string Name;
+        }
 
-        public bool IsValid() => roots != null;
+        internal List<GameObject> Roots => content.Roots;
+
+        public bool IsValid() => content != null;
         public string path => "";
-        public string name { get => IsActive ? SceneManager.ActiveName : ""; set => SceneManager.ActiveName = value; }
-        public bool isLoaded => roots != null;
-        public int buildIndex => IsActive ? 0 : -1;
-        public int rootCount => roots == null ? 0 : roots.Count;
-        public GameObject[] GetRootGameObjects() => roots == null ? new GameObject[0] : roots.ToArray();
+        public string name { get => content == null ? "" : content.Name; set => content.Name = value; }
+        public bool isLoaded => Loaded.Contains(this);
+        public int buildIndex => Loaded.IndexOf(this);
+        public int rootCount => content == null ? 0 : Roots.Count;
+        public GameObject[] GetRootGameObjects() => content == null ? new GameObject[0] : Roots.ToArray();
 
         public void GetRootGameObjects(List<GameObject> rootGameObjects)
         {
             rootGameObjects.Clear();
-            if (roots != null) rootGameObjects.AddRange(roots);
+            if (content != null) rootGameObjects.AddRange(Roots);
         }
 
-        public static bool operator ==(Scene lhs, Scene rhs) => lhs.roots == rhs.roots;
+        internal static IEnumerable<GameObject> AllRoots()
+        {
+            foreach (var scene in Loaded)
+                foreach (var root in scene.GetRootGameObjects()) yield return root;
+        }
+
+        internal static void ResetState()
+        {
+            Loaded.RemoveRange(1, Loaded.Count - 1);
+            Active = Loaded[0];
+            Active.name = "Scene";
+        }
+
+        public static bool operator ==(Scene lhs, Scene rhs) => lhs.content == rhs.content;
         public static bool operator !=(Scene lhs, Scene rhs) => !(lhs == rhs);
         public override bool Equals(object other) => other is Scene scene && this == scene;
-        public override int GetHashCode() => roots == null ? 0 : roots.GetHashCode();
+        public override int GetHashCode() => content == null ? 0 : content.GetHashCode();
     }
 }

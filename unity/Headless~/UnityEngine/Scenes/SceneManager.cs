@@ -17,23 +17,21 @@ namespace UnityEngine.SceneManagement
 
     public class SceneManager
     {
-        internal static string ActiveName = "Scene";
-
         public static event UnityAction<Scene, LoadSceneMode> sceneLoaded;
         public static event UnityAction<Scene> sceneUnloaded;
 
-        public static int sceneCount => 1;
+        public static int sceneCount => Scene.Loaded.Count;
         public static Scene GetActiveScene() => Scene.Active;
-        public static Scene GetSceneAt(int index) => Scene.Active;
+        public static Scene GetSceneAt(int index) => Scene.Loaded[index];
 
-        internal static void RaiseLoaded() => sceneLoaded?.Invoke(Scene.Active, LoadSceneMode.Single);
-        internal static void RaiseUnloaded() => sceneUnloaded?.Invoke(Scene.Active);
+        internal static void RaiseLoaded(Scene scene, LoadSceneMode mode) => sceneLoaded?.Invoke(scene, mode);
+        internal static void RaiseUnloaded(Scene scene) => sceneUnloaded?.Invoke(scene);
 
         internal static void ResetState()
         {
             sceneLoaded = null;
             sceneUnloaded = null;
-            ActiveName = "Scene";
+            Scene.ResetState();
         }
     }
 }

@@ -1,0 +1,59 @@
+using System.Collections.Generic;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+using UnityEngine.SceneManagement;
+
+namespace Collektive.Headless.Tests.Engine
+{
+    public sealed class SceneTests : PlayerFixture
+    {
+        [Test]
+        public void Objects_belong_to_their_scene_and_leave_with_it()
+        {
+            var own = new GameObject("Own");
+            GameObject other = null, child = null;
+            var events = new List<string>();
+            SceneManager.sceneLoaded += (scene, mode) => events.Add("loaded " + scene.name + " " + mode);
+            SceneManager.sceneUnloaded += scene => events.Add("unloaded " + scene.name);
+            var second = AdditiveScene.Load("Second", () =>
+            {
+                other = new GameObject("Other");
+                child = new GameObject("Child");
+                child.transform.SetParent(other.transform);
+            });
+            Assert.That(SceneManager.sceneCount, Is.EqualTo(2));
+            Assert.That(SceneManager.GetSceneAt(1) == second, Is.True);
+            Assert.That((own.scene == second, other.scene == second, child.scene == second), Is.EqualTo((false, true, true)));
+            Assert.That(new GameObject("New").scene == second, Is.False);
+            Assert.That(GameObject.Find("Other"), Is.SameAs(other));
+            child.transform.SetParent(null);
+            Assert.That(child.scene == second, Is.True);
+            child.transform.SetParent(own.transform);
+            Assert.That(child.scene == second, Is.False);
+            AdditiveScene.Unload(second);
+            Assert.That((other == null, own == null, child == null), Is.EqualTo((true, false, false)));
+            Assert.That(SceneManager.sceneCount, Is.EqualTo(1));
+            Assert.That(events, Is.EqualTo(new[] { "loaded Second Additive", "unloaded Second" }));
+        }
+
+        [Test]
+        public void Objects_of_a_scene_become_active_together()
+        {
+            Watcher first = null;
+            AdditiveScene.Load("Second", () =>
+            {
+                first = new GameObject("First").AddComponent<Watcher>();
+                new GameObject("Last");
+            });
+            Assert.That(first.FoundLast, Is.True);
+        }
+
+        private sealed class Watcher : MonoBehaviour
+        {
+            internal bool FoundLast { get; private set; }
+
+            private void Awake() => FoundLast = GameObject.Find("Last") != null;
+        }
+    }
+}

@@ -1,0 +1,34 @@
+using System;
+using UnityEngine.SceneManagement;
+
+namespace UnityEngine.Headless
+{
+    /// A scene that is loaded beside the player's own.
+    public static class AdditiveScene
+    {
+        /// Contains the objects that `build` creates, which become active together.
+        public static Scene Load(string name, Action build)
+        {
+            var before = Scene.Active;
+            var scene = Scene.Active = new Scene(name);
+            Scene.Loaded.Add(scene);
+            try
+            {
+                GameObject.CreateTogether(build);
+            }
+            finally
+            {
+                Scene.Active = before;
+            }
+            SceneManager.RaiseLoaded(scene, LoadSceneMode.Additive);
+            return scene;
+        }
+
+        public static void Unload(Scene scene)
+        {
+            foreach (var root in scene.GetRootGameObjects()) Object.DestroyImmediate(root);
+            Scene.Loaded.Remove(scene);
+            SceneManager.RaiseUnloaded(scene);
+        }
+    }
+}
