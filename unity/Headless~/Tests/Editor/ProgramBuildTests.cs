@@ -217,7 +217,7 @@ namespace Collektive.Headless.Tests.Editor
 
             Log.Clear();
             Commit(Swarm());
-            MakeManager(Jar);
+            new GameObject("Manager").AddComponent<SimulationManager>().Settings.libraries.Add(AssetDatabase.LoadAssetAtPath<ProgramLibrary>(Jar));
             Assert.That(Play(), Is.True);
             Assert.That(Log, Is.Empty);
         }
