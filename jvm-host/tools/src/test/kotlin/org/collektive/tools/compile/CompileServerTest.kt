@@ -89,13 +89,15 @@ class CompileServerTest {
         }
         write("Hops.kt", "fun hops() =")
         assertEquals(1, run(words()).first)
-        // A plugin for another version of the compiler.
+        // The compiler cannot load the plugin.
         val plugin = folder.resolve("plugin.jar")
         ZipOutputStream(Files.newOutputStream(plugin)).use {
             it.putNextEntry(ZipEntry("META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar"))
             it.write("no.such.Plugin".encodeToByteArray())
         }
-        assertEquals(2, run(words() + listOf("--kotlin", "-Xplugin=$plugin")).first)
+        val (code, messages) = run(words() + listOf("--kotlin", "-Xplugin=$plugin"))
+        assertEquals(1, code)
+        assertContains(messages, "no.such.Plugin")
     }
 
     private fun write(name: String, text: String) {
