@@ -84,7 +84,8 @@ generated_code(sample_code "${GENERATED}/samples" ${samples})
 assembly(Collektive.Samples.dll SOURCES "${UNITY}/Samples~" "${GENERATED}/samples" REFERENCES ${package} DEPENDS "${GENERATED}/samples.stamp")
 generated_code(standard_code "${GENERATED}/standard" "${HEADLESS}/Standard/standard.fbs")
 # Finds errors early: runs compile it like the scripts of any scenario.
-assembly(Collektive.Standard.dll SOURCES "${HEADLESS}/Standard" "${GENERATED}/standard" REFERENCES ${package} DEPENDS "${GENERATED}/standard.stamp")
+assembly(Collektive.Standard.dll SOURCES "${HEADLESS}/Standard" "${GENERATED}/standard" REFERENCES ${package} Collektive.Player.exe
+  DEPENDS "${GENERATED}/standard.stamp")
 assembly(Collektive.SerializedFields.exe SOURCES "${HEADLESS}/SerializedFields" REFERENCES UnityEngine.dll)
 assembly(SampleReplay.exe SOURCES "${HEADLESS}/SampleReplay" "${HEADLESS}/Replay" REFERENCES Newtonsoft.Json.dll Mono.Posix.dll)
 assembly(Collektive.Headless.Bench.exe SOURCES "${HEADLESS}/Bench" "${HEADLESS}/Player/Quantiles.cs" "${GENERATED}/samples/GradientAscent"

@@ -16,8 +16,8 @@ VERSION = 1
 MAX_RUNS = 100_000
 MAX_PREFIX = 120
 """Length of the readable part of a folder's name. File systems allow 255 bytes."""
-FIXED = ("version", "scene", "scripts", "schema", "programs", "runtime", "runtimeJars", "runtimePlugin")
-"""Keys that affect compilation, which happens once for all runs."""
+FIXED = ("version", "scene", "scripts", "schema", "programs", "data", "runtime", "runtimeJars", "runtimePlugin")
+"""Keys of files, which are compiled or copied once for all runs."""
 NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
 RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 
@@ -181,7 +181,7 @@ def _read_set(located: Located) -> Values:
 
 def _reject_fixed_key(located: Located, part: str, key: str) -> None:
     if key.split(".")[0] in FIXED:
-        raise located.error(f"'{key}' cannot vary, because the sweep compiles once: set it in the scenario", part, key)
+        raise located.error(f"'{key}' cannot vary, because the sweep compiles and copies once: set it in the scenario", part, key)
     if key in NOT_FOR_RUNS or key == "outputs":
         raise located.error(f"'{key}' cannot be set in sweeps, whose runs write metrics only", part, key)
 

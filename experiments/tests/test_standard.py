@@ -30,8 +30,40 @@ fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
     return ActuatorData(value = hops.toDouble(), flag = hops < Int.MAX_VALUE, category = hops)
 }
 """
+DATA = {
+    "stations.csv": '\ufeffname,id,x,z\n"A, north",7,1,2\n\nB,3,-1.5,4e0\n',
+    "walk.csv": "time,id,x,z\n0,0,0,0\n1,1,0,6\n2,0,4,0\n3,0,4,8\n",
+    "walk.gpx": """<?xml version="1.0"?>
+<gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
+  <trk><trkseg><trkpt lat="44.0" lon="12.000"><time>2026-01-31T12:00:00Z</time></trkpt>
+    <trkpt lat="44.0" lon="12.001"><time>2026-01-31T12:00:04Z</time></trkpt></trkseg></trk>
+  <trk><trkseg><trkpt lat="44.001" lon="12.0"><time>2026-01-31T12:00:02Z</time></trkpt></trkseg></trk>
+</gpx>""",
+    "cities.geojson": json.dumps({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [12, 44, 30]}},
+        {"type": "Feature", "properties": {}, "geometry": {"type": "MultiPoint", "coordinates": [[12.002, 44], [12.001, 44.001]]}}]}),
+    "values.csv": "time,id,value\n0,0,5\n1,0,6\n0.5,1,7\n",
+    "bad/cells.csv": "x,z\n1,2\n3\n",
+    "bad/number.csv": "x,z\n1,2\n\n3,abc\n",
+    "bad/columns.csv": "x,y\n1,2\n",
+    "bad/empty.csv": "x,z\n",
+    "bad/quote.csv": 'name,x,z\n"A,1,2\n',
+    "bad/ids.csv": "id,x,z\n1,0,0\n1,5,5\n",
+    "bad/id.csv": "id,x,z\n-1,0,0\n",
+    "bad/back.csv": "time,id,x,z\n1,0,0,0\n1,0,1,1\n",
+    "bad/no-ids.csv": "time,x,z\n1,0,0\n",
+    "bad/degrees.csv": "lon,lat\n12,144\n",
+    "bad/xml.gpx": "<gpx>\n<trk>\n</gpx>",
+    "bad/time.gpx": '<gpx>\n<trk>\n<trkpt lat="1" lon="1"/></trk></gpx>',
+    "bad/line.geojson": '{"type": "Feature",\n"geometry":\n{"type": "LineString", "coordinates": []}}',
+    "bad/point.geojson": '{"type": "Point",\n"coordinates": ["a", 1]}',
+    "bad/json.geojson": '{"type": "Point"\n',
+    "bad/values.csv": "time,id,value\n1,0,5\n1,0,6\n",
+    "bad/value.csv": "id\n0\n",
+    "file.txt": "x,z\n1,2\n",
+}
 SCENARIO: dict[str, Any] = {
-    "version": 1, "scene": "standard", "programs": "programs", "program": "hops",
+    "version": 1, "scene": "standard", "programs": "programs", "data": "data", "program": "hops",
     "fields": {
         "deployment": {"nodes": 36, "spacing": 3, "disorder": 0.5},
         "neighbourhood": {"radius": 5},
@@ -52,7 +84,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("metrics.bad", 3, "'metrics.bad' is 3; it must be of type string"),
     ("metrics.links", "count(*)", "'metrics.links': metrics.csv already has a column of that name: rename the metric"),
     ("converged.speed", {"to": 1}, "unknown metric; the metrics are: reached, mean, sources, degree_mean"),
-    ("fields.deployment.kind", "Ring", "it must be of type string (one of Grid, Disc, Uniform, Poisson)"),
+    ("fields.deployment.kind", "Ring", "it must be of type string (one of Grid, Disc, Uniform, Poisson, File)"),
     ("fields.deployment.nodez", 5, "unknown key 'deployment.nodez'; known here: kind, nodes"),
     ("fields.deployment.nodes", 0, "'deployment.nodes' is 0; it must be from 1 to 1000000"),
     ("fields.deployment.nodes", 2.5, "'deployment.nodes' is 2.5; it must be of type whole number"),
@@ -78,7 +110,34 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields.movement.speed", 0, "'movement.speed' is 0; it must be a number greater than 0"),
     ("fields.movement.exponent", 1, "'movement.exponent' is 1; it must be greater than 1"),
     ("fields.churn.failures", -0.1, "'churn.failures' is -0.1"),
-    ("fields.crowd", {}, "has no public field 'crowd'; it has: deployment, neighbourhood, sets, obstacles, movement, churn"),
+    ("fields.crowd", {}, "has no public field 'crowd'; it has: deployment, neighbourhood, sets, obstacles, movement, churn, reading"),
+    ("fields.deployment", {"kind": "File"}, "'deployment.file': the name of a file is missing"),
+    ("fields.deployment", {"kind": "File", "file": "../scenario.json"}, "'deployment.file': '../scenario.json' is not a file in the folder 'data', "),
+    ("fields.deployment", {"kind": "File", "file": "missing.csv"}, "'deployment.file': 'missing.csv' is not a file in the folder 'data', "),
+    ("fields.deployment", {"kind": "File", "file": "file.txt"}, "file.txt: the name must end in .csv, .geojson, .json or .gpx"),
+    *[("fields.deployment", {"kind": "File", "file": f"bad/{name}"}, f"'deployment.file': bad/{name}{message}") for name, message in (
+        ("cells.csv", ":3: the line has 1 cells, but the first line has 2"), ("number.csv", ":4: 'z' is 'abc', it must be a number"),
+        ("columns.csv", ":1: the columns 'x' and 'z', or 'lon' and 'lat', are missing"), ("empty.csv", ":1: the file has no rows"),
+        ("quote.csv", ":2: a quote is not closed"), ("ids.csv", ":3: node 1 is also in line 2"), ("id.csv", ":2: 'id' is -1"),
+        ("back.csv", ":3: the time must be after that of the previous point of node 0"), ("no-ids.csv", ":1: the column 'time' needs the column 'id'"),
+        ("degrees.csv", ":2: longitude 12 and latitude 144 are not degrees"), ("xml.gpx", ":3: not valid XML: "),
+        ("line.geojson", ":3: 'type' is 'LineString': only points are possible"), ("point.geojson", ":1: 'coordinates' must be [longitude, latitude]"),
+    )],
+    ("fields.deployment", {"kind": "File", "file": "bad/json.geojson"}, "bad/json.geojson:2: not valid JSON"),
+    ("fields.movement.kind", "Trace", "'movement.kind' is Trace, which needs a 'deployment' of kind File"),
+    ("fields", {"deployment": {"kind": "File", "file": "stations.csv"}, "movement": {"kind": "Trace"}}, "stations.csv:1: the column 'time' is missing"),
+    ("fields", {"deployment": {"kind": "File", "file": "cities.geojson"}, "movement": {"kind": "Trace"}}, "cities.geojson: GeoJSON has no times"),
+    ("fields", {"deployment": {"kind": "File", "file": "bad/time.gpx"}, "movement": {"kind": "Trace"}}, "bad/time.gpx:3: the point has no time"),
+    ("fields", {"deployment": {"kind": "File", "file": "stations.csv"}, "sets": [{"name": "a", "ids": [1]}]},
+     "'sets[0].ids' contains node 1, which is not in stations.csv"),
+    ("fields.reading", {"expression": "x + tempo"}, "no such column: tempo, at character 5 of 'x + tempo'; columns: id, time, x, y, z"),
+    ("fields.reading", {"expression": "x + random()"}, "not authorized to use function: random"),
+    ("fields.reading", {"expression": "x, z"}, "row value misused"),
+    ("fields.reading", {"expression": "(select count(*) from nodes)"}, "no such table: nodes"),
+    ("fields.reading", {"expression": "'warm'"}, "its value is not a number"),
+    ("fields.reading", {"expression": "x", "file": "values.csv"}, "'reading' needs either 'expression' or 'file'"),
+    ("fields.reading", {"file": "bad/values.csv"}, "'reading.file': bad/values.csv:3: the line needs a time after that of line 2, or another id"),
+    ("fields.reading", {"file": "bad/value.csv"}, "'reading.file': bad/value.csv:1: the column 'value' is missing"),
 ]
 
 
@@ -89,6 +148,9 @@ class Study:
         self.folder = folder
         (folder / "programs").mkdir()
         (folder / "programs/First.kt").write_text(PROGRAM)
+        for name, text in DATA.items():
+            (folder / "data" / name).parent.mkdir(parents=True, exist_ok=True)
+            (folder / "data" / name).write_text(text)
         (folder / "scenario.json").write_text(json.dumps(SCENARIO, indent=1))
         self.bundle = folder / "bundle"
         self.bundle.mkdir()
@@ -148,13 +210,14 @@ def test_a_missing_library_is_reported_with_the_command_that_builds_it(study: St
     finally:
         worker.stop()
     assert problem is not None
-    assert "the library for 'metrics' (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it" in problem
+    assert "the library for SQL (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it" in problem
 
 
 @pytest.mark.parametrize("settings", [
     {}, {"fields.deployment.kind": "Poisson", "fields.deployment.spacing": 2}, {"fields.deployment.kind": "Disc", "fields.movement.kind": "LevyWalk"},
     {"fields.movement.kind": "Target", "fields.neighbourhood.kind": "LineOfSight"},
     {"fields.movement.kind": "Velocity", "fields.neighbourhood.kind": "Nearest"},
+    {"fields.deployment.kind": "File", "fields.deployment.file": "walk.gpx", "fields.movement.kind": "Trace", "fields.reading.expression": "exp(-x * time)"},
 ], ids=lambda settings: json.dumps(settings))
 def test_runs_repeat_in_one_process_and_with_two_threads(study: Study, settings: dict[str, Any], tmp_path: Path) -> None:
     study.write(SCENARIO)
@@ -236,6 +299,19 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
     ({"deployment": {"nodes": 4}, "movement": {"kind": "Target", "speed": 1}}, 2, {f"max({SPEED})": (0.5, 1.01), "max(x)": (1, 2.5)}),
     ({"churn": {"failures": 0.1, "arrivals": 10}}, 5,
      {"count(*) filter (where id < 100)": (45, 75), "count(*) filter (where id >= 100)": (20, 70)}),
+    ({"deployment": {"kind": "File", "file": "stations.csv"}, "sets": [{"name": "source", "ids": [7]}]}, 0.1,
+     {"count(*)": (2, 2), "max(id)": (7, 7), "total(x) filter (where source)": (1, 1), "total(z) filter (where id = 3)": (4, 4)}),
+    # A degree of latitude is 111195 m; at 44 degrees one of longitude is 79987 m.
+    ({"deployment": {"kind": "File", "file": "cities.geojson"}}, 0.1,
+     {"count(*)": (3, 3), "total(x) filter (where id = 1)": (79.98, 79.99), "min(x) + max(x)": (0, 0), "max(z) - min(z)": (111.1, 111.2)}),
+    ({"deployment": {"kind": "File", "file": "walk.csv"}, "movement": {"kind": "Trace"}, "reading": {"file": "values.csv"}}, 1.1,
+     {"total(x) filter (where id = 0)": (2.19, 2.21), "total(z)": (6, 6), "sum(reading) filter (where id = 0)": (6, 6),
+      "sum(reading) filter (where id = 1)": (7, 7)}),
+    ({"deployment": {"kind": "File", "file": "walk.csv"}, "movement": {"kind": "Trace"}}, 2.5, {"total(x)": (4, 4), "total(z)": (9.9, 10.1)}),
+    ({"deployment": {"kind": "File", "file": "walk.gpx"}, "movement": {"kind": "Trace"}}, 2,
+     {"total(x) filter (where id = 0)": (-0.1, 0.1), "total(x) filter (where id = 1)": (-40, -39.9), "max(z) - min(z)": (111.1, 111.2)}),
+    ({"deployment": {"nodes": 4}, "reading": {"expression": "iif(id = 3, null, 10 * x + z + time)"}}, 1,
+     {"max(reading)": (30.85, 30.95), "sum(reading = 0)": (1, 1)}),
 ]
 
 
@@ -256,6 +332,7 @@ def test_nodes_are_where_the_fields_say(study: Study, fields: dict[str, Any], se
     ({"deployment": {"nodes": 4}, "obstacles": [{"box": [0, 0]}], "sets": [{"name": "a", "ids": [0]}]}, "'sets[0].ids' contains node 0, whose position"),
     ({"deployment": {"nodes": 4}, "obstacles": [{"box": [0, 0]}], "sets": [{"name": "a", "near": [0, 0], "count": 4}]},
      "'sets[0].count' is 4, but obstacles leave 3 nodes"),
+    ({"deployment": {"kind": "File", "file": "stations.csv"}, "obstacles": [{"box": [1, 2]}]}, "an obstacle covers node 7 of stations.csv:2"),
 ])
 def test_deployments_without_room_fail_at_the_start(study: Study, fields: dict[str, Any], message: str, tmp_path: Path) -> None:
     study.write({**SCENARIO, "fields": fields})
@@ -271,9 +348,19 @@ def test_a_run_from_its_file_repeats(study: Study, tmp_path: Path) -> None:
     assert result.returncode == 0, result.stderr
     manifest = tmp_path / "out/manifest.json"
     assert json.loads(manifest.read_text())["scenario"]["fields"]["deployment"]["nodes"] == 20
+    (study.folder / "data/file.txt").write_text("changed")
     header = re.search(r'<script id="replay"[^>]*>([^\n<]*)', (tmp_path / "out/replay.html").read_text())
     assert header is not None
     series = json.loads(gzip.decompress(base64.b64decode(header[1])))["metrics"]["series"]
     assert [chart["name"] for chart in series][:4] == list(SCENARIO["metrics"])
     result = subprocess.run([COLLEKTIVE, "repeat", manifest, "--out", tmp_path / "again"], capture_output=True, text=True, timeout=300)
     assert result.returncode == 0, result.stderr
+    assert "data" in result.stdout + result.stderr
+
+
+def test_the_folder_of_data_cannot_contain_the_scenario(study: Study, tmp_path: Path) -> None:
+    shutil.copytree(study.folder / "programs", tmp_path / "programs")
+    (tmp_path / "scenario.json").write_text(json.dumps({**SCENARIO, "data": "."}))
+    result = subprocess.run([COLLEKTIVE, "run", tmp_path / "scenario.json", "--out", tmp_path / "out"], capture_output=True, text=True, timeout=300)
+    assert result.returncode == 1
+    assert "'data' contains the scenario: name a folder that contains only data files" in result.stderr

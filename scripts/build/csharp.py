@@ -14,14 +14,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build.places import BUILD, CSHARP, NODE_MODULES, ROOT
+from build.places import BUILD, CSHARP, NODE_MODULES, PLAYER, ROOT
 
 ROSLYN = BUILD / "roslyn"
 FACADE = Path("/usr/lib/mono/4.8-api/Facades/netstandard.dll")
 OPTIONS = ("-nologo", "-noconfig", "-nostdlib+", "-langversion:8.0", "-deterministic+", "-optimize+", "-debug:portable", "-warnaserror+", "-warn:4",
            "-nowarn:1701,1702", "-target:library")
-# References of code that uses the package.
-PACKAGE = tuple(f"-r:{CSHARP}/{name}.dll" for name in ("Collektive.FlatBuffers", "Collektive.Bridge", "UnityEngine", "Collektive.Unity"))
+# References of scenes: the package, and the player, which reads data files.
+REFERENCES = (*(f"-r:{CSHARP}/{name}.dll" for name in ("Collektive.FlatBuffers", "Collektive.Bridge", "UnityEngine", "Collektive.Unity")), f"-r:{PLAYER}")
 
 
 SYMBOLS = ROOT / "unity/Runtime/Bridge/csc.rsp"

@@ -42,6 +42,7 @@ class Part:
 
     def copy(self, target: Path) -> Path:
         """Copies the files to a folder with their paths in `root`, following links. Returns the copy of `path`."""
+        target.mkdir(parents=True, exist_ok=True)
         for name, file in self.files.items():
             copy = target / os.path.relpath(self.folder / name, self.root)
             copy.parent.mkdir(parents=True, exist_ok=True)
@@ -77,6 +78,11 @@ def jars(folder: Path) -> Part:
 def schema(file: Path) -> Part:
     """Reads a schema and the files that it includes, except the package's."""
     return Part(file, _with_includes)
+
+
+def data(folder: Path) -> Part:
+    """Reads a folder of data files, for the scene."""
+    return Part(folder, partial(_below, suffixes=("",)))
 
 
 def _digest(files: Mapping[str, Path]) -> str:

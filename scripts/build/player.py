@@ -13,7 +13,8 @@ from build.inputs import Part
 from build.places import HOST_JAR, PLAYER
 
 # Reads each part of a project, by its key in a scenario.
-READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "runtimeJars": inputs.jars, "runtimePlugin": inputs.jar}
+READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "data": inputs.data, "runtimeJars": inputs.jars,
+           "runtimePlugin": inputs.jar}
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from build import csharp, fetch, inputs
 from build.console import Failure, print_progress
 from build.inputs import Part
 from build.jdk import feature_version, find_jdk
-from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_JAR, LINKS, LOGS, compiler_plugin
+from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_JAR, LINKS, LOGS, PLAYER, compiler_plugin
 
 # A file for each jar that was run here, named by its SHA-256.
 OWN_PROGRAMS = BUILD / "own-programs"
@@ -101,7 +101,7 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
     """Returns the assembly of a folder of C# and the schema's generated code, compiled if they changed."""
     # Traces of exceptions contain the folder.
     place = hashlib.sha256(os.fsencode(scripts.path.resolve())).hexdigest()[:8]
-    key = _key([schema, scripts], [Path(csharp.__file__), BUILD / "stamp/npm", csharp.SYMBOLS, *sorted(CSHARP.glob("*.dll"))])
+    key = _key([schema, scripts], [Path(csharp.__file__), BUILD / "stamp/npm", csharp.SYMBOLS, *sorted(CSHARP.glob("*.dll")), PLAYER])
 
     def compile_scripts(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
         generated = work / "generated"
@@ -112,7 +112,7 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
             folder = work / "scripts"
             folder.symlink_to(scripts.path.resolve())
         files = [*(folder / name for name in scripts.files), *csharp.sources([generated])]
-        run(csharp.command(work / "Scenario.dll", files, [*csharp.symbols(), "-warnaserror-", *csharp.PACKAGE]))
+        run(csharp.command(work / "Scenario.dll", files, [*csharp.symbols(), "-warnaserror-", *csharp.REFERENCES]))
 
     return _cached(BUILD / "scripts" / f"{key}-{place}", "Scenario.dll", "compile-scripts", [schema, scripts], compile_scripts)
 

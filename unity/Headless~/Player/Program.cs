@@ -79,6 +79,7 @@ namespace Collektive.Headless
             new JProperty("scripts", scenario.Scripts),
             new JProperty("schema", scenario.Schema),
             new JProperty("programs", scenario.Programs),
+            new JProperty("data", scenario.Data),
             new JProperty("program", scenario.Settings.program),
             new JProperty("runtimeJars", scenario.RuntimeJars),
             new JProperty("runtimePlugin", scenario.RuntimePlugin),

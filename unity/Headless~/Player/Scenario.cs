@@ -27,7 +27,7 @@ namespace Collektive.Headless
 
         private static readonly string[] OwnKeys =
         {
-            "version", "scene", "scripts", "schema", "programs", "parameters", "fields", "seconds", "metrics", "converged", "stopWhenConverged", "jvm",
+            "version", "scene", "scripts", "schema", "programs", "data", "parameters", "fields", "seconds", "metrics", "converged", "stopWhenConverged", "jvm",
             "outputs",
         };
 
@@ -59,6 +59,7 @@ namespace Collektive.Headless
             Scripts = isOurs ? StandardFolder : Existing(file, root, "scripts", folder, directory: true);
             Schema = isOurs ? System.IO.Path.Combine(StandardFolder, "standard.fbs") : Existing(file, root, "schema", folder, directory: false);
             Programs = Existing(file, root, "programs", folder, directory: null);
+            if (root["data"] != null) Data = ReadData(file, root, folder);
             Fields = file.Optional(root, "fields", new JObject());
             Seconds = file.Required<double>(root, "seconds");
             file.Required<string>(root, nameof(SimulationSettings.program));
@@ -110,6 +111,9 @@ namespace Collektive.Headless
         internal string Schema { get; }
 
         internal string Programs { get; }
+
+        /// <summary>Folder of data files; empty without one.</summary>
+        internal string Data { get; } = "";
 
         /// <summary>Folder of Collektive's jars; empty with the built-in runtime.</summary>
         internal string RuntimeJars { get; } = "";
@@ -262,7 +266,7 @@ namespace Collektive.Headless
                     new JProperty("replay", Replay),
                     new JProperty("pictures", Pictures),
                     new JProperty("record", Record))));
-            foreach (var key in new[] { "scripts", "schema" })
+            foreach (var key in new[] { "scripts", "schema", "data" })
                 if (root[key] != null) json.Add(key, root[key]);
             foreach (var field in Shared)
             {
@@ -285,6 +289,13 @@ namespace Collektive.Headless
         }
 
         private static string Text(double number) => number.ToString("G6", System.Globalization.CultureInfo.InvariantCulture);
+
+        private static string ReadData(JsonFile file, JObject root, string folder)
+        {
+            var data = Existing(file, root, "data", folder, directory: true).TrimEnd('/');
+            if (!(folder + "/").StartsWith(data + "/", StringComparison.Ordinal)) return data;
+            throw file.Error(root["data"], "'data' contains the scenario: name a folder that contains only data files, which are copied and hashed");
+        }
 
         private static JvmSettings ReadJvm(JsonFile file, JObject root, string folder, bool trusted)
         {

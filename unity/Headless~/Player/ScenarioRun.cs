@@ -169,6 +169,7 @@ namespace Collektive.Headless
             holder.SetActive(false);
             var scene = (SceneBuilder)holder.AddComponent(type);
             SceneFields.Set(scene, scenario, options.FieldAssignments);
+            DataFile.Folder = scenario.Data;
             if (scene.FindProblem() is string problem) throw SceneFields.Error(scenario, problem);
             runMetrics = new RunMetrics(scene, scenario.MakeMetrics());
             if (MetricsTable.FindDuplicate(runMetrics) is string metric) throw DuplicateError(scene, metric);

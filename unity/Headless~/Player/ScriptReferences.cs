@@ -52,7 +52,8 @@ namespace Collektive.Headless
         {
             "System.Text.StringBuilder", "System.Globalization.NumberStyles", "System.Reflection.MemberInfo", "System.Collections.IEnumerator",
             "System.Diagnostics.DebuggableAttribute+DebuggingModes", "System.Security.Permissions.SecurityAction",
-            "System.Collections.Generic.List`1+Enumerator",
+            "System.Collections.Generic.List`1+Enumerator", "Collektive.Headless.DataFile", "Collektive.Headless.Track", "Collektive.Headless.ValueSeries",
+            "Collektive.Headless.PlaceExpression", "Collektive.Headless.ScenarioException",
         };
 
         private static readonly HashSet<string> ForbiddenTypes = new HashSet<string>

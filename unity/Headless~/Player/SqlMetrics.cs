@@ -154,12 +154,10 @@ namespace Collektive.Headless
         private ScenarioException Error(JProperty property, SqlException error)
         {
             var sql = (string)property.Value;
-            var message = "'metrics." + property.Name + "': " + error.Message;
-            var at = error.Character - Before.Length;
-            if (at >= sql.Length) message = "'metrics." + property.Name + "': '" + sql + "' ends too early";
-            else if (at >= 0) message += ", at character " + (at + 1) + " of '" + sql + "'";
-            if (error.Message.StartsWith("no such column", StringComparison.Ordinal)) message += "; columns: " + string.Join(", ", columns.Names);
-            return file.Error(property.Value, message, at >= 0 ? PlaceIn(property.Value, sql, Math.Min(at, sql.Length)) : 0);
+            var at = error.CharacterIn(sql, Before.Length);
+            return file.Error(
+                property.Value, "'metrics." + property.Name + "': " + error.Describe(sql, Before.Length, string.Join(", ", columns.Names)),
+                at >= 0 ? PlaceIn(property.Value, sql, at) : 0);
         }
 
         /// <summary>Returns the column of a character in the file's line; 0 if the file writes the text with escapes.</summary>

@@ -60,7 +60,7 @@ namespace Collektive.Headless
             catch (DllNotFoundException error)
             {
                 throw new ScenarioException(
-                    "the library for 'metrics' (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it (" + error.Message + ")");
+                    "the library for SQL (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it (" + error.Message + ")");
             }
             sqlite3_hard_heap_limit64(MaxMemory);
             sqlite3_progress_handler(database, InstructionsPerCheck, progress, IntPtr.Zero);
@@ -79,9 +79,11 @@ namespace Collektive.Headless
             return new Statement(this, statement);
         }
 
-        /// <summary>Prepares a query of a user's, restricted to reading, and adds the names of the columns that it reads to a set.</summary>
+        /// <summary>Prepares a query of a user's, restricted to reading.</summary>
+        /// <param name="columns">Gets the names of the columns of the table that the query reads.</param>
+        /// <param name="parameters">The number of parameters in our part of the query.</param>
         /// <exception cref="SqlException">The text is not one query with one column, or does what is refused.</exception>
-        internal Statement PrepareQuery(string sql, ISet<string> columns)
+        internal Statement PrepareQuery(string sql, ISet<string> columns, int parameters = 0)
         {
             var bytes = Bytes(sql);
             columnsRead = columns;
@@ -95,7 +97,7 @@ namespace Collektive.Headless
                 var end = (int)(tail.ToInt64() - pin.AddrOfPinnedObject().ToInt64());
                 var rest = CharacterAt(bytes, end);
                 var hasRest = sql.Substring(rest).Trim().Length > 0;
-                var hasParameters = sqlite3_bind_parameter_count(statement) > 0;
+                var hasParameters = sqlite3_bind_parameter_count(statement) != parameters;
                 if (!hasRest && !hasParameters && sqlite3_column_count(statement) == 1) return query;
                 query.Dispose();
                 throw new SqlException(hasParameters ? "it must not have parameters" : "it must be one expression", hasRest ? rest : -1);
@@ -128,7 +130,7 @@ namespace Collektive.Headless
         {
             var isInternal = table.StartsWith("sqlite_", StringComparison.OrdinalIgnoreCase) || table.StartsWith("pragma_", StringComparison.OrdinalIgnoreCase);
             if (isInternal || isInSchema && table != Table) return Deny;
-            columnsRead.Add(column);
+            columnsRead?.Add(column);
             return Ok;
         }
 
@@ -169,6 +171,12 @@ namespace Collektive.Headless
             internal void Execute(double[] values, int count)
             {
                 if (collektive_insert(handle, values, count) != Done) throw new InvalidOperationException("SQLite: " + owner.Message);
+            }
+
+            /// <summary>Sets the parameters; NaN becomes NULL.</summary>
+            internal void Bind(double[] values)
+            {
+                if (collektive_bind(handle, values, values.Length) != Ok) throw new InvalidOperationException("SQLite: " + owner.Message);
             }
 
             /// <summary>Returns the number in the only row; NaN for NULL; null for zero rows.</summary>
@@ -243,6 +251,9 @@ namespace Collektive.Headless
         private static extern int sqlite3_reset(IntPtr statement);
 
         [DllImport(Library)]
+        private static extern int collektive_bind(IntPtr statement, double[] values, int count);
+
+        [DllImport(Library)]
         private static extern int collektive_insert(IntPtr statement, double[] values, int count);
 
         [DllImport(Library)]
@@ -265,6 +276,18 @@ namespace Collektive.Headless
         internal SqlException(string message, int character)
             : base(message) => Character = character;
 
-        internal int Character { get; }
+        private int Character { get; }
+
+        /// <summary>Returns the place in a user's text that begins at an offset in the query; -1: not known.</summary>
+        internal int CharacterIn(string text, int offset) => Character < offset ? -1 : Math.Min(Character - offset, text.Length);
+
+        /// <summary>Returns the message, with the place in a user's text and, for an unknown column, the known ones.</summary>
+        internal string Describe(string text, int offset, string columns)
+        {
+            var at = Character - offset;
+            if (at >= text.Length) return "'" + text + "' ends too early";
+            return Message + (at >= 0 ? ", at character " + (at + 1) + " of '" + text + "'" : "")
+                + (Message.StartsWith("no such column", StringComparison.Ordinal) ? "; columns: " + columns : "");
+        }
     }
 }

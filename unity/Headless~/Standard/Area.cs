@@ -11,13 +11,16 @@ namespace Collektive.Standard
 
         private readonly Deployment deployment;
         private readonly List<Obstacle> obstacles;
+        private readonly List<Vector3> places;
         private readonly float[] x;
         private readonly float[] z;
 
-        internal Area(Deployment deployment, List<Obstacle> obstacles)
+        /// <param name="places">Of a file.</param>
+        internal Area(Deployment deployment, List<Obstacle> obstacles, List<Vector3> places)
         {
             this.deployment = deployment;
             this.obstacles = obstacles;
+            this.places = places;
             x = Bounds(0);
             z = Bounds(1);
         }
@@ -71,7 +74,8 @@ namespace Collektive.Standard
         private bool Contains(Vector3 place)
         {
             if (deployment.kind == DeploymentKind.Disc) return place.sqrMagnitude <= deployment.radius * deployment.radius;
-            return deployment.kind == DeploymentKind.Grid || deployment.polygon.Count == 0 || IsInside(deployment.polygon, place);
+            var isRectangle = deployment.kind == DeploymentKind.Grid || deployment.kind == DeploymentKind.File || deployment.polygon.Count == 0;
+            return isRectangle || IsInside(deployment.polygon, place);
         }
 
         private float[] Bounds(int axis)
@@ -81,16 +85,22 @@ namespace Collektive.Standard
                 var count = axis == 0 ? Columns : (deployment.nodes + Columns - 1) / Columns;
                 return new[] { -deployment.disorder, deployment.spacing * (count - 1) + deployment.disorder };
             }
+            if (deployment.kind == DeploymentKind.File) return Bounds(places.ConvertAll(place => place[2 * axis]));
             if (deployment.kind == DeploymentKind.Disc || deployment.polygon.Count == 0)
             {
                 var half = deployment.kind == DeploymentKind.Disc ? deployment.radius : deployment.size[axis] / 2;
                 return new[] { -half, half };
             }
+            return Bounds(deployment.polygon.ConvertAll(corner => corner[axis]));
+        }
+
+        private static float[] Bounds(List<float> coordinates)
+        {
             var bounds = new[] { float.PositiveInfinity, float.NegativeInfinity };
-            foreach (var corner in deployment.polygon)
+            foreach (var coordinate in coordinates)
             {
-                bounds[0] = Mathf.Min(bounds[0], corner[axis]);
-                bounds[1] = Mathf.Max(bounds[1], corner[axis]);
+                bounds[0] = Mathf.Min(bounds[0], coordinate);
+                bounds[1] = Mathf.Max(bounds[1], coordinate);
             }
             return bounds;
         }

@@ -17,6 +17,7 @@ namespace Collektive.Standard
             data.Random = Node.Random.NextDouble();
             data.Sets = Scene.SetsOf(Node.Id);
             data.Source = Scene.IsSource(data.Sets);
+            data.Reading = Scene.ReadingOf(Node);
         }
     }
 

@@ -17,6 +17,9 @@ namespace Collektive.Standard
 
         /// <summary>Uniform in a rectangle or polygon, with a smallest distance between nodes.</summary>
         Poisson,
+
+        /// <summary>At the places in a file.</summary>
+        File,
     }
 
     /// <summary>Where nodes start.</summary>
@@ -42,6 +45,19 @@ namespace Collektive.Standard
 
         /// <summary>Corners, [x, z] each; none: a rectangle.</summary>
         public List<float[]> polygon = new List<float[]>();
+
+        /// <summary>A CSV, GeoJSON or GPX file in the scenario's folder of data, of File.</summary>
+        public string file = "";
+    }
+
+    /// <summary>The sensor data "reading": an expression, or values from a file; 0 without a value.</summary>
+    public sealed class Reading
+    {
+        /// <summary>SQL with the columns id, time, x, y and z.</summary>
+        public string expression = "";
+
+        /// <summary>A CSV file in the scenario's folder of data, with the columns value, and optionally id and time.</summary>
+        public string file = "";
     }
 
     /// <summary>A named set of nodes: given ids, and the nodes nearest to a point at the start.</summary>
@@ -121,6 +137,9 @@ namespace Collektive.Standard
 
         /// <summary>The program's target, by physics.</summary>
         Target,
+
+        /// <summary>The times in the deployment's file.</summary>
+        Trace,
     }
 
     /// <summary>How nodes move.</summary>

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using Collektive.Headless;
 using Collektive.Unity;
 using standard;
 using UnityEngine;
@@ -15,16 +16,24 @@ namespace Collektive.Standard
         private const int MaxSets = 32;
         private const float WallWidth = 0.1f;
 
+        /// <summary>Time limit of an expression before the run.</summary>
+        private const int CheckMs = 1000;
+
         public Deployment deployment = new Deployment();
         public Neighbourhood neighbourhood = new Neighbourhood();
         public List<NodeSet> sets = new List<NodeSet>();
         public List<Obstacle> obstacles = new List<Obstacle>();
         public Movement movement = new Movement();
         public Churn churn = new Churn();
+        public Reading reading = new Reading();
 
         private readonly Dictionary<int, uint> members = new Dictionary<int, uint>();
         private readonly List<Node> failing = new List<Node>();
         private readonly List<Node> found = new List<Node>();
+        private readonly Dictionary<int, Track> tracks = new Dictionary<int, Track>();
+        private readonly List<Vector3> places = new List<Vector3>();
+        private ValueSeries series;
+        private PlaceExpression expression;
         private SimulationManager manager;
         private Area area;
         private uint active;
@@ -44,18 +53,28 @@ namespace Collektive.Standard
 
         /// <inheritdoc/>
         public override string FindProblem() =>
-            ProblemOf(deployment) ?? ProblemOf(neighbourhood) ?? ProblemOf(movement) ?? ProblemOfSets() ?? ProblemOfObstacles()
+            ProblemOf(deployment) ?? ProblemOfFiles() ?? ProblemOf(neighbourhood) ?? ProblemOf(movement) ?? ProblemOfSets() ?? ProblemOfObstacles()
                 ?? NotBelow("churn.failures", churn.failures, 0) ?? NotBelow("churn.arrivals", churn.arrivals, 0);
 
         internal uint SetsOf(int id) => members.TryGetValue(id, out var bits) ? bits & active : 0;
 
         internal bool IsSource(uint bits) => (bits & source) != 0;
 
+        /// <summary>The value of the expression or file; 0: none.</summary>
+        internal double ReadingOf(Node node)
+        {
+            var place = node.Position;
+            var value = series?.ValueAt(node.Id, manager.SimulatedTime)
+                ?? expression?.Evaluate(node.Id, manager.SimulatedTime, place.x, place.y, place.z) ?? double.NaN;
+            return double.IsNaN(value) ? 0 : value;
+        }
+
         /// <inheritdoc/>
         protected override void Build(SimulationManager manager)
         {
             this.manager = manager;
-            area = new Area(deployment, obstacles);
+            area = new Area(deployment, obstacles, places);
+            if (reading.expression.Length > 0) expression = new PlaceExpression(reading.expression, manager.Settings.stepLimitMs);
             foreach (var obstacle in obstacles) MakeObstacle(obstacle);
             Deploy();
             if (manager.Failure.Length > 0) return;
@@ -64,6 +83,8 @@ namespace Collektive.Standard
             if (churn.arrivals > 0) nextArrival = Pause(churn.arrivals);
             manager.Ticked += Advance;
         }
+
+        private void OnDestroy() => expression?.Dispose();
 
         private static string NotBelow(string field, float value, float least) =>
             value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be a number of at least " + Text(least);
@@ -100,6 +121,39 @@ namespace Collektive.Standard
                 : NotAbove0("movement.speed", movement.speed) ?? NotBelow("movement.pause", movement.pause, 0)
                     ?? NotAbove0("movement.shortest", movement.shortest) ?? NotAbove0("movement.bodyRadius", movement.bodyRadius);
 
+        private string ProblemOfFiles()
+        {
+            var field = "deployment.file";
+            try
+            {
+                if (deployment.kind == DeploymentKind.File) ReadTracks();
+                else if (movement.kind == MovementKind.Trace) return "'movement.kind' is Trace, which needs a 'deployment' of kind File";
+                field = "reading.expression";
+                if (reading.expression.Length > 0)
+                {
+                    if (reading.file.Length > 0) return "'reading' needs either 'expression' or 'file'";
+                    new PlaceExpression(reading.expression, CheckMs).Dispose();
+                }
+                field = "reading.file";
+                if (reading.file.Length > 0) series = new ValueSeries(DataFile.Find(reading.file));
+                return null;
+            }
+            catch (ScenarioException error)
+            {
+                return "'" + field + "': " + error.Message;
+            }
+        }
+
+        private void ReadTracks()
+        {
+            foreach (var track in Track.Read(DataFile.Find(deployment.file), movement.kind == MovementKind.Trace))
+            {
+                track.PlaceAt(0, out var x, out var z);
+                tracks.Add(track.Id, track);
+                places.Add(new Vector3(x, 0, z));
+            }
+        }
+
         private string ProblemOfSets()
         {
             if (sets.Count > MaxSets) return "'sets' has " + sets.Count + " sets, at most " + MaxSets + " are possible";
@@ -112,17 +166,20 @@ namespace Collektive.Standard
                     return "'" + field + ".name' is '" + set.name + "', which is also the name of another set";
                 if (set.near.Length > 0 && !Area.IsPoint(set.near)) return "'" + field + ".near' must be [x, z]";
                 if (set.near.Length == 0 && set.ids.Length == 0) return "'" + field + "' needs 'ids' or 'near'";
-                if (set.count < 1 || set.count > deployment.nodes)
-                    return "'" + field + ".count' is " + set.count + "; it must be from 1 to the number of nodes, " + deployment.nodes;
+                if (set.count < 1 || set.count > Count)
+                    return "'" + field + ".count' is " + set.count + "; it must be from 1 to the number of nodes, " + Count;
                 foreach (var id in set.ids)
                 {
-                    if (id < 0 || id >= deployment.nodes)
+                    if (tracks.Count > 0 && !tracks.ContainsKey(id)) return "'" + field + ".ids' contains node " + id + ", which is not in " + deployment.file;
+                    if (tracks.Count == 0 && (id < 0 || id >= deployment.nodes))
                         return "'" + field + ".ids' contains node " + id + ", but the ids of the deployment are 0 to " + (deployment.nodes - 1);
                 }
                 if (!(set.from <= set.until)) return "'" + field + ".from' is " + Text(set.from) + ", above 'until', " + Text(set.until);
             }
             return null;
         }
+
+        private int Count => tracks.Count > 0 ? tracks.Count : deployment.nodes;
 
         private string ProblemOfObstacles()
         {
@@ -160,7 +217,16 @@ namespace Collektive.Standard
 
         private void Deploy()
         {
-            var placed = new List<Vector3>();
+            foreach (var track in tracks.Values)
+            {
+                track.PlaceAt(0, out var x, out var z);
+                if (!area.IsFree(new Vector3(x, 0, z)))
+                    manager.Fail("an obstacle covers node " + track.Id + " of " + deployment.file + ":" + track.Line + ": move 'obstacles', or the node");
+                if (manager.Failure.Length > 0) return;
+                MakeNode(track.Id, new Vector3(x, 0, z));
+            }
+            if (tracks.Count > 0) return;
+            var placed = new PlaceGrid(deployment.kind == DeploymentKind.Poisson ? deployment.spacing : 0);
             for (var i = 0; i < deployment.nodes && manager.Failure.Length == 0; i++)
             {
                 var place = deployment.kind == DeploymentKind.Grid ? PlaceInGrid(i) : FreePlace(placed);
@@ -182,19 +248,16 @@ namespace Collektive.Standard
             return area.IsFree(place) ? place : (Vector3?)null;
         }
 
-        private Vector3? FreePlace(List<Vector3> placed)
+        private Vector3? FreePlace(PlaceGrid placed)
         {
             const int Attempts = 1000;
-            var least = deployment.kind == DeploymentKind.Poisson ? deployment.spacing : 0;
             for (var attempt = 0; attempt < Attempts; attempt++)
             {
                 if (!(area.Uniform(manager.Random) is Vector3 place)) break;
-                if (least > 0 && !placed.TrueForAll(other => (other - place).sqrMagnitude >= least * least)) continue;
-                placed.Add(place);
-                return place;
+                if (placed.TryAdd(place)) return place;
             }
             manager.Fail("the area has no room for " + deployment.nodes + " nodes: " + placed.Count + " were placed; enlarge it, or use fewer nodes"
-                + (least > 0 ? " or a smaller 'deployment.spacing'" : ""));
+                + (deployment.kind == DeploymentKind.Poisson ? " or a smaller 'deployment.spacing'" : ""));
             return null;
         }
 
@@ -285,10 +348,21 @@ namespace Collektive.Standard
             {
                 foreach (var node in manager.Nodes) node.GetComponent<Walker>().Walk(node, movement, area, seconds);
             }
+            if (movement.kind == MovementKind.Trace) FollowTracks();
             if (churn.failures > 0) Fail(1 - Math.Exp(-churn.failures * seconds));
             for (; churn.arrivals > 0 && nextArrival <= manager.SimulatedTime; nextArrival += Pause(churn.arrivals))
             {
                 if (area.Uniform(manager.Random) is Vector3 place) MakeNode(-1, place);
+            }
+        }
+
+        private void FollowTracks()
+        {
+            foreach (var node in manager.Nodes)
+            {
+                if (!tracks.TryGetValue(node.Id, out var track)) continue;
+                track.PlaceAt(manager.SimulatedTime, out var x, out var z);
+                node.transform.position = new Vector3(x, 0, z);
             }
         }
 

@@ -1,0 +1,104 @@
+using System.Collections.Generic;
+using System.Globalization;
+using System.IO;
+using System.Text;
+
+namespace Collektive.Headless
+{
+    /// <summary>A text file in the folder that a scenario's key <c>data</c> names.</summary>
+    public sealed class DataFile
+    {
+        private DataFile(string name, string path)
+        {
+            Name = name;
+            Path = path;
+        }
+
+        /// <summary>The folder of the current scenario; empty without one.</summary>
+        internal static string Folder { get; set; } = "";
+
+        /// <summary>The path relative to the folder.</summary>
+        public string Name { get; }
+
+        /// <summary>The full path.</summary>
+        public string Path { get; }
+
+        /// <summary>Finds a file by its path relative to the folder.</summary>
+        /// <exception cref="ScenarioException">The folder does not contain it.</exception>
+        public static DataFile Find(string name)
+        {
+            if (name.Length == 0) throw new ScenarioException("the name of a file is missing");
+            if (Folder.Length == 0) throw new ScenarioException("'" + name + "' needs the scenario's key 'data', the folder that contains the file");
+            var path = System.IO.Path.GetFullPath(System.IO.Path.Combine(Folder, name));
+            // Repetitions and sweeps have the files of the folder only.
+            if (!path.StartsWith(Folder + "/", System.StringComparison.Ordinal) || !RegularFile.Exists(path))
+                throw new ScenarioException("'" + name + "' is not a file in the folder 'data', " + Folder);
+            return new DataFile(name, path);
+        }
+
+        /// <summary>Returns an error with the place in this file.</summary>
+        /// <param name="line">From 1; 0: not known.</param>
+        public ScenarioException Error(int line, string message) => new ScenarioException(Name + (line > 0 ? ":" + line : "") + ": " + message);
+
+        /// <summary>Reads numbers from a CSV file, whose first line names its columns. Ignores other columns and blank lines.</summary>
+        /// <param name="columns">Names of columns.</param>
+        /// <returns>A row per line, with NaN for missing columns; the last value is the line's number.</returns>
+        /// <exception cref="ScenarioException">A line has another number of cells than the first, or a cell is not a finite number.</exception>
+        public List<double[]> ReadCsv(params string[] columns)
+        {
+            var rows = new List<double[]>();
+            List<string> header = null;
+            var number = 0;
+            foreach (var line in File.ReadLines(Path))
+            {
+                number++;
+                if (line.Trim().Length == 0) continue;
+                var cells = Cells(line, number);
+                if (header == null)
+                {
+                    header = cells;
+                    continue;
+                }
+                if (cells.Count != header.Count)
+                    throw Error(number, "the line has " + cells.Count + " cells, but the first line has " + header.Count);
+                var row = new double[columns.Length + 1];
+                for (var i = 0; i < columns.Length; i++)
+                {
+                    var column = header.IndexOf(columns[i]);
+                    row[i] = column < 0 ? double.NaN : Number(cells[column], number, columns[i]);
+                }
+                row[columns.Length] = number;
+                rows.Add(row);
+            }
+            if (rows.Count == 0) throw Error(number, "the file has no rows; the first line must name the columns");
+            return rows;
+        }
+
+        /// <summary>Reads a finite number.</summary>
+        internal double Number(string text, int line, string name)
+        {
+            if (double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out var value) && !double.IsNaN(value) && !double.IsInfinity(value))
+                return value;
+            throw Error(line, "'" + name + "' is '" + text + "', it must be a number");
+        }
+
+        private List<string> Cells(string line, int number)
+        {
+            var cells = new List<string>();
+            var cell = new StringBuilder();
+            var isQuoted = false;
+            foreach (var letter in line + ",")
+            {
+                if (letter == '"') isQuoted = !isQuoted;
+                else if (letter != ',' || isQuoted) cell.Append(letter);
+                else
+                {
+                    cells.Add(cell.ToString().Trim());
+                    cell.Clear();
+                }
+            }
+            if (isQuoted) throw Error(number, "a quote is not closed");
+            return cells;
+        }
+    }
+}

@@ -1,0 +1,53 @@
+using System;
+
+namespace Collektive.Headless
+{
+    /// <summary>An expression in SQL of a node's id, its position in metres (x, y, z) and the simulated time. Not thread-safe.</summary>
+    public sealed class PlaceExpression : IDisposable
+    {
+        private const string Before = "SELECT (";
+        private const string Columns = "id, time, x, y, z";
+        // On a new line, so that a comment cannot hide it.
+        private const string After = "\n) FROM (SELECT ?1 AS id, ?2 AS time, ?3 AS x, ?4 AS y, ?5 AS z)";
+
+        private readonly double[] values = new double[5];
+        private readonly Sqlite database;
+        private readonly Sqlite.Statement query;
+
+        /// <param name="limitMs">Milliseconds that an evaluation may take.</param>
+        /// <exception cref="ScenarioException">The text is not an expression of these columns.</exception>
+        public PlaceExpression(string sql, int limitMs)
+        {
+            database = new Sqlite(limitMs);
+            try
+            {
+                query = database.PrepareQuery(Before + sql + After, null, values.Length);
+                Evaluate(0, 0, 0, 0, 0);
+            }
+            catch (SqlException error)
+            {
+                Dispose();
+                throw new ScenarioException(error.Describe(sql, Before.Length, Columns));
+            }
+        }
+
+        /// <summary>Returns the value; NaN for NULL.</summary>
+        public double Evaluate(int id, double time, double x, double y, double z)
+        {
+            values[0] = id;
+            values[1] = time;
+            values[2] = x;
+            values[3] = y;
+            values[4] = z;
+            query.Bind(values);
+            return query.Query() ?? double.NaN;
+        }
+
+        /// <summary>Releases the engine.</summary>
+        public void Dispose()
+        {
+            query?.Dispose();
+            database.Dispose();
+        }
+    }
+}

@@ -1,0 +1,234 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+using System.Xml;
+using System.Xml.Linq;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>The way of a node through places at times, or its only place.</summary>
+    public sealed class Track
+    {
+        private const double EarthRadius = 6371008.8;
+        private const int MaxTracks = 1_000_000;
+        private const int MaxId = (1 << 24) - 1;
+
+        private readonly List<double> times = new List<double>();
+        private readonly List<double> x = new List<double>();
+        private readonly List<double> z = new List<double>();
+        private int current;
+
+        private Track(int id, int line)
+        {
+            Id = id;
+            Line = line;
+        }
+
+        /// <summary>The node's id.</summary>
+        public int Id { get; }
+
+        /// <summary>The line of the file in which the track begins.</summary>
+        public int Line { get; }
+
+        /// <summary>Reads the tracks of a CSV, GeoJSON or GPX file, in the order of the file.</summary>
+        /// <param name="isMoving">Whether all places need times.</param>
+        /// <exception cref="ScenarioException">The file is invalid.</exception>
+        public static List<Track> Read(DataFile file, bool isMoving)
+        {
+            var extension = System.IO.Path.GetExtension(file.Name).ToLowerInvariant();
+            var tracks = extension == ".csv" ? FromCsv(file, isMoving) : extension == ".gpx" ? FromGpx(file, isMoving)
+                : extension != ".geojson" && extension != ".json" ? throw file.Error(0, "the name must end in .csv, .geojson, .json or .gpx")
+                : isMoving ? throw file.Error(0, "GeoJSON has no times: use a CSV or GPX file") : FromGeoJson(file);
+            if (tracks.Count == 0) throw file.Error(0, "the file contains no points");
+            if (tracks.Count > MaxTracks) throw file.Error(0, "the file has " + tracks.Count + " nodes, at most " + MaxTracks + " are possible");
+            return tracks;
+        }
+
+        /// <summary>The place at a time, in metres: between its points on a straight line, before the first and after the last one at that point.</summary>
+        public void PlaceAt(double time, out float x, out float z)
+        {
+            // Time rarely goes back.
+            if (times[current] > time) current = 0;
+            while (current + 1 < times.Count && times[current + 1] <= time) current++;
+            var next = Math.Min(current + 1, times.Count - 1);
+            var share = next == current || time <= times[current] ? 0 : (time - times[current]) / (times[next] - times[current]);
+            x = (float)(this.x[current] + share * (this.x[next] - this.x[current]));
+            z = (float)(this.z[current] + share * (this.z[next] - this.z[current]));
+        }
+
+        private void Add(DataFile file, int line, double time, double x, double z)
+        {
+            if (times.Count > 0 && !(time > times[times.Count - 1]))
+            {
+                throw file.Error(
+                    line, double.IsNaN(time) ? "node " + Id + " is also in line " + Line : "the time must be after that of the previous point of node " + Id);
+            }
+            times.Add(time);
+            this.x.Add(x);
+            this.z.Add(z);
+        }
+
+        private static List<Track> FromCsv(DataFile file, bool isMoving)
+        {
+            var tracks = new List<Track>();
+            var byId = new Dictionary<int, Track>();
+            var rows = file.ReadCsv("id", "x", "z", "lon", "lat", "time");
+            var isGeographic = double.IsNaN(rows[0][1]) && !double.IsNaN(rows[0][3]);
+            var first = isGeographic ? 3 : 1;
+            if (double.IsNaN(rows[0][first]) || double.IsNaN(rows[0][first + 1])) throw file.Error(1, "the columns 'x' and 'z', or 'lon' and 'lat', are missing");
+            var hasTimes = !double.IsNaN(rows[0][5]);
+            if (isMoving && !hasTimes) throw file.Error(1, "the column 'time' is missing");
+            if (hasTimes && double.IsNaN(rows[0][0])) throw file.Error(1, "the column 'time' needs the column 'id'");
+            foreach (var row in rows)
+            {
+                var line = (int)row[6];
+                var given = double.IsNaN(row[0]) ? tracks.Count : row[0];
+                if (!(given >= 0 && given <= MaxId && given == Math.Floor(given)))
+                    throw file.Error(line, "'id' is " + given.ToString(CultureInfo.InvariantCulture) + ", it must be a whole number from 0 to " + MaxId);
+                if (!byId.TryGetValue((int)given, out var track)) tracks.Add(byId[(int)given] = track = new Track((int)given, line));
+                if (isGeographic) RequireGeographic(file, line, row[3], row[4]);
+                track.Add(file, line, row[5], row[first], row[first + 1]);
+            }
+            if (isGeographic) Project(tracks);
+            return tracks;
+        }
+
+        private static List<Track> FromGpx(DataFile file, bool isMoving)
+        {
+            var tracks = new List<Track>();
+            var earliest = double.PositiveInfinity;
+            try
+            {
+                XDocument document;
+                using (var reader = XmlReader.Create(file.Path)) document = XDocument.Load(reader, LoadOptions.SetLineInfo);
+                foreach (var element in document.Root.Elements())
+                {
+                    if (element.Name.LocalName != "trk") continue;
+                    var track = new Track(tracks.Count, LineOf(element));
+                    foreach (var point in element.Descendants())
+                    {
+                        if (point.Name.LocalName != "trkpt") continue;
+                        var line = LineOf(point);
+                        var lon = file.Number((string)point.Attribute("lon"), line, "lon");
+                        var lat = file.Number((string)point.Attribute("lat"), line, "lat");
+                        RequireGeographic(file, line, lon, lat);
+                        // Without times, only the first point counts.
+                        if (!isMoving && track.times.Count > 0) break;
+                        var time = isMoving ? TimeOf(file, point) : double.NaN;
+                        earliest = Math.Min(earliest, time);
+                        track.Add(file, line, time, lon, lat);
+                    }
+                    if (track.times.Count == 0) throw file.Error(track.Line, "the track has no points");
+                    tracks.Add(track);
+                }
+            }
+            catch (XmlException error)
+            {
+                throw file.Error(error.LineNumber, "not valid XML: " + error.Message);
+            }
+            foreach (var track in tracks)
+                for (var i = 0; i < track.times.Count; i++) track.times[i] -= earliest;
+            Project(tracks);
+            return tracks;
+        }
+
+        private static double TimeOf(DataFile file, XElement point)
+        {
+            foreach (var child in point.Elements())
+            {
+                if (child.Name.LocalName != "time") continue;
+                if (DateTimeOffset.TryParse(child.Value, CultureInfo.InvariantCulture, DateTimeStyles.AssumeUniversal, out var time))
+                    return time.UtcTicks / (double)TimeSpan.TicksPerSecond;
+                throw file.Error(LineOf(child), "'time' is '" + child.Value + "', it must be like 2026-01-31T12:00:00Z");
+            }
+            throw file.Error(LineOf(point), "the point has no time");
+        }
+
+        private static List<Track> FromGeoJson(DataFile file)
+        {
+            var tracks = new List<Track>();
+            AddPoints(file, JsonFile.Read(file.Path).Root, tracks);
+            Project(tracks);
+            return tracks;
+        }
+
+        private static void AddPoints(DataFile file, JToken part, List<Track> tracks)
+        {
+            var line = (part as IJsonLineInfo)?.LineNumber ?? 0;
+            switch ((string)(part as JObject)?["type"])
+            {
+                case "FeatureCollection":
+                    foreach (var feature in Items(file, part, "features")) AddPoints(file, feature, tracks);
+                    break;
+                case "Feature":
+                    AddPoints(file, part["geometry"], tracks);
+                    break;
+                case "GeometryCollection":
+                    foreach (var geometry in Items(file, part, "geometries")) AddPoints(file, geometry, tracks);
+                    break;
+                case "Point":
+                    AddPoint(file, line, part["coordinates"], tracks);
+                    break;
+                case "MultiPoint":
+                    foreach (var point in Items(file, part, "coordinates")) AddPoint(file, line, point, tracks);
+                    break;
+                default:
+                    throw file.Error(line, "'type' is '" + (part as JObject)?["type"] + "': only points are possible, in Feature, FeatureCollection, Point, "
+                        + "MultiPoint and GeometryCollection");
+            }
+        }
+
+        private static JArray Items(DataFile file, JToken part, string key) =>
+            part[key] as JArray ?? throw file.Error(((IJsonLineInfo)part).LineNumber, "'" + key + "' must be a list");
+
+        private static void AddPoint(DataFile file, int line, JToken place, List<Track> tracks)
+        {
+            if (!(place is JArray numbers) || numbers.Count < 2 || !IsNumber(numbers[0]) || !IsNumber(numbers[1]))
+                throw file.Error(line, "'coordinates' must be [longitude, latitude]");
+            RequireGeographic(file, line, (double)numbers[0], (double)numbers[1]);
+            var track = new Track(tracks.Count, line);
+            track.Add(file, line, double.NaN, (double)numbers[0], (double)numbers[1]);
+            tracks.Add(track);
+        }
+
+        private static bool IsNumber(JToken token) => token.Type == JTokenType.Integer || token.Type == JTokenType.Float;
+
+        private static void RequireGeographic(DataFile file, int line, double lon, double lat)
+        {
+            if (Math.Abs(lon) <= 180 && Math.Abs(lat) <= 90) return;
+            throw file.Error(line, "longitude " + lon.ToString(CultureInfo.InvariantCulture) + " and latitude " + lat.ToString(CultureInfo.InvariantCulture)
+                + " are not degrees from -180 to 180 and from -90 to 90");
+        }
+
+        /// <summary>Converts degrees to metres around the centre of all points: equirectangular, x to the east, z to the north.</summary>
+        private static void Project(List<Track> tracks)
+        {
+            double west = double.PositiveInfinity, east = double.NegativeInfinity, south = west, north = east;
+            foreach (var track in tracks)
+            {
+                for (var i = 0; i < track.x.Count; i++)
+                {
+                    west = Math.Min(west, track.x[i]);
+                    east = Math.Max(east, track.x[i]);
+                    south = Math.Min(south, track.z[i]);
+                    north = Math.Max(north, track.z[i]);
+                }
+            }
+            const double Radians = Math.PI / 180;
+            var metres = EarthRadius * Radians;
+            var width = metres * Math.Cos((south + north) / 2 * Radians);
+            foreach (var track in tracks)
+            {
+                for (var i = 0; i < track.x.Count; i++)
+                {
+                    track.x[i] = width * (track.x[i] - (west + east) / 2);
+                    track.z[i] = metres * (track.z[i] - (south + north) / 2);
+                }
+            }
+        }
+
+        private static int LineOf(XObject part) => ((IXmlLineInfo)part).LineNumber;
+    }
+}

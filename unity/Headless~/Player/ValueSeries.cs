@@ -1,0 +1,44 @@
+using System.Collections.Generic;
+
+namespace Collektive.Headless
+{
+    /// <summary>Values over time of each node, or of all nodes together, from a CSV file with the columns value, and optionally id and time.</summary>
+    public sealed class ValueSeries
+    {
+        private const int AllNodes = -1;
+
+        private readonly Dictionary<int, List<double[]>> byId = new Dictionary<int, List<double[]>>();
+
+        /// <summary>Reads a file.</summary>
+        /// <exception cref="ScenarioException">The file is invalid.</exception>
+        public ValueSeries(DataFile file)
+        {
+            foreach (var row in file.ReadCsv("value", "id", "time"))
+            {
+                var line = (int)row[3];
+                if (double.IsNaN(row[0])) throw file.Error(1, "the column 'value' is missing");
+                var id = double.IsNaN(row[1]) ? AllNodes : (int)row[1];
+                if (id != AllNodes && (id < 0 || id != row[1])) throw file.Error(line, "'id' must be a whole number of at least 0");
+                if (!byId.TryGetValue(id, out var rows)) byId[id] = rows = new List<double[]>();
+                if (rows.Count > 0 && !(row[2] > rows[rows.Count - 1][2]))
+                    throw file.Error(line, "the line needs a time after that of line " + rows[rows.Count - 1][3] + ", or another id");
+                rows.Add(row);
+            }
+        }
+
+        /// <summary>The node's last value until a time; NaN before the first one, and for nodes that are not in the file.</summary>
+        public double ValueAt(int id, double time)
+        {
+            if (!byId.TryGetValue(id, out var rows) && !byId.TryGetValue(AllNodes, out rows)) return double.NaN;
+            int low = 0, high = rows.Count;
+            while (low < high)
+            {
+                var middle = (low + high) / 2;
+                // NaN: from the start.
+                if (rows[middle][2] > time) high = middle;
+                else low = middle + 1;
+            }
+            return low == 0 ? double.NaN : rows[low - 1][0];
+        }
+    }
+}

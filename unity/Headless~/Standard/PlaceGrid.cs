@@ -1,0 +1,35 @@
+using System;
+using System.Collections.Generic;
+using UnityEngine;
+
+namespace Collektive.Standard
+{
+    /// <summary>Places by square cells, about as wide as the distance to keep between them.</summary>
+    internal sealed class PlaceGrid
+    {
+        private readonly Dictionary<(int, int), List<Vector3>> cells = new Dictionary<(int, int), List<Vector3>>();
+        private readonly float least;
+
+        internal PlaceGrid(float least) => this.least = least;
+
+        internal int Count { get; private set; }
+
+        /// <summary>Adds a place unless another one is nearer than the distance. Returns whether it did.</summary>
+        internal bool TryAdd(Vector3 place)
+        {
+            int x = CellOf(place.x), z = CellOf(place.z);
+            for (var i = 0; least > 0 && i < 9; i++)
+            {
+                if (!cells.TryGetValue((x + i % 3 - 1, z + i / 3 - 1), out var near)) continue;
+                if (!near.TrueForAll(other => (other - place).sqrMagnitude >= least * least)) return false;
+            }
+            if (!cells.TryGetValue((x, z), out var places)) cells[(x, z)] = places = new List<Vector3>();
+            places.Add(place);
+            Count++;
+            return true;
+        }
+
+        // Slightly wider: rounding must not put near places two cells apart.
+        private int CellOf(float coordinate) => least > 0 ? (int)Math.Floor(coordinate / (1.001 * least)) : 0;
+    }
+}
