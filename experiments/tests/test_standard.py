@@ -4,6 +4,7 @@ import copy
 import csv
 import gzip
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -42,6 +43,7 @@ DATA = {
     "cities.geojson": json.dumps({"type": "FeatureCollection", "features": [
         {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [12, 44, 30]}},
         {"type": "Feature", "properties": {}, "geometry": {"type": "MultiPoint", "coordinates": [[12.002, 44], [12.001, 44.001]]}}]}),
+    "ring.csv": "x,z\n" + "".join(f"{3 * math.cos(angle / 10 * math.pi)},{3 * math.sin(angle / 10 * math.pi)}\n" for angle in range(20)),
     "values.csv": "time,id,value\n0,0,5\n1,0,6\n0.5,1,7\n",
     "bad/cells.csv": "x,z\n1,2\n3\n",
     "bad/number.csv": "x,z\n1,2\n\n3,abc\n",
@@ -77,7 +79,7 @@ SCENARIO: dict[str, Any] = {
 }
 # Path of a key, its value and part of the message. SqlMetricsTests has more metrics.
 REFUSED: list[tuple[str, Any, str]] = [
-    ("metrics.bad", "avg(knwon)", "no such column: knwon, at character 5 of 'avg(knwon)'; columns: id, time, degree, x, y, z, value, category"),
+    ("metrics.bad", "avg(knwon)", "no such column: knwon, at character 5 of 'avg(knwon)'; columns: id, time, degree, x, y, z, message_values, "),
     ("metrics.bad", "avg(flag", "'avg(flag' ends too early"),
     ("metrics.bad", "flag", "'metrics.bad' is not an aggregate"),
     ("metrics.bad", "random() + avg(flag)", "not authorized to use function: random, at character 1"),
@@ -301,6 +303,14 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
      {"count(*) filter (where id < 100)": (45, 75), "count(*) filter (where id >= 100)": (20, 70)}),
     ({"deployment": {"kind": "File", "file": "stations.csv"}, "sets": [{"name": "source", "ids": [7]}]}, 0.1,
      {"count(*)": (2, 2), "max(id)": (7, 7), "total(x) filter (where source)": (1, 1), "total(z) filter (where id = 3)": (4, 4)}),
+    # Closed-form results. A circle cut by a square's sides (mean degree 19.83, standard deviation 0.4), and news on a ring: n / 2 rounds.
+    ({"deployment": {"kind": "Uniform", "nodes": 400, "size": [30, 30]}, "neighbourhood": {"radius": 4}}, 0.1, {"avg(degree)": (18.8, 20.8)}),
+    ({"deployment": {"kind": "File", "file": "ring.csv"}, "neighbourhood": {"radius": 1}, "sets": [{"name": "source", "ids": [0]}]}, 1,
+     {"sum(value = 9)": (2, 2), "sum(value = 10)": (0, 0), "avg(degree)": (2, 2)}),
+    ({"deployment": {"kind": "File", "file": "ring.csv"}, "neighbourhood": {"radius": 1}, "sets": [{"name": "source", "ids": [0]}]}, 1.1,
+     {"max(value)": (10, 10), "sum(value)": (100, 100)}),
+    # A gradient without sources: two paths of 8 bytes, with Unit (0 bytes) and null (1 byte).
+    ({"deployment": {"nodes": 9}}, 0.1, {"avg(message_values)": (2, 2), "avg(message_bytes)": (17, 17)}),
     # A degree of latitude is 111195 m; at 44 degrees one of longitude is 79987 m.
     ({"deployment": {"kind": "File", "file": "cities.geojson"}}, 0.1,
      {"count(*)": (3, 3), "total(x) filter (where id = 1)": (79.98, 79.99), "min(x) + max(x)": (0, 0), "max(z) - min(z)": (111.1, 111.2)}),

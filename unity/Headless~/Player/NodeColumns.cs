@@ -10,7 +10,7 @@ using UnityEngine;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The columns of the table of nodes that metrics are computed from: what is known of each node, then the numbers, booleans and enums of its last answer
+    /// The columns of the table of nodes that metrics are computed from: what is known of each node and its last message, then the numbers, booleans and enums of its last answer
     /// and of the sensor data of its last round, by their names in the schema. A node without them has no value there.
     /// </summary>
     internal sealed class NodeColumns
@@ -25,12 +25,13 @@ namespace Collektive.Headless
         private readonly Reader answers;
         private readonly Reader sensors;
         private readonly List<Column> used = new List<Column>();
-        private double[][] sensed = Array.Empty<double[]>();
+        private double[][] kept = Array.Empty<double[]>();
         private int[] degrees = Array.Empty<int>();
 
         internal NodeColumns(DataSchema schema)
         {
             foreach (var name in new[] { "id", "time", "degree", "x", "y", "z" }) Add(name, Kind.Node, columns.Count, null);
+            foreach (var name in new[] { "message_values", "message_bytes" }) Add(name, Kind.Message, columns.Count, null);
             answers = Reader.Of(typeof(AnswerReader<>), typeof(ActuatorBuffer<>), schema.CreateActuators());
             sensors = Reader.Of(typeof(SensorReader<>), typeof(SensorBuffer<>), schema.CreateSensors());
             AddFields(answers, Kind.Answer, "answer_");
@@ -78,18 +79,31 @@ namespace Collektive.Headless
         {
             foreach (var name in names)
                 if (byName.TryGetValue(name, out var column) && !used.Contains(column)) used.Add(column);
-            sensed = new double[used.Count][];
-            for (var i = 0; i < used.Count; i++) sensed[i] = Array.Empty<double>();
+            kept = new double[used.Count][];
+            for (var i = 0; i < used.Count; i++) kept[i] = Array.Empty<double>();
         }
 
-        /// <summary>Remembers the sensor data of the nodes that were due in a tick, which the next tick overwrites.</summary>
+        /// <summary>Whether columns in use need the sizes of messages.</summary>
+        internal bool MeasuresMessages => used.Exists(column => column.Kind == Kind.Message);
+
+        /// <summary>Remembers the sensor data and messages of the nodes that were due in a tick, which the next tick overwrites.</summary>
         internal void Ticked(SimulationManager manager)
         {
+            var simulation = manager.Simulation;
             for (var i = 0; i < used.Count; i++)
             {
-                if (used[i].Kind != Kind.Sensor) continue;
-                Grow(ref sensed[i], manager.Simulation.IdCapacity, double.NaN);
-                sensors.ReadDue(manager.Simulation, used[i].Index, sensed[i]);
+                if (!used[i].IsKept) continue;
+                Grow(ref kept[i], simulation.IdCapacity, double.NaN);
+                if (used[i].Kind == Kind.Sensor)
+                {
+                    sensors.ReadDue(simulation, used[i].Index, kept[i]);
+                    continue;
+                }
+                for (var k = 0; k < simulation.Answer.NodeCount; k++)
+                {
+                    var (values, bytes) = simulation.Answer.Message(k);
+                    kept[i][simulation.Answer.Node(k)] = used[i].Name == "message_bytes" ? bytes : values;
+                }
             }
         }
 
@@ -98,7 +112,7 @@ namespace Collektive.Headless
         {
             var capacity = manager.Simulation.IdCapacity;
             for (var i = 0; i < used.Count; i++)
-                if (used[i].Kind == Kind.Sensor) Grow(ref sensed[i], capacity, double.NaN);
+                if (used[i].IsKept) Grow(ref kept[i], capacity, double.NaN);
             if (!used.Exists(column => column.Name == "degree")) return;
             Grow(ref degrees, capacity, 0);
             Array.Clear(degrees, 0, degrees.Length);
@@ -118,7 +132,7 @@ namespace Collektive.Headless
             {
                 var column = used[i];
                 values[first + i] = column.Kind == Kind.Node ? Value(manager, node, position, column.Index)
-                    : column.Kind == Kind.Answer ? hasAnswer ? answers.Value(column.Index) : double.NaN : sensed[i][node.Id];
+                    : column.Kind == Kind.Answer ? hasAnswer ? answers.Value(column.Index) : double.NaN : kept[i][node.Id];
             }
         }
 
@@ -176,6 +190,7 @@ namespace Collektive.Headless
         private enum Kind
         {
             Node,
+            Message,
             Answer,
             Sensor,
         }
@@ -185,6 +200,9 @@ namespace Collektive.Headless
             internal string Name;
             internal Kind Kind;
             internal int Index;
+
+            /// <summary>Whether ticks overwrite the values.</summary>
+            internal bool IsKept => Kind == Kind.Sensor || Kind == Kind.Message;
         }
 
         /// <summary>Reads fields of data whose type only generated code knows, without boxing.</summary>

@@ -23,6 +23,9 @@ namespace Collektive.Headless
 
         internal IReadOnlyList<string> Names => names;
 
+        /// <summary>Requests what metrics need from the next tick on.</summary>
+        internal void Begin(SimulationManager manager) => queries.Begin(manager);
+
         /// <summary>Takes what the next tick overwrites.</summary>
         internal void Ticked(SimulationManager manager) => queries.Ticked(manager);
 

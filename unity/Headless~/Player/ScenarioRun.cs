@@ -202,6 +202,7 @@ namespace Collektive.Headless
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
             using (var replay = hasReplay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, runMetrics, manager) : null)
             {
+                runMetrics.Begin(manager);
                 EndInterval(manager, replay, 0);
                 scenario.Convergence.Add(0, metrics.Values);
                 nodes?.Add(0);

@@ -50,7 +50,10 @@ namespace Collektive.Headless
 
         internal IReadOnlyList<string> Names => names;
 
-        /// <summary>Takes the sensor data of a tick.</summary>
+        /// <summary>Requests the data that metrics need from the next tick on.</summary>
+        internal void Begin(SimulationManager manager) => manager.Simulation.MeasuresMessages = columns?.MeasuresMessages == true;
+
+        /// <summary>Takes the sensor data and messages of a tick.</summary>
         internal void Ticked(SimulationManager manager) => columns?.Ticked(manager);
 
         /// <summary>Evaluates the metrics of this moment into an array, from an index on.</summary>

@@ -62,6 +62,13 @@ namespace Collektive.Bridge
         /// <summary>The programs after the replacement.</summary>
         internal Frame.ReloadResponse ReloadedPrograms => response.Reload.GetValueOrDefault();
 
+        /// <summary>Number of values of a node's message to its neighbours, and of their bytes; zeros unless requested.</summary>
+        public (int Values, int Bytes) Message(int index)
+        {
+            var message = response.Messages(index).GetValueOrDefault();
+            return (message.Values, message.Bytes);
+        }
+
         /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
         public int Node(int index) => response.Nodes(index);
 

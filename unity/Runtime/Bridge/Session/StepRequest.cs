@@ -32,6 +32,9 @@ namespace Collektive.Bridge
         /// <summary>Whether <see cref="Globals"/> goes out with the next step.</summary>
         public bool GlobalsChanged { get; set; }
 
+        /// <summary>Whether answers contain the sizes of messages.</summary>
+        public bool MeasuresMessages { get; set; }
+
         /// <summary>Directed links made or changed since the last step.</summary>
         internal GrowingArray<LinkRecord> Links { get; } = new GrowingArray<LinkRecord>();
 
@@ -112,7 +115,7 @@ namespace Collektive.Bridge
             var nodesRemovedVector = Block(builder, nodesRemoved, sizeof(int));
             builder.Finish(Frame.StepRequest.CreateStepRequest(
                 builder, tick, time, deltaTime, nodesRemovedVector, nodesAddedVector, linksRemovedVector, linksVector, dueVector,
-                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload).Value);
+                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload, MeasuresMessages).Value);
         }
 
         private Offset<Frame.ReloadRequest> WriteReload(FlatBufferBuilder builder)

@@ -124,6 +124,12 @@ namespace Collektive.Unity
         /// <summary>Buffer for actuators in a tick.</summary>
         internal ActuatorBuffer Answered => session.Answer.Actuators;
 
+        /// <summary>The answer of the last tick. Its nodes are in the order of their ids.</summary>
+        internal StepAnswer Answer => session.Answer;
+
+        /// <summary>Whether answers contain the sizes of messages.</summary>
+        internal bool MeasuresMessages { get; set; }
+
         /// <summary>Number of nodes with a round in the last tick.</summary>
         internal int DueCount => due.Count;
 
@@ -269,6 +275,7 @@ namespace Collektive.Unity
             }
             if (!IsOpen) return;
             var senseEnd = Stopwatch.GetTimestamp();
+            session.Request.MeasuresMessages = MeasuresMessages;
             using (TickMarkers.Step.Auto()) session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
             var stepEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Act.Auto())

@@ -20,6 +20,9 @@ public abstract class Export protected constructor() {
     /** Prefetches the data that neighbours read into the CPU cache. The result only keeps the JIT from removing the reads. */
     public open fun touch(): Int = 0
 
+    /** Adds the values of this message to [size]. Call it only while no round runs. */
+    public open fun measure(size: MessageSize) {}
+
     /** Prevents the reuse of this export until the matching [release]. */
     public fun retain() {
         REFERENCES.incrementAndGet(this)

@@ -39,7 +39,10 @@ public class Tick {
     /** The scene's global data, starting with this tick; `null` leaves it unchanged. */
     public var globals: Any? = null
 
-    /** Resets everything except [number], [time] and [deltaTime]; keeps the memory. */
+    /** Whether the answer contains the sizes of messages. */
+    public var measuresMessages: Boolean = false
+
+    /** Resets everything except [number], [time], [deltaTime] and [measuresMessages]; keeps the memory. */
     public fun clear() {
         reload = null
         nodesRemoved.clear()

@@ -1,5 +1,6 @@
 package org.collektive.engine
 
+import org.collektive.spi.Export
 import org.collektive.spi.StoredValues
 
 /** The outcome of one tick. The engine owns it and reuses it for the next tick. */
@@ -50,6 +51,9 @@ public class TickResult internal constructor() {
 
     /** Returns why the round of the due node [index] failed, or `null` on success. */
     public fun failure(index: Int): String? = failures[index]
+
+    /** Returns the last message of the due node [index], or `null` before its first successful round. */
+    public fun export(index: Int): Export? = node(index).last
 
     internal fun node(index: Int): Node = nodes[index] ?: error("no due node $index of $size")
 

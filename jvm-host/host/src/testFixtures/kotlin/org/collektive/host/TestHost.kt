@@ -53,6 +53,7 @@ internal class Step(val tick: Long) {
     var sensors: List<Sensor>? = null
     var wind: Float? = null
     var reload: Path? = null
+    var measuresMessages = false
 
     class Added(val id: Int, val program: String? = null, val parameters: Map<String, String> = emptyMap())
 
@@ -89,6 +90,7 @@ internal class Step(val tick: Long) {
             StepRequest.createStepRequest(
                 builder, tick, time, deltaTime, removedVector, addedVector, unlinkedVector, linkedVector, dueVector, sensorTable, globals,
                 reloadTable,
+                measuresMessages,
             ),
         )
         return direct(builder)

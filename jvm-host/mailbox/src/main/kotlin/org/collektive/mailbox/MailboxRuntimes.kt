@@ -15,6 +15,7 @@ import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
+import org.collektive.spi.MessageSize
 import org.collektive.spi.RoundProgram
 import org.collektive.spi.SharingRule
 
@@ -105,6 +106,16 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
         fun clear() {
             each = emptyMap()
             default = null
+        }
+
+        override fun measure(size: MessageSize) {
+            for ((path, value) in default?.sharedData.orEmpty()) {
+                size.add(value)
+                for ((receiver, message) in each) {
+                    val own = message.sharedData[path]
+                    if (own != value) size.addFor(receiver, own)
+                }
+            }
         }
     }
 

@@ -1,6 +1,8 @@
 package org.collektive.runtime
 
+import it.unibo.collektive.aggregate.Field
 import org.collektive.spi.Export
+import org.collektive.spi.MessageSize
 
 /** The outcome of one round of a device: at each path the value stored and the value sent. */
 internal class RoundRecord : Export() {
@@ -106,6 +108,24 @@ internal class RoundRecord : Export() {
             if (!reserve(path)) continue
             keep(path, conversion.value(kept[index]))
             send(path, conversion.value(sent[index]))
+        }
+    }
+
+    override fun measure(size: MessageSize) = forEachPath { path ->
+        when (val sent = sentAt(path)) {
+            Nothing -> {}
+
+            is AllButOne -> {
+                size.add(sent.others)
+                size.addFor(sent.id, sent.value)
+            }
+
+            is Field<*, *> -> {
+                size.add(sent.localValue)
+                for (index in 0 until sent.neighborCount) size.addFor(sent.neighborId(index), sent.neighborValue(index))
+            }
+
+            else -> size.add(sent)
         }
     }
 

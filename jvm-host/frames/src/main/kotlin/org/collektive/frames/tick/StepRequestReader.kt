@@ -58,6 +58,7 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
         tick.number = request.tick()
         tick.time = request.time()
         tick.deltaTime = request.deltaTime()
+        tick.measuresMessages = request.measureMessages()
         tick.nodesRemoved.addVector(FrameLayouts.STEP_REQUEST_NODES_REMOVED, 1)
         for (index in 0 until request.nodesAddedLength()) tick.nodesAdded.add(newNode(request.nodesAdded(node, index)))
         tick.linksRemoved.addVector(FrameLayouts.STEP_REQUEST_LINKS_REMOVED, IDS_OF_A_LINK)

@@ -1,14 +1,16 @@
 package org.collektive.frames.tick
 
 import org.collektive.api.Program
-import org.collektive.engine.IntList
 import org.collektive.engine.RoundDigest
+import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
+import org.collektive.frame.MessageSizes
 import org.collektive.frame.ReloadResponse
 import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
 import org.collektive.frames.AnswerBuffer
 import org.collektive.frames.session.writePrograms
+import org.collektive.spi.MessageSize
 import org.collektive.spi.StoredValues
 
 /** The outcome of a reload: [error], or empty; the [programs] in use; and [values], or `null` if the reload failed. */
@@ -17,15 +19,16 @@ public class ReloadOutcome(internal val error: String, internal val programs: Co
 /** Writes the `StepResponse` of each tick of a session, with the chained digest. */
 public class StepResponseWriter(private val buffer: AnswerBuffer) {
     private val digest = RoundDigest()
+    private val size = MessageSize()
 
     /**
      * Writes [result], whose answers [data] has packed.
      *
-     * @param due the ids of the tick's due nodes.
+     * @param tick its due nodes, and whether to measure their messages.
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
      * @return the position of the response, see [AnswerBuffer.finish].
      */
-    public fun write(result: TickResult, data: UserData, due: IntList, begin: Long, reload: ReloadOutcome?): Long {
+    public fun write(result: TickResult, data: UserData, tick: Tick, begin: Long, reload: ReloadOutcome?): Long {
         val builder = buffer.builder
         digest.begin(result.tick)
         val actuators = data.answers.write(result, buffer, digest)
@@ -34,14 +37,16 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         val reloaded = if (reload == null) 0 else write(reload)
         StepResponse.startNodesVector(builder, result.size - result.failureCount)
         // putInt neither grows nor aligns the buffer, but startNodesVector has done both.
-        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(due[index])
+        for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(tick.due[index])
         val nodes = builder.endVector()
+        val sizes = if (tick.measuresMessages) writeSizes(result) else 0
         StepResponse.startStepResponse(builder)
         StepResponse.addTick(builder, result.tick)
         StepResponse.addDigest(builder, digest.value)
         StepResponse.addNodes(builder, nodes)
         StepResponse.addActuators(builder, actuators)
         if (errors != 0) StepResponse.addErrors(builder, errors)
+        if (sizes != 0) StepResponse.addMessages(builder, sizes)
         StepResponse.addNodeCount(builder, result.nodeCount)
         StepResponse.addLinkCount(builder, result.linkCount)
         val network = result.network
@@ -60,6 +65,18 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         val error = builder.createString(reload.error)
         val programs = ReloadResponse.createProgramsVector(builder, buffer.writePrograms(reload.programs))
         return ReloadResponse.createReloadResponse(builder, error, programs, reload.values?.stored ?: 0, reload.values?.kept ?: 0)
+    }
+
+    private fun writeSizes(result: TickResult): Int {
+        val builder = buffer.builder
+        StepResponse.startMessagesVector(builder, result.size - result.failureCount)
+        for (index in result.size - 1 downTo 0) {
+            if (result.failure(index) != null) continue
+            size.clear()
+            result.export(index)?.measure(size)
+            MessageSizes.createMessageSizes(builder, size.values, size.bytes)
+        }
+        return builder.endVector()
     }
 
     private fun writeErrors(result: TickResult): Int {

@@ -1,7 +1,6 @@
 package org.collektive.host.session
 
 import org.collektive.engine.Engine
-import org.collektive.engine.IntList
 import org.collektive.engine.InvalidTickException
 import org.collektive.engine.Reload
 import org.collektive.engine.RoundTimeoutException
@@ -84,7 +83,7 @@ public class Session internal constructor(
         next.data.accept(tick)
         loaded = next
         val outcome = prepared?.let { ReloadOutcome(it.error, next.programs.infos, result.storedValues) }
-        val place = write(result, tick.due, outcome, slot, answer, begin)
+        val place = write(result, tick, outcome, slot, answer, begin)
         events.end(result, frame.remaining(), place.toInt())
         return place
     }
@@ -115,10 +114,10 @@ public class Session internal constructor(
         throw fail(e) { "tick ${tick.number} failed with an internal error: $e" }
     }
 
-    private fun write(result: TickResult, due: IntList, reload: ReloadOutcome?, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
+    private fun write(result: TickResult, tick: Tick, reload: ReloadOutcome?, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
         events.write()
         buffer.begin(slot, answer)
-        response.write(result, loaded.data, due, begin, reload)
+        response.write(result, loaded.data, tick, begin, reload)
     } catch (e: Throwable) {
         throw fail(e) { "cannot write the answer of tick ${result.tick}: $e" }
     }
