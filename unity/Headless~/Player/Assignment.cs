@@ -59,12 +59,16 @@ namespace Collektive.Headless
             part[path[path.Length - 1]] = value;
         }
 
-        /// <summary>Names of programs may have dots, those of parameters have none.</summary>
+        /// <summary>Names of programs and metrics may have dots, those of parameters have none.</summary>
         private static string[] Path(string key)
         {
             var names = key.Split('.');
-            if (names[0] != Parameters || names.Length < 4) return names;
-            return new[] { Parameters, string.Join(".", names.Skip(1).Take(names.Length - 2)), names[names.Length - 1] };
+            var last = names[names.Length - 1];
+            var isBand = names[0] == "converged" && (last == "from" || last == "to" || last == "seconds");
+            if (names.Length > 3 && (names[0] == Parameters || isBand))
+                return new[] { names[0], string.Join(".", names.Skip(1).Take(names.Length - 2)), last };
+            return names.Length > 2 && (names[0] == "metrics" || names[0] == "converged" && !isBand)
+                ? new[] { names[0], string.Join(".", names.Skip(1)) } : names;
         }
 
         /// <summary>Text of the command line. Strings need no quotes.</summary>

@@ -1,3 +1,5 @@
+using System.Globalization;
+
 namespace Collektive.Headless
 {
     /// <summary>Text in CSV files.</summary>
@@ -7,6 +9,17 @@ namespace Collektive.Headless
 
         /// <summary>Returns a cell with a text, in quotes.</summary>
         internal static string Quoted(string text) => "\"" + text.Replace("\"", "\"\"") + "\"";
+
+        /// <summary>Returns the shortest text that reads back as the same number. Runtimes differ in "R".</summary>
+        internal static string Number(double value)
+        {
+            for (var digits = 15; digits < 17; digits++)
+            {
+                var text = value.ToString("G" + digits, CultureInfo.InvariantCulture);
+                if (double.Parse(text, CultureInfo.InvariantCulture).Equals(value)) return text;
+            }
+            return value.ToString("G17", CultureInfo.InvariantCulture);
+        }
 
         /// <summary>Returns a cell of the header, in quotes if it needs them.</summary>
         internal static string Header(string name) => name.IndexOfAny(Special) < 0 ? name : Quoted(name);

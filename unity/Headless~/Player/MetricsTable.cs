@@ -86,7 +86,7 @@ namespace Collektive.Headless
             values.CopyTo(row, 0);
             new double[] { links, sent, dropped, delayed, expired }.CopyTo(row, values.Length);
             var text = second.ToString("0.######", CultureInfo.InvariantCulture);
-            foreach (var value in row) text += "," + value.ToString("R", CultureInfo.InvariantCulture);
+            foreach (var value in row) text += "," + CsvText.Number(value);
             var all = 0.0;
             foreach (var time in whole) all += time;
             foreach (var time in new[] { sense, rules, step, act, physics, all - sense - rules - step - act - physics, all })
