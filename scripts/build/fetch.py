@@ -19,7 +19,7 @@ TOOLS = ROOT / "tools"
 EXPERIMENTS = ROOT / "experiments"
 ACTIONLINT = "1.7.12"
 # Packages for the environment of experiments that only some commands need.
-ADDITIONS = ("experiments-tests", "ray")
+ADDITIONS = ("experiments-tests", "ray", "tune")
 
 
 def fetch(*names: str) -> None:
@@ -228,12 +228,14 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "npm": ([TOOLS / "npm"], _build_tools),
     "prose": ([TOOLS / "prose"], partial(_npm, "prose")),
     "kotlinc": ([TOOLS / "kotlinc", pom_value("kotlin.version")], partial(_maven_jars, "kotlinc")),
+    "junit": ([TOOLS / "junit", pom_value("kotlin.version")], partial(_maven_jars, "junit")),
     "ktlint": ([TOOLS / "ktlint"], partial(_maven_jars, "ktlint")),
     "go": ([ACTIONLINT, shutil.which("go") or ""], _actionlint),
     "python": ([TOOLS / "python", _PYTHON], partial(_environment, TOOLS / "python/requirements.txt")),
     "experiments": (_EXPERIMENTS, _experiments),
     "experiments-tests": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-test.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-test.txt")),
     "ray": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-ray.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-ray.txt")),
+    "tune": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-tune.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-tune.txt")),
     "site-tools": ([TOOLS / "site", _PYTHON], _site_tools),
     "zig": ([TOOLS / "zig"], _zig),
 }

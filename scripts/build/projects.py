@@ -97,6 +97,19 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
     return _cached(BUILD / "programs" / key, "programs.jar", "compile-programs", parts, compile_programs)
 
 
+def test_classes(schema: Part, tests: Part, class_path: Sequence[Path], plugin: Path) -> Path:
+    """Returns the folder with the classes of a folder of Kotlin tests, compiled if they changed. The last jar of the class path has the programs."""
+    fetch.fetch("kotlinc")
+    key = _key([schema, tests], [*class_path, plugin, BUILD / "stamp/kotlinc", find_jdk() / "release"])
+
+    def compile_tests(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
+        (work / "classes").mkdir()
+        run([*_java(), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler", "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", ":".join(map(str, class_path)),
+             "-d", work / "classes", f"-Xplugin={plugin}", f"-Xfriend-paths={class_path[-1]}", *tests.files.values()])
+
+    return _cached(BUILD / "programs" / key, "classes", "compile-tests", [schema, tests], compile_tests)
+
+
 def scripts_dll(schema: Part, scripts: Part) -> Path:
     """Returns the assembly of a folder of C# and the schema's generated code, compiled if they changed."""
     # Traces of exceptions contain the folder.
@@ -119,13 +132,18 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
 
 def _compiler() -> list[str | Path]:
     """Returns the command that compiles programs, without the options of a project. The editor uses the same class in a process that stays."""
+    return [*_java(), "org.collektive.generator.CompileCommand", "--flatc", FLATC, "--include", inputs.CORE]
+
+
+def _java() -> list[str | Path]:
+    """Returns the command line of a JVM with the Kotlin compiler, up to the main class."""
     jdk = find_jdk()
     version = feature_version(jdk)
     # The compiler uses features that newer JVMs warn about.
     quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if version >= 24 else []
     archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:disable"] if version >= 19 else []
-    return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp", f"{BUILD}/kotlinc/*:{GENERATOR_JAR}",
-            "org.collektive.generator.CompileCommand", "--flatc", FLATC, "--include", inputs.CORE]
+    return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp",
+            f"{BUILD}/kotlinc/*:{GENERATOR_JAR}"]
 
 
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:

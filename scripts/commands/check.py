@@ -26,7 +26,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    files = [(file, kind) for path in arguments.paths for file, kind in _files(path)]
+    files = [(file, kind) for path in arguments.paths for file, kind in find_files(path)]
     graph.build("runtime")
     trust = ["--trust-jvm"] if arguments.trust_jvm else []
     invalid = [file for file, kind in files if not (_check_scenario if kind == SCENARIO else _check_experiment)(file, trust)]
@@ -35,11 +35,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 1 if invalid else 0
 
 
-def _files(path: Path) -> list[tuple[Path, str]]:
+def find_files(path: Path) -> list[tuple[Path, str]]:
+    """Returns scenarios and experiments with their kinds: those in a folder, or the given file."""
     if path.is_dir():
         found = [(file, kind) for file in sorted(path.glob("*.json")) if (kind := _kind(file)) is not None]
         if not found:
-            raise Failure(f"check: '{path}' contains no scenarios or experiments; name a folder with scenario files")
+            raise Failure(f"'{path}' contains no scenarios or experiments; name a folder with scenario files")
         return found
     # The player reports the error in any other file.
     return [(path, _kind(path) or SCENARIO)]

@@ -5,6 +5,9 @@ ray (a cluster), shim-slow-on-JDK, csharp-slow-on-JDK. cmake/Tests.cmake declare
 gradle needs Gradle on the PATH or in COLLEKTIVE_GRADLE, and is skipped otherwise. platforms tests the native library for Linux and macOS on ARM64,
 and platforms-all also for Windows, under qemu and Wine if these can be installed. csharp runs on Mono and on CoreCLR.
 
+`test PROJECT` compiles and runs the Kotlin tests of a project: JUnit tests in the folder `tests` beside its programs. PROJECT is a scenario or a
+folder with scenarios.
+
 `test bare [ROOT]...` tests the last commit as root in fresh installations of debian-12, debian-13 and ubuntu-24.04, or the named ones. A system
 whose packages cannot be fetched is skipped.
 
@@ -21,7 +24,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from build import fetch, graph, lock, processes, system
+from build import fetch, graph, lock, processes, project_tests, system
 from build.console import Failure, print_progress
 from build.places import BUILD, GRAPH, RESULTS, ROOT, TEST_PYTHON
 
@@ -64,7 +67,7 @@ class Suite(NamedTuple):
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("suites", nargs="*", metavar="SUITE")
+    parser.add_argument("suites", nargs="*", metavar="SUITE|PROJECT")
     only = parser.add_mutually_exclusive_group()
     only.add_argument("--quick", action="store_const", const=["quick"], dest="run_of", help="run most suites on one JDK without slow tests, in about six "
                       "minutes on two idle cores")
@@ -93,6 +96,8 @@ def run(arguments: argparse.Namespace) -> int:
         return run_long(LONG_RUNS[name], [value] if isinstance(value, str) else value)
     if arguments.suites[:1] == ["bare"]:
         return bare(arguments.suites[1:])
+    if any(is_project(word) for word in arguments.suites):
+        return test_projects([Path(word) for word in arguments.suites])
     return test(arguments.run_of or arguments.suites or ["all"])
 
 
@@ -117,6 +122,26 @@ def bare(roots: Sequence[str]) -> int:
     failure, skipped = fresh.test(roots or list(fresh.ROOTS), RESULTS / "bare")
     cases = results.read(RESULTS / "bare", failure) if skipped < len(roots or fresh.ROOTS) else []
     return results.verdict({"bare": cases}, RESULTS, skipped)
+
+
+def is_project(word: str) -> bool:
+    """Returns whether a word is a path, not a suite. Some folders of this checkout have the names of suites."""
+    path = Path(word)
+    return path.exists() and ("/" in word or word in (".", "..") or path.is_file() or any(path.glob("*.json")))
+
+
+def test_projects(paths: Sequence[Path]) -> int:
+    """Runs the Kotlin tests of users' projects."""
+    graph.build("runtime", "jvm_modules")
+    setup_environment()
+    from tests import results
+    shutil.rmtree(RESULTS / "projects", ignore_errors=True)
+    cases = {}
+    for path in paths:
+        name = path.resolve().name
+        code = project_tests.run(path, RESULTS / "projects" / name)
+        cases[name] = results.read(RESULTS / "projects" / name, "JUnit found no tests, or ended early" if code else "")
+    return results.verdict(cases, RESULTS / "projects")
 
 
 def prepare() -> None:

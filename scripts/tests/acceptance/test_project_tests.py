@@ -1,0 +1,44 @@
+"""Runs the Kotlin tests of a project."""
+import os
+
+from command import Project, collektive
+
+TESTS = """package lamps
+
+import org.collektive.testing.TestNetwork
+import org.junit.jupiter.api.Test
+import it.unibo.collektive.stdlib.spreading.hopDistanceTo
+import kotlin.test.assertEquals
+
+class LampsTest {
+    @Test
+    fun `hops count links`() = TestNetwork().use { network ->
+        network.add(0, 1)
+        network.link(0, 1)
+        assertEquals(mapOf(0 to 0, 1 to 1), network.rounds(2) { hopDistanceTo(localId == 0) })
+    }
+
+    @Test
+    fun `one is two`() = assertEquals(1, 2)
+}
+"""
+
+
+class ProjectTestsTest(Project):
+    def test_tests_run_beside_the_programs(self) -> None:
+        result = collektive("test", "project", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("has no Kotlin tests: create it beside the programs", result.stderr)
+        os.mkdir(self.path("project", "tests"))
+        file = self.path("project", "tests", "LampsTest.kt")
+        for text, code, line in ((TESTS, 1, "1 passed, 1 failed"), (TESTS.replace("(1, 2)", "(2, 2)"), 0, "2 passed, 0 failed"),
+                                 ("fun wrong(", 1, None)):
+            with open(file, "w") as output:
+                output.write(text)
+            result = collektive("test", "project", cwd=self.folder)
+            self.assertEqual(result.returncode, code, result.stderr)
+            if line is not None:
+                self.assertEqual(result.stdout.splitlines()[-1], line)
+            else:
+                self.assertIn("LampsTest.kt:1", result.stderr)
+
