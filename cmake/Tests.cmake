@@ -85,7 +85,7 @@ suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not qui
 suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)
 
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
-set(experiments_tests build:runtime build:failing setup:experiments-tests UNLOCKED
+set(experiments_tests build:runtime build:failing setup:experiments-tests setup:tune UNLOCKED
   SCRIPT experiments.py --junitxml RESULTS/pytest.xml)
 suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 2)
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")

@@ -28,6 +28,7 @@ COMMANDS = {
     "run": "run a scenario without Unity",
     "repeat": "repeat a run from its manifest and compare the results",
     "sweep": "run a scenario for many parameter values",
+    "tune": "search parameter values for the best value of a metric",
     "plot": "plot the results of a sweep",
     "profile": "run a scenario and profile the JVM",
     "replay": "replay a recorded run with its programs or with others",

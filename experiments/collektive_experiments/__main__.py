@@ -1,4 +1,4 @@
-"""The commands ./collektive sweep and plot."""
+"""The commands ./collektive sweep, tune and plot."""
 import argparse
 import os
 import re
@@ -7,7 +7,7 @@ from typing import NoReturn
 
 from . import experiment as experiments
 from . import figure_options
-from .options import add_plot_arguments, add_sweep_arguments
+from .options import add_plot_arguments, add_sweep_arguments, add_tune_arguments
 from .positions import ExperimentError, Located
 from .slurm import run_task, write_job
 from .store import Store
@@ -30,6 +30,7 @@ def main(words: list[str]) -> int:
     commands = parser.add_subparsers(dest="command", required=True)
     sweeping = commands.add_parser("sweep")
     add_sweep_arguments(sweeping)
+    add_tune_arguments(commands.add_parser("tune"))
     task = commands.add_parser("task")
     task.add_argument("folder")
     task.add_argument("index", type=int)
@@ -41,7 +42,7 @@ def main(words: list[str]) -> int:
             return _plot(options)
         if options.command == "task":
             return run_task(options.folder, options.index)
-        return _sweep(options)
+        return _tune(options) if options.command == "tune" else _sweep(options)
     except ExperimentError as error:
         print(f"collektive: {_line(str(error))}", file=sys.stderr)
         return 1
@@ -72,6 +73,16 @@ def _sweep(options: argparse.Namespace) -> int:
         code = sweep(experiment, store, todo, _pool(options, store), options.jobs, options.csv, options.keep_going)
     print("\n".join(path for name in ("runs", "series", "nodes") if os.path.exists(path := os.path.join(out, f"{name}.parquet"))))
     return code
+
+
+def _tune(options: argparse.Namespace) -> int:
+    # Optuna is downloaded only when it is used.
+    from .tune import read_search, tune
+    experiment = experiments.read(options.experiment)
+    search = read_search(experiment)
+    out = options.out or os.path.join("out", os.path.splitext(os.path.basename(options.experiment))[0] + "-tuned")
+    with Store(out) as store:
+        return tune(experiment, search, store, lambda: _pool(options, store), options)
 
 
 def _pool(options: argparse.Namespace, store: Store) -> Pool:

@@ -28,6 +28,10 @@ def connect(address: str, bundle: str) -> None:
     environment = {"working_dir": bundle, "py_modules": [os.path.dirname(os.path.abspath(__file__))]}
     try:
         ray.init(address=address, runtime_env=environment, log_to_driver=False, logging_level=logging.ERROR)
+    except RuntimeError as error:
+        if "Version mismatch" not in str(error):
+            raise
+        raise ExperimentError(f"{' '.join(str(error).split())} Install the same versions of Ray and Python on all nodes.") from error
     except ConnectionError as error:
         if address != "auto":
             raise ExperimentError(f"cannot connect to the Ray cluster at {address}: {error}") from error

@@ -11,7 +11,7 @@ from typing import Any
 from .figure_options import FigureOptions, check_keys, read_options
 from .positions import ExperimentError, Located
 
-KEYS = ("version", "scenario", "vary", "zip", "set", "measure", "figures", "labels")
+KEYS = ("version", "scenario", "vary", "zip", "set", "measure", "figures", "labels", "tune")
 VERSION = 1
 MAX_RUNS = 100_000
 MAX_PREFIX = 120
@@ -145,7 +145,7 @@ def read(path: str) -> Experiment:
 def _read_vary(located: Located, part: str) -> list[tuple[str, list[Any]]]:
     varied = []
     for key, values in located.root.get(part, {}).items():
-        _reject_fixed_key(located, part, key)
+        reject_fixed_key(located, part, key)
         if isinstance(values, str):
             values = _range(located, part, key, values)
         if not isinstance(values, list):
@@ -175,11 +175,11 @@ def _range(located: Located, part: str, key: str, range_text: str) -> list[int]:
 
 def _read_set(located: Located) -> Values:
     for key in located.root.get("set", {}):
-        _reject_fixed_key(located, "set", key)
+        reject_fixed_key(located, "set", key)
     return dict(located.root.get("set", {}))
 
 
-def _reject_fixed_key(located: Located, part: str, key: str) -> None:
+def reject_fixed_key(located: Located, part: str, key: str) -> None:
     if key.split(".")[0] in FIXED:
         raise located.error(f"'{key}' cannot vary, because the sweep compiles and copies once: set it in the scenario", part, key)
     if key in NOT_FOR_RUNS or key == "outputs":

@@ -1,23 +1,37 @@
 """The options of ./collektive sweep. This module has no dependencies, because ./collektive loads it without the package."""
 import argparse
 import os
+import re
 
 
 def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive sweep."""
-    parser.add_argument("experiment", metavar="EXPERIMENT.json")
-    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME)")
-    parser.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)), metavar="N",
-                        help="simultaneous runs (default: the number of processors)")
+    where = _add_run_arguments(parser)
+    where.add_argument("--slurm", action="store_true", help="write an array job for the remaining runs, slurm.sh, instead of running them")
     parser.add_argument("--resume", action="store_true", help="continue a sweep that was stopped; complete runs are not repeated")
     parser.add_argument("--csv", action="store_true", help="also write runs.csv and series.csv")
     parser.add_argument("--dry-run", action="store_true", help="print the number of runs and their estimated time, after two trial runs")
     parser.add_argument("--keep-going", action="store_true", help="continue even if the first runs all fail in the same way")
+
+
+def add_tune_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds the arguments of ./collektive tune."""
+    _add_run_arguments(parser)
+    parser.add_argument("--trials", type=_positive, metavar="N", help="total number of trials (default: that of the experiment file, or 50)")
+    parser.add_argument("--resume", action="store_true", help="continue a search; complete runs are not repeated")
+
+
+def _add_run_arguments(parser: argparse.ArgumentParser) -> "argparse._MutuallyExclusiveGroup":
+    """Adds the arguments of commands that execute runs. Returns the group of options for other machines."""
+    parser.add_argument("experiment", metavar="EXPERIMENT.json")
+    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME)")
+    parser.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)), metavar="N",
+                        help="simultaneous runs (default: the number of processors)")
     parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
     parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--ray", metavar="ADDRESS", help="run on the Ray cluster at ADDRESS; auto uses the local cluster, and starts one if none is running")
-    where.add_argument("--slurm", action="store_true", help="write an array job for the remaining runs, slurm.sh, instead of running them")
+    return where
 
 
 def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
@@ -28,7 +42,9 @@ def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--by", metavar="KEY", help="key that colours, markers and line styles show; the vertical axis of a heat map")
     parser.add_argument("--kind", metavar="line|box|heat|ecdf", help="kind of figure (default: line)")
     parser.add_argument("--log", metavar="x|y|xy", help="logarithmic axes")
-    parser.add_argument("--range", metavar="A:B", help="limits of the metric's axis (write --range=A:B if A is negative)")
+    # Otherwise, -1:1 would be an unknown option.
+    parser._negative_number_matcher = re.compile(r"-[0-9.]")
+    parser.add_argument("--range", metavar="A:B", help="limits of the metric's axis")
     parser.add_argument("--size", metavar="WxH", help="size in inches (default: the width of a column, 2.2 high)")
     parser.add_argument("--style", metavar="plain|ieee|acm", help="fonts and axes (default: plain)")
     parser.add_argument("--experiment", metavar="EXPERIMENT.json", help="use the figures and labels of this file instead of those during the sweep")

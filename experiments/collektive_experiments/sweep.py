@@ -2,6 +2,7 @@
 import math
 import os
 import queue
+import re
 import shutil
 import signal
 import sys
@@ -102,7 +103,7 @@ def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> li
     """Creates the folder and the bundle, validates the keys, and returns the runs that are not complete."""
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust)
-    _check_keys(experiment, store, trust)
+    check_keys(experiment, store, trust)
     todo = [run for run in experiment.runs() if not store.is_complete(run)]
     if len(todo) < experiment.count:
         print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are already complete", file=sys.stderr)
@@ -121,7 +122,7 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
 
     Returns 0 if all runs are complete, 1 otherwise, and 130 after Ctrl-C.
     """
-    code = _drive(store, experiment, todo, pool, jobs, experiment.count - len(todo), math.inf if keep_going else MAX_EQUAL_FAILURES)
+    code = drive(store, experiment.count, todo, pool, jobs, math.inf if keep_going else MAX_EQUAL_FAILURES)
     written = tables.write(experiment, store, with_csv)
     if code == 0 and written != experiment.count:
         raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; "
@@ -148,9 +149,10 @@ def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> fl
     return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
 
 
-def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, jobs: int, done: int, most_equal: float) -> int:
+def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, most_equal: float) -> int:
+    """Executes the remaining ones of `total` runs, and stops after `most_equal` first ones that fail in the same way. Returns the exit code of `sweep`."""
     ended: queue.SimpleQueue[Ended | BaseException] = queue.SimpleQueue()
-    progress = Progress(experiment.count, done, jobs)
+    progress = Progress(total, total - len(todo), jobs)
     interrupted: list[int] = []
     handlers = {number: signal.signal(number, lambda number, frame: interrupted.append(number)) for number in (signal.SIGINT, signal.SIGTERM)}
     failed = 0
@@ -189,10 +191,10 @@ def _drive(store: Store, experiment: Experiment, todo: list[Task], pool: Pool, j
             signal.signal(number, handler)
     progress.end()
     if interrupted:
-        print(f"collektive: interrupted; {progress.done} of {experiment.count} runs are complete; to continue, add --resume", file=sys.stderr)
+        print(f"collektive: interrupted; {progress.done} of {total} runs are complete; to continue, add --resume", file=sys.stderr)
         return 128 + interrupted[0]
     if failed:
-        print(f"collektive: {failed} of {experiment.count} runs are not complete; to repeat them, add --resume", file=sys.stderr)
+        print(f"collektive: {failed} of {total} runs are not complete; to repeat them, add --resume", file=sys.stderr)
     return 1 if failed else 0
 
 
@@ -201,8 +203,12 @@ def _require_room(store: Store) -> None:
         raise OSError(f"the disk of '{store.folder}' is full")
 
 
-def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
-    """Validates each value of each key with the player, combined with the first values of the other keys, except those that vary together."""
+def check_keys(experiment: Experiment, store: Store, trust: bool, others: Iterable[tuple[dict[str, object], tuple[str | int, ...]]] = ()) -> list[str]:
+    """Validates each value of each key with the player, combined with the first values of the other keys, except those that vary together,
+    and `others` with these.
+
+    Returns the names of the metrics.
+    """
     worker = Worker(store.bundle, os.path.join(store.logs, "check.txt"), trust)
     located = experiment.located
     try:
@@ -213,7 +219,7 @@ def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
         rows = [dict(zip([key for key, _ in experiment.together], row)) for row in zip(*(values for _, values in experiment.together))]
         candidates: Iterable[tuple[dict[str, object], tuple[str | int, ...]]] = [
             *(({key: value}, ("vary", key, index)) for key, values in experiment.product for index, value in _sample(values)),
-            *((row, ("zip", experiment.together[0][0], index)) for index, row in _sample(rows))]
+            *((row, ("zip", experiment.together[0][0], index)) for index, row in _sample(rows)), *others]
         for values, place in candidates:
             problem, metrics = worker.check(experiment.settings({**base, **values}))
             if problem:
@@ -222,6 +228,7 @@ def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
             if name not in metrics:
                 raise located.error(f"the scene has no metric '{name}'; it has: {', '.join(metrics)}", "measure", name)
         _check_figures(experiment, list(experiment.measure or metrics))
+        return metrics
     except WorkerError as error:
         raise ExperimentError(str(error)) from error
     finally:
@@ -231,7 +238,8 @@ def _check_keys(experiment: Experiment, store: Store, trust: bool) -> None:
 def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
     """Checks the names of metrics in `figures` and `labels`."""
     converged = list(Located(experiment.scenario).root.get("converged", {}))
-    converged += [key.split(".")[1] for key in [*experiment.fixed, *experiment.keys] if key.startswith(CONVERGED)]
+    keys = [key.removeprefix(CONVERGED) for key in [*experiment.fixed, *experiment.keys] if key.startswith(CONVERGED)]
+    converged += [re.sub(r"\.(from|to|seconds)$", "", key) for key in keys]
     converged += experiment.fixed.get("converged", {})
     numbers = [name for name, kind in tables.RUN_COLUMNS + tables.RUN_TIMES if not pa.types.is_string(kind)]
     at_end = [*metrics, *(CONVERGED + name for name in dict.fromkeys(converged))]

@@ -1,0 +1,61 @@
+"""The search for parameter values."""
+import csv
+import json
+import subprocess
+from typing import Any
+
+import pytest
+from conftest import Project
+
+TUNE: dict[str, Any] = {"metric": "agreeing", "direction": "maximize", "trials": 3,
+                        "parameters": {"fields.lamps": {"from": 3, "to": 6}, "network.loss": [0, 0.5]}}
+
+
+def tune(project: Project, *words: str, **changes: Any) -> subprocess.CompletedProcess[str]:
+    path = project.experiment(vary={"seed": "1-2"}, set={"seconds": 1}, tune={**TUNE, **changes})
+    command = project.command("tune", path, "--out", str(project.folder / "out"), "--jobs", "2", *words)
+    return subprocess.run(command, capture_output=True, text=True, timeout=120)
+
+
+def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
+    first = tune(project)
+    assert first.returncode == 0, first.stderr
+    again = tune(project)
+    assert again.returncode == 1
+    assert "continue it with --resume" in again.stderr
+    other = tune(project, "--resume", metric="dropped", direction="minimize")
+    assert other.returncode == 1
+    second = tune(project, "--resume", "--trials", "5")
+    assert second.returncode == 0, second.stderr
+    with open(project.folder / "out/trials.csv") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["trial"] for row in rows] == ["0", "1", "2", "3", "4"]
+    best = max(rows, key=lambda row: float(row["agreeing"]))
+    assert f"5 trials, best agreeing {float(best['agreeing']):g} in trial" in second.stdout
+    # The value of a trial is the mean of its runs.
+    for row in rows:
+        ends = [json.loads((folder / "manifest.json").read_text()) for folder in (project.folder / "out/runs").iterdir()]
+        values = [end["end"]["agreeing"] for end in ends if end["scenario"]["fields"]["lamps"] == int(row["fields.lamps"])
+                  and end["scenario"]["network"]["loss"] == float(row["network.loss"])]
+        assert len(values) == 2
+        assert float(row["agreeing"]) == pytest.approx(sum(values) / 2)
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"metric": "agreement"}, "'tune.metric' is 'agreement', which does not exist; these exist: agreeing"),
+    ({"parameters": {}}, "'tune.parameters' must be an object with the values of each key"),
+    ({"parameters": {"seed": [1, 2]}}, "'seed' is in 'tune', and also in 'vary', 'zip' or 'set'"),
+    ({"parameters": {"fields.lamps": [3]}}, "must be at least two different strings, numbers or booleans"),
+    ({"parameters": {"fields.lamps": {"from": 3, "to": 3}}}, "'from' must be below 'to'"),
+    ({"parameters": {"fields.lamps": {"from": 3, "too": 5}}}, "must be a list, or an object with the numbers 'from' and 'to'"),
+    ({"parameters": {"fields.lmps": [3, 4]}}, "no public field 'lmps'"),
+    ({"parameters": {"programs": ["a", "b"]}}, "'programs' cannot vary"),
+    ({"direction": "up"}, "'tune.direction' is \"up\", it must be one of: minimize, maximize"),
+    ({"trials": 0}, "'tune.trials' is 0, it must be a whole number above 0"),
+    ({"sampler": "x"}, "unknown key 'tune.sampler'"),
+])
+def test_an_invalid_search_is_refused_with_its_line(project: Project, changes: dict[str, Any], message: str) -> None:
+    result = tune(project, **changes)
+    assert result.returncode == 1
+    assert message in result.stderr
+    assert "experiment.json:" in result.stderr
