@@ -1,6 +1,6 @@
 /*
- * Platform functions. Only the files prim_* depend on the operating system: prim_posix.c and prim_signals_posix.c serve Linux and macOS, whose
- * semaphores differ; prim_windows.c serves Windows. Paths, names and texts are UTF-8 on all platforms.
+ * Platform functions. Only the files prim_* depend on the operating system: prim_posix.c, prim_semaphore_posix.c and prim_signals_posix.c serve
+ * Linux and macOS, prim_windows.c serves Windows. Paths, names and texts are UTF-8 on all platforms.
  * Any thread may call these functions, unless stated otherwise.
  */
 #ifndef COLLEKTIVE_PRIM_H
@@ -49,18 +49,14 @@ typedef pthread_once_t prim_once;
 #if defined(__APPLE__)
 #define PRIM_LIBJVM "lib/server/libjvm.dylib"
 #define PRIM_SYSTEM "Darwin"
-typedef struct {
-    void *own;                       /* of libdispatch; NULL in shared memory */
-    _Atomic uint32_t count, waiting; /* in shared memory */
-} prim_semaphore;
 #else
 #define PRIM_LIBJVM "lib/server/libjvm.so"
 #define PRIM_SYSTEM "Linux"
+#endif
 typedef struct {
     _Atomic uint32_t count, waiting;
-    int scope;
+    bool shared;
 } prim_semaphore;
-#endif
 #endif
 
 #if defined(__aarch64__)
