@@ -56,6 +56,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
   suite(csharp-own-process-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
     SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
+  suite(csharp-debugger-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Debugger)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()
 # On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.

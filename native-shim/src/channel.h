@@ -1,6 +1,6 @@
 /*
  * The beginning of the memory that the process of the caller (the parent) shares with the JVM's own process (the child). Any number of blocks
- * of slots follow. One side at a time owns all fields above `log`: the child from `request` to `done`, otherwise the parent.
+ * of slots follow. One side at a time owns all fields except `debugged` and `log`: the child from `request` to `done`, otherwise the parent.
  *
  *   parent: fills in `call`                   posts `request`, waits for `done`
  *   child:  runs it, fills in the result      posts `done`, waits for `request`
@@ -42,6 +42,7 @@ struct channel {
     int32_t answer_offset, answer_length;
     int32_t capacity;          /* of CHANNEL_GROW */
     uint64_t wrapped;          /* direct ByteBuffers created by this child */
+    atomic_bool debugged;      /* written by the child at any time; see host_share_debugged */
     char text[ERROR_CAPACITY]; /* error, or the version after the start */
     struct log_ring log;       /* written by the child, read by the parent at any time */
 };

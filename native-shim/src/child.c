@@ -152,6 +152,7 @@ static void reset_channel(void) {
     channel->version = CLK_VERSION;
     channel->size = sizeof *channel;
     channel->wrapped = 0;
+    atomic_store(&channel->debugged, false);
     channel->result = CHANNEL_SILENT;
     atomic_store(&child.stopping, false);
 }
@@ -161,6 +162,7 @@ static int32_t share_memory(void) {
     child.channel = (struct channel *)(void *)slots_share(CHANNEL_BYTES);
     if (child.channel == NULL) return CLK_MEMORY;
     log_share(&child.channel->log, false);
+    host_share_debugged(&child.channel->debugged);
     return CLK_OK;
 }
 
@@ -180,7 +182,7 @@ static int32_t await_start(int64_t deadline) {
     }
     int32_t result = child.channel->result;
     if (result != CHANNEL_SILENT) return result == CLK_OK ? CLK_OK : channel_error(result);
-    if (strstr(child.reason, MAIN_CLASS) != NULL)
+    if (strstr(child.reason, "load main class " MAIN_CLASS) != NULL)
         return error_set(CLK_HOST, "the class path lacks " MAIN_CLASS " of the version of this shim: %s", child.reason);
     return error_set(CLK_JVM_START, "the JVM did not start: %s; correct the JVM options, or reinstall the JVM", child.reason);
 }
@@ -213,16 +215,6 @@ static struct channel_block place_of(const struct block *block) {
     return (struct channel_block){.offset = block->offset, .capacity = block->capacity};
 }
 
-/* Hands the call to the child and waits for its answer. */
-static int32_t exchange(int64_t deadline) {
-    prim_semaphore_post(&child.channel->request);
-    if (!prim_semaphore_wait_until(&child.channel->done, deadline))
-        return error_set(CLK_TIMEOUT, "the JVM's process did not answer within the time limit");
-    if (child_is_alive()) return CLK_OK;
-    child_announce();
-    return engine_check_running();
-}
-
 static int32_t finish(struct host_call *call) {
     struct channel *channel = child.channel;
     int32_t result = channel->result, offset = channel->answer_offset, length = channel->answer_length;
@@ -237,16 +229,15 @@ static int32_t finish(struct host_call *call) {
     return CLK_OK;
 }
 
-int32_t child_run(struct host_call *call, int64_t deadline) {
+int32_t child_begin(const struct host_call *call) {
     struct channel *channel = child.channel;
-    bool has_frames = call->entry < HOST_CALLS;
-    if (has_frames && (call->request->offset == 0 || call->answer->offset == 0)) {
-        return error_set(CLK_ARGUMENT,
-                         "the slot was acquired before the first JVM in a separate process started; release it and acquire another");
-    }
     channel->call.entry = (int32_t)call->entry;
     channel->call.session = call->session;
-    if (has_frames) {
+    if (call->entry < HOST_CALLS) {
+        if (call->request->offset == 0 || call->answer->offset == 0) {
+            return error_set(CLK_ARGUMENT,
+                             "the slot was acquired before the first JVM in a separate process started; release it and acquire another");
+        }
         channel->call.slot = call->slot;
         channel->call.offset = call->offset;
         channel->call.length = call->length;
@@ -254,15 +245,25 @@ int32_t child_run(struct host_call *call, int64_t deadline) {
         channel->call.request = place_of(call->request);
         channel->call.answer = place_of(call->answer);
     }
-    for (;;) {
-        int32_t result = exchange(deadline);
-        if (result != CLK_OK) return result;
-        if (channel->result != CHANNEL_GROW || !has_frames) return finish(call);
+    prim_semaphore_post(&channel->request);
+    return CLK_OK;
+}
+
+int32_t child_await(struct host_call *call, int64_t deadline) {
+    struct channel *channel = child.channel;
+    while (prim_semaphore_wait_until(&channel->done, deadline)) {
+        if (!child_is_alive()) {
+            child_announce();
+            return engine_check_running();
+        }
+        if (channel->result != CHANNEL_GROW || call->entry >= HOST_CALLS) return finish(call);
         bool grown = call->grow(call, channel->capacity);
         if (grown) channel->call.answer = place_of(call->answer);
         if (!grown) text_export(error_last(), channel->text, ERROR_CAPACITY);
         channel->result = grown ? CLK_OK : CLK_MEMORY;
+        prim_semaphore_post(&channel->request);
     }
+    return CLK_TIMEOUT;
 }
 
 int32_t child_stop(int32_t limit_ms, int64_t deadline) {

@@ -23,9 +23,11 @@ bool child_is_alive(void);
 /* Sets the state from running to lost if the child has ended unexpectedly. Only for a child that is not alive. */
 void child_announce(void);
 
-/* Runs a call like host_run and host_close. Returns CLK_JVM_LOST if the child has ended, and CLK_TIMEOUT if the deadline passed first; the child
- * then goes on. */
-int32_t child_run(struct host_call *call, int64_t deadline);
+/* Begins a call like host_run and host_close. */
+int32_t child_begin(const struct host_call *call);
+
+/* Waits for the call, as engine_await does. */
+int32_t child_await(struct host_call *call, int64_t deadline);
 
 /* Lets the child end in order. Returns CLK_TIMEOUT if it has not ended by the deadline. Call child_end afterwards. */
 int32_t child_stop(int32_t limit_ms, int64_t deadline);

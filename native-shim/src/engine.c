@@ -12,9 +12,6 @@
 /* Enough for deeply nested class loading and static initialisers. */
 #define STACK_BYTES ((size_t)16 * 1024 * 1024)
 
-/* Phases of the work. ABANDONED: its caller stopped waiting. HANDED_OVER: the caller also left, so the engine thread ends the turn. */
-enum phase { IDLE, BUSY, ABANDONED, HANDED_OVER };
-
 static struct {
     prim_once once;
     prim_semaphore turn;    /* one token: the right to use the data that the turn guards */
@@ -24,7 +21,7 @@ static struct {
     engine_work *work;
     int32_t result;
     char error[ERROR_CAPACITY];
-    atomic_int phase;
+    atomic_bool busy; /* `work` has not ended */
 
     atomic_int state;
     atomic_flag losing;
@@ -84,17 +81,10 @@ int32_t engine_check_running(void) {
     }
 }
 
-/* Reclaims the turn from work that may never end. */
-static void reclaim_turn(void) {
-    int handed_over = HANDED_OVER;
-    if (atomic_compare_exchange_strong(&engine.phase, &handed_over, ABANDONED)) prim_semaphore_post(&engine.turn);
-}
-
 /* Wakes the caller that waits for work. It then leaves its turn, which wakes the callers that wait for the turn one by one. */
 static void wake_all(void) {
     prim_run_once(&engine.once, init);
     prim_semaphore_post(&engine.done);
-    reclaim_turn();
 }
 
 void engine_lose(const char *format, ...) {
@@ -121,14 +111,7 @@ int32_t engine_enter(int64_t deadline) {
     return error_set(CLK_TIMEOUT, "the engine was busy with another call for the whole limit and did not execute this one; retry it");
 }
 
-void engine_leave(void) {
-    int abandoned = ABANDONED;
-    if (!atomic_compare_exchange_strong(&engine.phase, &abandoned, HANDED_OVER)) {
-        prim_semaphore_post(&engine.turn);
-    } else if (atomic_load(&engine.state) != CLK_STATE_RUNNING) {
-        reclaim_turn(); /* wake_all has already run */
-    }
-}
+void engine_leave(void) { prim_semaphore_post(&engine.turn); }
 
 /* ---- Work ------------------------------------------------------------------------------------------------------------ */
 
@@ -144,11 +127,8 @@ static void engine_main(void) {
         prim_semaphore_wait(&engine.request);
         engine.result = engine.work();
         if (engine.result != CLK_OK) text_export(error_last(), engine.error, sizeof engine.error);
-        switch (atomic_exchange(&engine.phase, IDLE)) {
-            case BUSY: prim_semaphore_post(&engine.done); break;
-            case HANDED_OVER: prim_semaphore_post(&engine.turn); break;
-            default: break; /* the caller has not left yet */
-        }
+        atomic_store(&engine.busy, false);
+        prim_semaphore_post(&engine.done);
     }
 }
 
@@ -162,7 +142,8 @@ static void repair_signals(void) {
     log_format(CLK_LOG_WARNING, "another library had replaced %d signal handlers of the JVM; they were restored", repaired);
 }
 
-int32_t engine_run(engine_work *work, int64_t deadline) {
+int32_t engine_begin(engine_work *work) {
+    if (atomic_load(&engine.busy)) return error_set(CLK_TIMEOUT, "the engine is busy with work that exceeded its limit; retry later");
     if (engine_state() == CLK_STATE_RUNNING) repair_signals();
     if (!engine.started) {
         engine.started = prim_thread_start(engine_main, "collektive", STACK_BYTES);
@@ -170,15 +151,22 @@ int32_t engine_run(engine_work *work, int64_t deadline) {
             return error_set(CLK_MEMORY, "cannot create the JVM thread (16 MB stack); free memory or raise the limit of threads");
     }
     engine.work = work;
-    atomic_store(&engine.phase, BUSY);
+    atomic_store(&engine.busy, true);
     prim_semaphore_post(&engine.request);
-    if (!prim_semaphore_wait_until(&engine.done, deadline)) {
-        int busy = BUSY;
-        if (atomic_compare_exchange_strong(&engine.phase, &busy, ABANDONED)) {
-            return error_set(CLK_TIMEOUT, "the engine thread did not answer within the time limit");
-        }
-        prim_semaphore_wait(&engine.done); /* the work ended after all */
+    return CLK_OK;
+}
+
+int32_t engine_await(int64_t deadline) {
+    while (prim_semaphore_wait_until(&engine.done, deadline)) {
+        if (!atomic_load(&engine.busy)) return engine.result == CLK_OK ? CLK_OK : error_set(engine.result, "%s", engine.error);
+        int32_t running = engine_check_running();
+        if (running != CLK_OK) return running; /* woken by wake_all, not by work that nobody waited for */
     }
-    if (atomic_load(&engine.phase) != IDLE) return engine_check_running(); /* woken by wake_all */
-    return engine.result == CLK_OK ? CLK_OK : error_set(engine.result, "%s", engine.error);
+    return CLK_TIMEOUT;
+}
+
+int32_t engine_run(engine_work *work, int64_t deadline) {
+    int32_t result = engine_begin(work);
+    if (result == CLK_OK) result = engine_await(deadline);
+    return result == CLK_TIMEOUT ? error_set(CLK_TIMEOUT, "the engine thread did not answer within the time limit") : result;
 }

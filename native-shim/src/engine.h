@@ -34,13 +34,18 @@ void engine_end(void);
 /* Takes the turn. Returns CLK_TIMEOUT if the deadline passed first. */
 int32_t engine_enter(int64_t deadline);
 
-/* Leaves the turn. When engine_run timed out, the turn ends with the abandoned work, or with the JVM. */
 void engine_leave(void);
 
-/* Runs `work` on the engine thread, which the first call starts, and returns its result; sets its error for the caller. Needs the turn.
- * Returns CLK_JVM_LOST if the JVM is lost meanwhile, and CLK_TIMEOUT if the deadline passed first. After CLK_TIMEOUT the work continues, so its
- * data must not change. `work` itself returns neither of these codes. */
+/* Begins `work` on the engine thread, which the first call starts. Needs the turn. Returns CLK_TIMEOUT while earlier work runs. */
 typedef int32_t engine_work(void);
+int32_t engine_begin(engine_work *work);
+
+/* Waits for the work and returns its result; sets its error for the caller. Needs the turn. Returns CLK_JVM_LOST if the JVM is lost meanwhile,
+ * and CLK_TIMEOUT if the deadline passed first: the work continues, so wait again, or lose the JVM. `work` itself returns neither of these
+ * codes. */
+int32_t engine_await(int64_t deadline);
+
+/* Both in one. */
 int32_t engine_run(engine_work *work, int64_t deadline);
 
 /* Returns whether this process was forked from the process that runs the JVM. */

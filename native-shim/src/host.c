@@ -20,6 +20,13 @@ static struct {
     _Atomic uint64_t wrapped;
 } java;
 
+static atomic_bool own_debugged;
+static atomic_bool *debugged = &own_debugged;
+
+bool host_is_debugged(void) { return atomic_load(debugged); }
+
+void host_share_debugged(atomic_bool *shared) { debugged = shared; }
+
 uint64_t host_wrapped(void) { return atomic_load_explicit(&java.wrapped, memory_order_relaxed); }
 
 /* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
@@ -146,6 +153,12 @@ static void JNICALL shim_log(JNIEnv *env, jclass class, jint level, jbyteArray u
     log_write(level < CLK_LOG_DEBUG ? CLK_LOG_DEBUG : level > CLK_LOG_ERROR ? CLK_LOG_ERROR : level, text, length);
 }
 
+static void JNICALL shim_debugger(JNIEnv *env, jclass class, jboolean attached) {
+    (void)env;
+    (void)class;
+    atomic_store(debugged, attached == JNI_TRUE);
+}
+
 /* ---- Natives of java.lang.Shutdown ----------------------------------------------------------------------------------- */
 
 static void refuse_exit(JNIEnv *env) {
@@ -177,7 +190,7 @@ static jclass find_class(JNIEnv *env, const char *name) {
     return global;
 }
 
-bool host_refuse_exit(JNIEnv *env) {
+static void replace_exit(JNIEnv *env) {
     const JNINativeMethod natives[] = {NATIVE("beforeHalt", "()V", shutdown_before_halt), NATIVE("halt0", "(I)V", shutdown_halt)};
     java.security_exception = find_class(env, "java/lang/SecurityException");
     jclass shutdown = (*env)->FindClass(env, "java/lang/Shutdown");
@@ -185,7 +198,8 @@ bool host_refuse_exit(JNIEnv *env) {
         java.security_exception != NULL && shutdown != NULL && (*env)->RegisterNatives(env, shutdown, natives, COUNT(natives)) == JNI_OK;
     (*env)->ExceptionClear(env);
     (*env)->DeleteLocalRef(env, shutdown);
-    return registered;
+    if (!registered)
+        log_format(CLK_LOG_WARNING, "this JVM does not allow the shim to block System.exit: a program that calls it ends the JVM");
 }
 
 static int32_t incompatible(JNIEnv *env, const char *what) {
@@ -195,7 +209,7 @@ static int32_t incompatible(JNIEnv *env, const char *what) {
     return error_set(CLK_HOST, "%s (%s); check that the class path contains the host jar of the same version as the shim", what, text);
 }
 
-int32_t host_bind(JNIEnv *env) {
+static int32_t bind(JNIEnv *env) {
     java.env = env;
     jclass object = (*env)->FindClass(env, "java/lang/Object");
     jclass class = (*env)->FindClass(env, "java/lang/Class");
@@ -206,7 +220,7 @@ int32_t host_bind(JNIEnv *env) {
     cache_name(env, "java/lang/OutOfMemoryError");
 
     const JNINativeMethod natives[] = {NATIVE("grow", "(JI)Ljava/nio/ByteBuffer;", shim_grow), NATIVE("error", "([B)V", shim_error),
-                                       NATIVE("log", "(I[B)V", shim_log)};
+                                       NATIVE("log", "(I[B)V", shim_log), NATIVE("debugger", "(Z)V", shim_debugger)};
     jclass shim = find_class(env, "org/collektive/host/shim/Shim");
     if (shim == NULL || (*env)->RegisterNatives(env, shim, natives, COUNT(natives)) != JNI_OK) {
         return incompatible(env, "cannot register the native methods of org.collektive.host.shim.Shim");
@@ -234,8 +248,10 @@ int32_t host_bind(JNIEnv *env) {
 
 /* ---- Calls ----------------------------------------------------------------------------------------------------------- */
 
-int32_t host_start(char *version, int32_t capacity) {
-    JNIEnv *env = java.env;
+int32_t host_start(JNIEnv *env, char *version, int32_t capacity) {
+    replace_exit(env);
+    int32_t result = bind(env);
+    if (result != CLK_OK) return result;
     jstring string = (*env)->CallStaticObjectMethod(env, java.host, java.start);
     if ((*env)->ExceptionCheck(env)) {
         char text[2048];
@@ -293,12 +309,13 @@ int32_t host_close(clk_session session) {
     return (*env)->ExceptionCheck(env) ? java_error(env, CLK_JAVA, "Host.close") : CLK_OK;
 }
 
-int32_t host_stop(int32_t limit_ms, bool *idle) {
+bool host_stop(int32_t limit_ms) {
     JNIEnv *env = java.env;
-    jboolean ended = (*env)->CallStaticBooleanMethod(env, java.host, java.stop, (jint)limit_ms);
-    if ((*env)->ExceptionCheck(env)) return java_error(env, CLK_JAVA, "Host.stop");
-    *idle = ended == JNI_TRUE;
-    return CLK_OK;
+    jboolean idle = (*env)->CallStaticBooleanMethod(env, java.host, java.stop, (jint)limit_ms);
+    if (!(*env)->ExceptionCheck(env)) return idle == JNI_TRUE;
+    java_error(env, CLK_JAVA, "Host.stop");
+    log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
+    return true;
 }
 
 bool host_run_exit_hooks(void) {

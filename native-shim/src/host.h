@@ -6,6 +6,7 @@
 #define COLLEKTIVE_HOST_H
 
 #include <jni.h>
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include "slots.h"
@@ -32,11 +33,9 @@ struct host_call {
     bool (*grow)(struct host_call *call, int32_t capacity);
 };
 
-/* Loads and binds the classes. Call it before any other function except host_refuse_exit. Errors: CLK_HOST. */
-int32_t host_bind(JNIEnv *environment);
-
-/* Calls Host.start() and copies the version line that it returns. Errors: CLK_HOST. */
-int32_t host_start(char *version, int32_t capacity);
+/* Loads and binds the classes, makes System.exit and Runtime.halt throw SecurityException, if this JVM has their private methods, and copies
+ * the version line of Host.start(). Call it before any other function. Errors: CLK_HOST. */
+int32_t host_start(JNIEnv *environment, char *version, int32_t capacity);
 
 /* Copies a Java string as UTF-8 without allocating, as the heap may be full. The JVM's other threads may call it too. */
 void host_text(JNIEnv *environment, jstring string, char *buffer, int32_t capacity);
@@ -47,14 +46,17 @@ int32_t host_run(struct host_call *call);
 /* Calls Host.close(). Errors: CLK_JAVA. */
 int32_t host_close(clk_session session);
 
-/* Calls Host.stop() and sets `idle` to whether DestroyJavaVM has no thread to wait for. Errors: CLK_JAVA, with `idle` unchanged. */
-int32_t host_stop(int32_t limit_ms, bool *idle);
+/* Calls Host.stop(). False if DestroyJavaVM would wait for threads of programs. */
+bool host_stop(int32_t limit_ms);
 
 /* Runs the shutdown hooks, as DestroyJavaVM does after the last thread. False if this JVM lacks the private method. */
 bool host_run_exit_hooks(void);
 
-/* Makes System.exit and Runtime.halt throw SecurityException. False if this JVM lacks the private methods. */
-bool host_refuse_exit(JNIEnv *environment);
+/* Returns whether a debugger is attached to the JVM, as Shim.debugger last reported. Any thread. */
+bool host_is_debugged(void);
+
+/* Keeps that in memory of both processes. Before the start of the JVM. */
+void host_share_debugged(atomic_bool *shared);
 
 /* Returns the number of direct ByteBuffers created since the start. Any thread. */
 uint64_t host_wrapped(void);

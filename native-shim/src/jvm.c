@@ -163,11 +163,7 @@ static int32_t work_start(void) {
     if (result == CLK_OK) result = create(create_vm, &env);
     if (result != CLK_OK) return result;
     start_halt_thread();
-    if (!host_refuse_exit(env)) {
-        log_format(CLK_LOG_WARNING, "this JVM does not allow the shim to block System.exit: a program that calls it ends the JVM");
-    }
-    result = host_bind(env);
-    return result == CLK_OK ? host_start(jvm.version, sizeof jvm.version) : result;
+    return host_start(env, jvm.version, sizeof jvm.version);
 }
 
 /* ---- Start ----------------------------------------------------------------------------------------------------------- */
@@ -278,7 +274,9 @@ static int32_t end_child(void) {
 static int32_t stop_child(int32_t limit_ms) {
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int lock = lock_archive(limit_ms);
-    int32_t result = child_stop(limit_ms, deadline), ended = end_child();
+    int32_t result = session_settle();
+    if (result == CLK_OK) result = child_stop(limit_ms, deadline);
+    int32_t ended = end_child();
     if (lock >= 0) prim_folder_unlock(lock);
     return ended != CLK_OK ? ended : result;
 }
@@ -333,9 +331,7 @@ static void detach_halt_thread(void) {
  * JVM_Halt stops all threads at a safepoint and calls hook_exit, which does not return. So no Java thread still runs when the process
  * removes its signal handlers. */
 static int32_t work_stop(void) {
-    bool idle = true;
-    if (host_stop(jvm.stop_limit_ms / 2, &idle) != CLK_OK)
-        log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
+    bool idle = host_stop(jvm.stop_limit_ms / 2);
     session_forget_all();
     int lock = lock_archive(jvm.stop_limit_ms);
     if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);
@@ -346,10 +342,10 @@ static int32_t work_stop(void) {
     return CLK_OK;
 }
 
-/* Halts a JVM that does not shut down. False if that is impossible: while JNI_CreateJavaVM runs, after the JVM ended itself, and in a forked
- * child, which has none of its threads. */
+/* Halts a JVM that does not shut down. False if that is impossible: while JNI_CreateJavaVM runs, after the JVM ended itself, while a debugger may
+ * have suspended its threads, and in a forked child, which has none of them. */
 static bool halt(void) {
-    if (!atomic_load(&jvm.created) || jvm.halt == NULL || atomic_load(&jvm.parked) || engine_is_forked()) return false;
+    if (!atomic_load(&jvm.created) || jvm.halt == NULL || atomic_load(&jvm.parked) || host_is_debugged() || engine_is_forked()) return false;
     atomic_store(&jvm.stopping, true);
     atomic_store(&jvm.halting, true);
     if (!atomic_load(&jvm.halt_thread)) start_halt_thread();

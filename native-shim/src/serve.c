@@ -76,18 +76,7 @@ static int32_t run(void) {
 
 /* When it returns, DestroyJavaVM waits for the other threads. If some of a program's do not end, this ends the process after the hooks. */
 static void stop(int32_t limit_ms) {
-    bool idle = true;
-    if (host_stop(limit_ms / 2, &idle) != CLK_OK)
-        log_format(CLK_LOG_WARNING, "the host did not stop, but the JVM is shut down anyway: %s", error_last());
-    if (!idle && host_run_exit_hooks()) _Exit(0);
-}
-
-static int32_t start(JNIEnv *env) {
-    engine_adopt();
-    if (!host_refuse_exit(env))
-        log_format(CLK_LOG_WARNING, "this JVM does not allow the shim to block System.exit: a program that calls it ends the JVM");
-    int32_t result = host_bind(env);
-    return result == CLK_OK ? host_start(serve.channel->text, ERROR_CAPACITY) : result;
+    if (!host_stop(limit_ms / 2) && host_run_exit_hooks()) _Exit(0);
 }
 
 /* org.collektive.host.Main.serve(token): returns when the JVM must end. CLK_API replaces JNIEXPORT, which belongs to another platform (CMakeLists.txt). */
@@ -100,14 +89,18 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     serve.memory = prim_child_attach(text);
     serve.channel = (struct channel *)(void *)serve.memory;
     serve.blocks = calloc(PRIM_SHARED_BYTES / CHANNEL_ALIGNMENT, sizeof(struct block *)); /* only used pages need memory */
-    if (serve.memory == NULL || serve.blocks == NULL || serve.channel->version != CLK_VERSION ||
-        serve.channel->size != sizeof *serve.channel) {
-        jclass error = (*env)->FindClass(env, "java/lang/IllegalStateException");
-        (*env)->ThrowNew(env, error, "only the shim of the same version starts this class, for a JVM in a separate process");
+    const char *problem = serve.memory == NULL || serve.blocks == NULL ? "cannot map the caller's memory, or out of memory or threads"
+                          : serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel
+                              ? "the caller has a shim of another version"
+                              : NULL;
+    if (problem != NULL) {
+        (*env)->ThrowNew(env, (*env)->FindClass(env, "java/lang/IllegalStateException"), problem);
         return;
     }
     log_share(&serve.channel->log, true);
-    int32_t result = start(env);
+    host_share_debugged(&serve.channel->debugged);
+    engine_adopt();
+    int32_t result = host_start(env, serve.channel->text, ERROR_CAPACITY);
     answer(result);
     while (result == CLK_OK) {
         await_request();

@@ -12,10 +12,13 @@
 
 #define MAX_SESSIONS 256
 #define FIRST_ANSWER_BYTES (64 * 1024)
+#define DEBUG_STEP_MS 100   /* until a step is pending, if a debugger is attached */
+#define DEBUG_CALL_MS 1000  /* until other calls give up */
 
 struct session {
     uint32_t generation; /* 0 before the first use */
     bool open;
+    bool closing; /* closed by the caller, while a debugger stopped the JVM */
     clk_slot answer;
 };
 
@@ -24,6 +27,8 @@ static struct {
     struct session all[MAX_SESSIONS];
     struct session control; /* never opened by a caller: it owns the answer slot of clk_control */
     struct host_call call;  /* the call that the host runs */
+    struct session *caller; /* its session, and not NULL while a debugger may stop the call after its function has returned */
+    int64_t limit, deadline; /* of the call, with the grace period */
     atomic_int count;
     _Atomic uint64_t steps;
 } sessions;
@@ -41,7 +46,9 @@ static clk_session session_handle(const struct session *session) {
 
 static struct session *session_find(clk_session handle) {
     uint32_t index = (uint32_t)handle;
-    if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32) return &sessions.all[index];
+    if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32 &&
+        !sessions.all[index].closing)
+        return &sessions.all[index];
     error_set(CLK_HANDLE, "session 0x%llx is already closed or was never issued; open a new one", (unsigned long long)handle);
     return NULL;
 }
@@ -67,15 +74,22 @@ static int32_t session_take(struct session **taken) {
     return CLK_OK;
 }
 
+/* The caller has closed the session, but the host has not yet. */
+static void session_mark_closing(struct session *session) {
+    session->closing = true;
+    atomic_fetch_sub(&sessions.count, 1);
+}
+
 static void session_release(struct session *session) {
     clk_slot_release(session->answer);
-    session->open = false;
-    atomic_fetch_sub(&sessions.count, 1);
+    if (!session->closing) atomic_fetch_sub(&sessions.count, 1);
+    session->open = session->closing = false;
 }
 
 void session_forget_all(void) {
     if (sessions.control.open) clk_slot_release(sessions.control.answer);
     sessions.control.open = false;
+    sessions.caller = NULL;
     for (struct session *session = sessions.all; session < sessions.all + MAX_SESSIONS; session++) {
         if (session->open) session_release(session);
     }
@@ -95,27 +109,35 @@ static int32_t check_call(int32_t offset, int32_t length, int32_t limit_ms, cons
     return check_limit(limit_ms);
 }
 
-/* Takes the turn if a JVM runs, and sets the deadline of the whole call. */
-static int32_t enter(int32_t limit_ms, int64_t *deadline) {
-    *deadline = prim_now() + limit_ms * PRIM_MILLI;
-    int32_t result = engine_check_running(); /* without waiting */
-    if (result == CLK_OK) result = engine_enter(*deadline);
-    int32_t running = engine_check_running(); /* a JVM lost meanwhile is the more useful error, even after a time-out */
-    if (running != CLK_OK && result == CLK_OK) engine_leave();
-    return running != CLK_OK ? running : result;
-}
-
 static int32_t work_call(void) { return sessions.call.entry == HOST_CLOSE ? host_close(sessions.call.session) : host_run(&sessions.call); }
 
-/* Runs sessions.call, which the host should end by the deadline. If it has not ended after the grace period, the JVM is lost. */
-static int32_t run(int64_t deadline) {
-    deadline += SESSION_GRACE_MS * PRIM_MILLI;
-    if (sessions.call.entry == HOST_STEP) atomic_fetch_add_explicit(&sessions.steps, 1, memory_order_relaxed);
-    int32_t result = child_is_used() ? child_run(&sessions.call, deadline) : engine_run(work_call, deadline);
-    if (result != CLK_TIMEOUT) return result;
+/* Waits for sessions.call. CLK_PENDING if `until` has passed and a debugger is or was attached. If the call has not ended at its deadline, which
+ * a debugger postpones, the JVM is lost. */
+static int32_t await_call(int64_t until) {
+    for (int64_t end = until;;) {
+        int64_t longest = prim_now() + DEBUG_STEP_MS * PRIM_MILLI; /* a debugger may attach meanwhile */
+        if (end > longest) end = longest;
+        int32_t result = child_is_used() ? child_await(&sessions.call, end) : engine_await(end);
+        if (result != CLK_TIMEOUT) return result;
+        int64_t now = prim_now();
+        bool debugged = host_is_debugged();
+        if (debugged) sessions.deadline = now + sessions.limit;
+        if (now >= sessions.deadline) break;
+        if (now >= until && (debugged || sessions.caller != NULL)) return CLK_PENDING;
+        end = now < until ? until : INT64_MAX;
+    }
     engine_lose("the engine thread did not answer within the time limit and a grace period of %d ms", SESSION_GRACE_MS);
     if (child_is_used()) child_end();
     return engine_check_running();
+}
+
+/* Runs sessions.call, which the host should end by the deadline. CLK_PENDING if a debugger has stopped it, and `until` has passed. */
+static int32_t run(int64_t deadline, int64_t until) {
+    sessions.deadline = deadline + SESSION_GRACE_MS * PRIM_MILLI;
+    sessions.limit = sessions.deadline - prim_now();
+    if (sessions.call.entry == HOST_STEP) atomic_fetch_add_explicit(&sessions.steps, 1, memory_order_relaxed);
+    int32_t result = child_is_used() ? child_begin(&sessions.call) : engine_begin(work_call);
+    return result == CLK_OK ? await_call(until) : result;
 }
 
 /* Exchanges the answer's block. The old one is still in use. */
@@ -128,19 +150,29 @@ static bool grow_answer(struct host_call *call, int32_t capacity) {
     return true;
 }
 
-static void unpin_all(struct host_call *call) {
+/* Unpins the blocks of sessions.call. After a loss or failure, Java threads that did not end may still read or write them: they stay pinned and
+ * are not reused while the JVM lives. */
+static int32_t end_call(int32_t result, clk_answer *answer) {
+    struct host_call *call = &sessions.call;
+    if (result == CLK_JVM_LOST || result == CLK_SESSION_FAILED || call->entry >= HOST_CALLS) return result;
+    if (result == CLK_OK && answer != NULL) {
+        answer->offset = call->answer_offset;
+        answer->length = call->answer_length;
+        answer->capacity = call->answer->capacity;
+        answer->address = call->answer->address;
+    }
     slots_unpin(call->request);
     slots_unpin(call->answer);
     for (struct block *block = call->retired, *next; block != NULL; block = next) {
         next = block->next;
         slots_unpin(block);
     }
+    return result;
 }
 
-/* Runs one call of the host and fills `answer`. Needs the turn. */
-static int32_t call_host(enum host_entry entry, const struct session *session, clk_slot slot, int32_t offset, int32_t length,
-                         int64_t deadline, clk_answer *answer) {
-    struct host_call *call = &sessions.call;
+/* Runs one call of the host and fills `answer`. CLK_PENDING if a debugger has stopped it. Needs the turn. */
+static int32_t call_host(enum host_entry entry, struct session *session, clk_slot slot, int32_t offset, int32_t length, int64_t deadline,
+                         clk_answer *answer) {
     struct block *request = slots_pin(slot);
     if (request == NULL) return CLK_HANDLE;
     if ((int64_t)offset + length > request->capacity) {
@@ -153,26 +185,71 @@ static int32_t call_host(enum host_entry entry, const struct session *session, c
         slots_unpin(request);
         return CLK_HANDLE;
     }
-    int64_t left_ms = (deadline - prim_now() + PRIM_MILLI - 1) / PRIM_MILLI;
-    *call = (struct host_call){.entry = entry,
-                               .session = session_handle(session),
-                               .request = request,
-                               .offset = offset,
-                               .length = length,
-                               .slot = session->answer,
-                               .answer = own,
-                               .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms,
-                               .grow = grow_answer};
-    int32_t result = run(deadline);
-    /* These blocks stay pinned and are not reused while the JVM lives: Java threads that did not end may still read or write them. */
-    if (result == CLK_JVM_LOST || result == CLK_SESSION_FAILED) return result;
-    if (result == CLK_OK) {
-        answer->offset = call->answer_offset;
-        answer->length = call->answer_length;
-        answer->capacity = call->answer->capacity;
-        answer->address = call->answer->address;
+    int64_t now = prim_now(), left_ms = (deadline - now + PRIM_MILLI - 1) / PRIM_MILLI;
+    sessions.call = (struct host_call){.entry = entry,
+                                       .session = session_handle(session),
+                                       .request = request,
+                                       .offset = offset,
+                                       .length = length,
+                                       .slot = session->answer,
+                                       .answer = own,
+                                       .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms,
+                                       .grow = grow_answer};
+    int64_t until = now + (entry == HOST_STEP ? DEBUG_STEP_MS : DEBUG_CALL_MS) * PRIM_MILLI;
+    int32_t result = run(deadline, entry == HOST_OPEN ? INT64_MAX : until);
+    if (result == CLK_PENDING) sessions.caller = session;
+    return result == CLK_PENDING ? result : end_call(result, answer);
+}
+
+/* Closes a session in the host. If a debugger has stopped the JVM, a later call completes it. */
+static int32_t close_session(struct session *session, int64_t deadline) {
+    sessions.call = (struct host_call){.entry = HOST_CLOSE, .session = session_handle(session)};
+    int32_t result = run(deadline, prim_now() + DEBUG_CALL_MS * PRIM_MILLI);
+    if (result == CLK_PENDING) {
+        sessions.caller = session;
+        session_mark_closing(session);
+        return CLK_OK;
     }
-    unpin_all(call);
+    if (result != CLK_JVM_LOST) session_release(session);
+    return result;
+}
+
+/* Completes the call that a debugger has stopped, unless its caller still waits for it. */
+static int32_t settle(int64_t deadline) {
+    while (sessions.caller != NULL) {
+        struct session *session = sessions.caller;
+        int32_t result = session->closing || session == &sessions.control ? await_call(prim_now()) : CLK_PENDING;
+        if (result == CLK_PENDING) {
+            return error_set(CLK_TIMEOUT, "a debugger has stopped the JVM; continue the program or detach the debugger, then retry");
+        }
+        sessions.caller = NULL;
+        if (end_call(result, NULL) == CLK_JVM_LOST) return result;
+        if (sessions.call.entry == HOST_CLOSE) {
+            session_release(session);
+        } else if (session->closing) {
+            close_session(session, deadline);
+        }
+    }
+    return CLK_OK;
+}
+
+int32_t session_settle(void) { return settle(prim_now() + PRIM_MILLI); }
+
+static int32_t take_turn(int64_t deadline) {
+    int32_t result = engine_check_running(); /* without waiting */
+    if (result == CLK_OK) result = engine_enter(deadline);
+    int32_t running = engine_check_running(); /* a JVM lost meanwhile is the more useful error, even after a time-out */
+    if (running != CLK_OK && result == CLK_OK) engine_leave();
+    return running != CLK_OK ? running : result;
+}
+
+/* Takes the turn if a JVM runs and no debugger has stopped it, and sets the deadline of the whole call. */
+static int32_t enter(int32_t limit_ms, int64_t *deadline) {
+    *deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int32_t result = take_turn(*deadline);
+    if (result != CLK_OK) return result;
+    result = settle(*deadline);
+    if (result != CLK_OK) engine_leave();
     return result;
 }
 
@@ -203,8 +280,30 @@ int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t len
     int64_t deadline;
     int32_t result = enter(limit_ms, &deadline);
     if (result != CLK_OK) return result;
-    const struct session *found = session_find(session);
+    struct session *found = session_find(session);
     result = found != NULL ? call_host(HOST_STEP, found, slot, offset, length, deadline, answer) : CLK_HANDLE;
+    engine_leave();
+    return result;
+}
+
+int32_t clk_step_wait(clk_session session, int32_t wait_ms, clk_answer *answer) {
+    if (wait_ms < 0) return error_set(CLK_ARGUMENT, "wait_ms is %d; it must be 0 or greater", wait_ms);
+    if (check_call(0, 0, 1, answer) != CLK_OK) return CLK_ARGUMENT;
+    int64_t until = prim_now() + wait_ms * PRIM_MILLI;
+    int32_t result = take_turn(until);
+    if (result != CLK_OK) return result == CLK_TIMEOUT ? CLK_PENDING : result;
+    struct session *found = session_find(session);
+    if (found == NULL) {
+        result = CLK_HANDLE;
+    } else if (sessions.caller != found) {
+        result = error_set(CLK_ARGUMENT, "the session has no pending step; call clk_step first");
+    } else {
+        result = await_call(until);
+        if (result != CLK_PENDING) {
+            sessions.caller = NULL;
+            end_call(result, answer);
+        }
+    }
     engine_leave();
     return result;
 }
@@ -216,22 +315,25 @@ int32_t clk_control(clk_slot slot, int32_t offset, int32_t length, int32_t limit
     if (result != CLK_OK) return result;
     if (!sessions.control.open) result = session_begin(&sessions.control);
     if (result == CLK_OK) result = call_host(HOST_CONTROL, &sessions.control, slot, offset, length, deadline, answer);
+    if (result == CLK_PENDING) result = settle(deadline);
     engine_leave();
     return result;
 }
 
 int32_t clk_session_close(clk_session session, int32_t limit_ms) {
     if (check_limit(limit_ms) != CLK_OK) return CLK_ARGUMENT;
-    int64_t deadline;
-    int32_t result = enter(limit_ms, &deadline);
+    int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
+    int32_t result = take_turn(deadline);
     if (result != CLK_OK) return result;
     struct session *found = session_find(session);
     if (found == NULL) {
         result = CLK_HANDLE;
+    } else if (sessions.caller == found) {
+        session_mark_closing(found);
+        result = settle(deadline) == CLK_JVM_LOST ? CLK_JVM_LOST : CLK_OK;
     } else {
-        sessions.call = (struct host_call){.entry = HOST_CLOSE, .session = session};
-        result = run(deadline);
-        if (result != CLK_JVM_LOST) session_release(found);
+        result = settle(deadline);
+        if (result == CLK_OK) result = close_session(found, deadline);
     }
     engine_leave();
     return result;

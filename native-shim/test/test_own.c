@@ -9,6 +9,10 @@ void own_survives_kills(void) { skip("uses signals"); }
 void own_ends_with_its_parent(void) { skip("uses signals"); }
 void own_with_a_bad_launcher(void) { skip("uses shell scripts"); }
 void own_without_resources(void) { skip("uses limits of POSIX"); }
+void own_without_processes(void) { skip("uses limits of POSIX"); }
+void own_out_of_memory(void) { skip("uses limits of POSIX"); }
+void own_needs_no_shared_memory_folder(void) { skip("uses mounts of Linux"); }
+void own_continues_after_a_suspension(void) { skip("uses signals"); }
 void own_reports_its_death_at_once(void) { skip("uses signals"); }
 void parent(void) { skip("uses signals"); }
 #else
@@ -16,8 +20,10 @@ void parent(void) { skip("uses signals"); }
 #include <errno.h>
 #include <fcntl.h>
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -64,7 +70,10 @@ static bool ends_within(pid_t process, int limit_ms) {
     }
 }
 
-static void start_own(void) { CHECK_OK(start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:ErrorFile=/dev/null"), false, 60000)); }
+static void start_own(void) {
+    CHECK_OK(start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:ErrorFile=/dev/null", "-Dtest.overflow=" TEST_OVERFLOW_LIBRARY), false,
+                      60000));
+}
 
 /* ---- Deaths of the child --------------------------------------------------------------------------------------------- */
 
@@ -85,8 +94,8 @@ static void lose(clk_session session, int way) {
         for (uint64_t i = 0; result == CLK_OK; i++)
             result = i % 3 == 0 ? step(session, GROW, 1 << 12, 60000) : step(session, LOG, 3, 60000);
         CHECK(pthread_join(killer, NULL) == 0);
-    } else if (way == 4) {
-        result = step(session, CRASH, 0, 60000);
+    } else if (way < 6) {
+        result = step(session, way == 4 ? CRASH : OVERFLOW_NATIVELY, 0, 60000);
     } else {
         CHECK(kill(jvm_process(), SIGSTOP) == 0);
         while (result == CLK_OK) result = step(session, EMPTY, 0, 1); /* the signal takes a moment */
@@ -105,12 +114,12 @@ void own_survives_kills(void) {
         start_own();
         if (i == 0) CHECK_OK(clk_slot_acquire(1 << 20, &request, &request_memory));
         CHECK_OK(open_session(&session));
-        lose(session, i % 50 == 49 ? 5 : i % 5);
+        lose(session, i % 50 == 49 ? 6 : i % 6);
         while (clk_log_read(NULL, NULL, 0) >= 0) {
         }
-        if (i == 5) before = descriptors();
-        if (i == 5) bytes = stats().slot_bytes;
-        CHECK(i <= 5 || (stats().slot_bytes == bytes && descriptors() == before));
+        if (i == 6) before = descriptors();
+        if (i == 6) bytes = stats().slot_bytes;
+        CHECK(i <= 6 || (stats().slot_bytes == bytes && descriptors() == before));
     }
     start_own();
     CHECK_OK(clk_jvm_stop(60000));
@@ -132,6 +141,32 @@ void own_reports_its_death_at_once(void) {
     CHECK(kill(jvm_process(), SIGTERM) == 0);
     while (clk_jvm_state() == CLK_STATE_RUNNING) sleep_ms(1);
     CHECK_CODE(CLK_JVM_LOST, "signal 15", open_session(&session));
+}
+
+/* CLK_TEST_SUSPENDED_MS sets the time, which the limit of the call exceeds. */
+static int suspended_ms;
+
+static void *suspend(void *unused) {
+    (void)unused;
+    pid_t process = jvm_process();
+    CHECK(kill(process, SIGSTOP) == 0);
+    for (int left = suspended_ms; left > 0; left -= 100) sleep_ms(100);
+    CHECK(kill(process, SIGCONT) == 0);
+    return NULL;
+}
+
+void own_continues_after_a_suspension(void) {
+    const char *time = getenv("CLK_TEST_SUSPENDED_MS");
+    clk_session session;
+    pthread_t suspender;
+    suspended_ms = time != NULL ? atoi(time) : 2000;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    int64_t begin = now_ns();
+    CHECK(pthread_create(&suspender, NULL, suspend, NULL) == 0);
+    CHECK_OK(step(session, SLEEP, 500, 600000));
+    CHECK(pthread_join(suspender, NULL) == 0 && now_ns() - begin > suspended_ms * 1000000L);
+    CHECK_OK(step(session, GROW, 1 << 20, 60000));
 }
 
 /* ---- Death of the parent --------------------------------------------------------------------------------------------- */
@@ -230,6 +265,64 @@ void own_without_resources(void) {
     CHECK_CODE(CLK_JVM_START, "Too many open files", start_at(java_home(), host_classes, NULL, false, 60000));
     CHECK(descriptors() == before && setrlimit(RLIMIT_NOFILE, &limit) == 0);
     CHECK_OK(start(NULL));
+}
+/* Each limit allows a few more threads: that of the shim, the process, then those of the JVM, until the start succeeds. */
+void own_without_processes(void) {
+    struct rlimit limit = {0};
+    int failures = 0, before = 0;
+    if (getuid() == 0) CHECK(setgid(65534) == 0 && setuid(65534) == 0); /* root has no limit */
+    if (access(host_classes, R_OK) != 0 || access(java_home(), R_OK) != 0) skip("other users cannot read the build");
+    CHECK(getrlimit(RLIMIT_NPROC, &limit) == 0);
+    for (rlim_t processes = 1;; processes += processes < 4 ? 1 : 4) {
+        struct rlimit less = {.rlim_cur = processes, .rlim_max = limit.rlim_max};
+        CHECK(setrlimit(RLIMIT_NPROC, &less) == 0);
+        int32_t result = start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:+UseSerialGC", "-XX:ErrorFile=/dev/null"), false, 10000);
+        if (result == CLK_OK) break;
+        CHECK(result == CLK_MEMORY || result == CLK_JVM_START || result == CLK_TIMEOUT);
+        CHECK(clk_jvm_state() == CLK_STATE_NONE && jvm_process() == 0);
+        if (++failures == 3) before = descriptors();
+        CHECK(failures < 4 || descriptors() == before);
+    }
+    CHECK(failures >= 2);
+    CHECK_OK(clk_jvm_stop(60000));
+}
+
+void own_out_of_memory(void) {
+    clk_session session;
+    struct rlimit limit, less;
+    CHECK(getrlimit(RLIMIT_AS, &limit) == 0);
+    less = (struct rlimit){.rlim_cur = (rlim_t)8 << 30, .rlim_max = limit.rlim_max};
+    CHECK(setrlimit(RLIMIT_AS, &less) == 0);
+    CHECK_CODE(CLK_MEMORY, "Cannot allocate memory", start_at(java_home(), host_classes, NULL, false, 60000));
+    CHECK(setrlimit(RLIMIT_AS, &limit) == 0);
+    start_own();
+    CHECK_OK(clk_slot_acquire(1 << 20, &request, &request_memory));
+    CHECK_OK(open_session(&session));
+    less.rlim_cur = 1 << 20; /* below what the JVM has */
+    CHECK(prlimit(jvm_process(), RLIMIT_AS, &less, NULL) == 0);
+    int32_t result = step(session, EXHAUST, 0, 60000);
+    CHECK(result == CLK_JVM_LOST || result == CLK_JAVA);
+    CHECK(result == CLK_JVM_LOST || clk_session_close(session, 60000) == CLK_OK);
+    clk_jvm_stop(60000);
+    start_own();
+    CHECK_OK(open_session(&session));
+    CHECK_OK(step(session, GROW, 1 << 20, 60000));
+}
+
+/* The memory has no file in this folder. */
+void own_needs_no_shared_memory_folder(void) {
+    clk_session session;
+    if (unshare(CLONE_NEWNS) != 0) skip("mounts need root");
+    CHECK(mount(NULL, "/", NULL, MS_REC | MS_PRIVATE, NULL) == 0 && mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=4k") == 0);
+    FILE *file = fopen("/dev/shm/full", "w");
+    CHECK(file != NULL);
+    setvbuf(file, NULL, _IONBF, 0);
+    while (fputs("full", file) >= 0) {
+    }
+    CHECK(errno == ENOSPC && fclose(file) == 0);
+    start_plain();
+    CHECK_OK(open_session(&session));
+    CHECK_OK(step(session, GROW, 1 << 24, 60000));
 }
 #endif
 

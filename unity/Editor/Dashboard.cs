@@ -39,6 +39,7 @@ namespace Collektive.Unity.Editor
         {
             if (manager.Failure.Length > 0) return "stopped: " + manager.Failure;
             if (!manager.isActiveAndEnabled) return "disabled";
+            if (manager.Simulation.IsPending) return "JVM stopped by the debugger";
             return manager.Paused ? "paused" : "running";
         }
 

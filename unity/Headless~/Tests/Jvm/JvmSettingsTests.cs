@@ -51,7 +51,7 @@ namespace Collektive.Headless.Tests
             };
             Assert.That(Words(settings), Is.EqualTo(
                 "-Xms64m -Xmx128m -XX:+UseZGC -XX:TieredStopAtLevel=1 -XX:CompileThresholdScaling=0.5 -XX:ReservedCodeCacheSize=48m -ea " +
-                "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005 " +
+                "--add-exports=java.base/jdk.internal.vm=ALL-UNNAMED -agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005 " +
                 "-XX:+UnlockDiagnosticVMOptions -XX:-UseLibmIntrinsic -Xss2m"));
             Assert.That(Words(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }),
                 Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2 -Xint"));

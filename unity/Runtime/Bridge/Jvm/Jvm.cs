@@ -81,14 +81,15 @@ namespace Collektive.Bridge
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
 
-        /// <summary>Returns the same as <see cref="GetStatus"/>, or null if no JVM runs.</summary>
+        /// <summary>Returns the same as <see cref="GetStatus"/>, or null if no JVM runs or a debugger stops it.</summary>
         internal static JvmStatus TryGetStatus()
         {
             try
             {
                 return State == JvmState.Running ? GetStatus() : null;
             }
-            catch (BridgeException error) when (error.Error == BridgeError.JvmLost || error.Error == BridgeError.JvmNotRunning)
+            catch (BridgeException error) when (error.Error == BridgeError.JvmLost || error.Error == BridgeError.JvmNotRunning
+                || error.Error == BridgeError.Timeout)
             {
                 return null;
             }

@@ -157,6 +157,8 @@ namespace Collektive.Bridge
             if (codeCacheMb > 0) options.Add("-XX:ReservedCodeCacheSize=" + Text(codeCacheMb) + "m");
             if (cdsArchive && !HasAgent && JavaVersion(javaHome) >= FirstWithAutomaticArchive) note = AddArchive(options, javaHome, hostJar, cacheFolder);
             if (assertions) options.Add("-ea");
+            // With this, the host sees whether a debugger is attached.
+            if (HasAgent) options.Add("--add-exports=java.base/jdk.internal.vm=ALL-UNNAMED");
             if (debugPort != 0) options.Add("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:" + Text(debugPort));
             if (repeatableMaths)
             {

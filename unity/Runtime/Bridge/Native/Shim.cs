@@ -11,6 +11,9 @@ namespace Collektive.Bridge
         /// <summary>Major version of the header that this file was written from.</summary>
         internal const uint Major = 0;
 
+        /// <summary>The code of a step that has not ended.</summary>
+        internal const int Pending = 1;
+
         internal delegate int Copy(IntPtr buffer, int capacity);
 
         [StructLayout(LayoutKind.Sequential)]

@@ -50,6 +50,9 @@ namespace Collektive.Bridge
             ulong session, ulong slot, int offset, int length, int limitMs, Answer* answer);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_step_wait(ulong session, int waitMs, Answer* answer);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int clk_session_close(ulong session, int limitMs);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

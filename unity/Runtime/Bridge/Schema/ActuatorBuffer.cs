@@ -33,8 +33,8 @@ namespace Collektive.Bridge
         internal abstract void CopyPrevious(int index, ref AnswerCopy kept);
 
         /// <summary>
-        /// To be called before the attached frame's memory is written again, as a session does: the next <see cref="Attach"/> makes its elements the
-        /// previous ones.
+        /// To be called before the attached frame's memory is written again, as a session does. Until the next <see cref="Attach"/>, which makes them the
+        /// previous ones, its elements can still be read, but the previous ones cannot.
         /// </summary>
         internal abstract void Retain();
     }

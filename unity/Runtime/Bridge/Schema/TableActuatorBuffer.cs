@@ -60,6 +60,9 @@ namespace Collektive.Bridge
             }
             frame.ToSpan(start, length).CopyTo(copied);
             previousFirst = first - start;
+            // Until the next frame, which may take long while a debugger stops the JVM.
+            frame = previous;
+            first = previousFirst;
         }
 
         private protected override int ElementSize => sizeof(int);

@@ -22,6 +22,7 @@ namespace Collektive.Bridge
         private readonly AnswerMemory answerMemory = new AnswerMemory();
         private readonly ByteBuffer answerBuffer;
         private readonly int closeLimitMs;
+        private double pendingDelta;
         private ulong handle;
 
         private Session(SessionSettings settings, DataSchema schema)
@@ -70,8 +71,9 @@ namespace Collektive.Bridge
         /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with <see cref="Request"/>, and clears
         /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is as before the call.
         /// </summary>
+        /// <returns>Whether the tick has ended. Otherwise a debugger is attached to the JVM: <see cref="TryFinish"/> ends the tick.</returns>
         /// <exception cref="BridgeException">The step failed; see <see cref="BridgeException.Error"/>.</exception>
-        public void Step(double deltaTime, int limitMs)
+        public bool Step(double deltaTime, int limitMs)
         {
             if (handle == 0) throw new ObjectDisposedException(nameof(Session));
             builder.Clear();
@@ -80,14 +82,29 @@ namespace Collektive.Bridge
             var length = builder.DataBuffer.Length - offset;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
             Answer.Actuators.Retain();
-            Shim.Check(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer));
+            pendingDelta = deltaTime;
+            return TryTake(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer), answer);
+        }
+
+        /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for a step that has not ended. Result and exceptions are those of <see cref="Step"/>.</summary>
+        public bool TryFinish(int waitMs)
+        {
+            var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
+            return TryTake(Shim.clk_step_wait(handle, waitMs, &answer), answer);
+        }
+
+        private bool TryTake(int code, Shim.Answer answer)
+        {
+            if (code == Shim.Pending) return false;
+            Shim.Check(code);
             Tick++;
             // Without the rounding errors of the sum.
-            Time = Math.Round(Time + deltaTime, TimeDecimals);
+            Time = Math.Round(Time + pendingDelta, TimeDecimals);
             Request.Clear();
             Point(answer);
             Answer.Read(answerBuffer);
             if (Answer.HasReload) ReadReload();
+            return true;
         }
 
         private void ReadReload()

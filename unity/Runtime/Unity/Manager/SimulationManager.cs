@@ -165,7 +165,7 @@ namespace Collektive.Unity
             grid.Copy(count < 1 ? default : grid.FindNearest(centre, count, grid.MeanRadius), found, distances);
         }
 
-        /// <summary>Runs one tick now, even while paused.</summary>
+        /// <summary>Runs one tick now, even while paused. If a debugger stops the JVM, the tick is completed in a later frame.</summary>
         public void Step()
         {
             if (!isActiveAndEnabled || !Simulation.IsOpen)
@@ -241,9 +241,10 @@ namespace Collektive.Unity
         {
             if (!simulation.IsOpen && !simulation.TryOpen()) return;
             simulation.Log.Show(Logged);
-            if (paused) return;
+            if (simulation.IsPending) Step();
+            if (paused || simulation.IsPending) return;
             accumulated = Math.Min(accumulated + Time.deltaTime, MaxTicksPerFrame * (double)settings.deltaTime);
-            while (accumulated >= settings.deltaTime * RoundingTolerance && isActiveAndEnabled && !paused)
+            while (accumulated >= settings.deltaTime * RoundingTolerance && isActiveAndEnabled && !paused && !simulation.IsPending)
             {
                 accumulated -= settings.deltaTime;
                 Step();

@@ -133,7 +133,7 @@ namespace Collektive.Unity
             data = default;
             if (!(answers is ActuatorBuffer<TData> typed)) return false;
             var age = Simulation.Tick - AnswerTick;
-            data = age == 0 ? typed[answerIndex] : age == 1 ? typed.Previous(answerIndex) : ((AnswerCopy<TData>)kept).Value;
+            data = age == 0 ? typed[answerIndex] : age == 1 && !Simulation.IsPending ? typed.Previous(answerIndex) : ((AnswerCopy<TData>)kept).Value;
             return true;
         }
 
@@ -147,7 +147,7 @@ namespace Collektive.Unity
             {
                 if (answers == null) return null;
                 var age = Simulation.Tick - AnswerTick;
-                return age == 0 ? answers.Get(answerIndex) : age == 1 ? answers.GetPrevious(answerIndex) : kept.Get();
+                return age == 0 ? answers.Get(answerIndex) : age == 1 && !Simulation.IsPending ? answers.GetPrevious(answerIndex) : kept.Get();
             }
         }
 

@@ -19,6 +19,9 @@ namespace Collektive.Unity
         /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
         private const int MaxLinks = 1 << 24;
 
+        private const int BatchWaitMs = 1000;
+        private const double ReportedStopSeconds = 1;
+
         private readonly NodeRegistry registry = new NodeRegistry();
         private readonly SceneGlobals globals;
         // Users' code may make nodes join and leave in a tick; a tick runs the nodes that were present when it began and did not leave.
@@ -27,6 +30,9 @@ namespace Collektive.Unity
         private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
         private Session session;
         private bool isTicking;
+        private bool isReloadRequested;
+        private bool isStopReported;
+        private (long Start, long RulesEnd, long SenseEnd) begun;
         private bool hasWarnedMovedCollider;
 
         /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
@@ -53,6 +59,9 @@ namespace Collektive.Unity
 
         /// <summary>Whether the session is open.</summary>
         internal bool IsOpen { get; private set; }
+
+        /// <summary>Whether a debugger stops the JVM in the tick in progress, which the next <see cref="TryTick"/> continues.</summary>
+        internal bool IsPending { get; private set; }
 
         /// <summary>The error that ended the simulation, or an empty text.</summary>
         internal string Failure { get; private set; } = "";
@@ -162,8 +171,8 @@ namespace Collektive.Unity
                 + "add a Rigidbody, or make the collider a trigger", part);
         }
 
-        /// <summary>Runs one tick.</summary>
-        /// <returns>Whether the tick was completed; otherwise the simulation has ended.</returns>
+        /// <summary>Runs one tick, or continues the one that is pending.</summary>
+        /// <returns>Whether the tick was completed; otherwise it is pending, or the simulation has ended.</returns>
         internal bool TryTick()
         {
             isTicking = true;
@@ -173,17 +182,18 @@ namespace Collektive.Unity
             }
             catch (Exception error)
             {
+                IsPending = false;
                 Fail(error, "tick " + TickInProgress + " failed: ");
             }
             isTicking = false;
             if (!IsOpen) CloseSession();
-            return IsOpen;
+            return IsOpen && !IsPending;
         }
 
         /// <summary>Loads the programs again before the next tick. Nodes keep state and messages at paths that old and new programs share.</summary>
         internal void ReloadPrograms()
         {
-            if (IsOpen) session.Request.Reload(Settings.ToSession().Jars);
+            isReloadRequested = true;
         }
 
         /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="context"/>, or the manager.</summary>
@@ -211,6 +221,9 @@ namespace Collektive.Unity
         internal void End()
         {
             for (var i = Nodes.Count - 1; i >= 0; i--) Remove(Nodes[i]);
+            if (IsPending) Debug.LogWarning("tick " + TickInProgress + " was not completed, because a debugger stops the JVM: continue the program there, "
+                + "or detach the debugger, before the next Play", Manager);
+            IsPending = false;
             IsOpen = false;
             if (!isTicking) CloseSession();
             Errors.LogCounts();
@@ -258,25 +271,10 @@ namespace Collektive.Unity
         /// <summary>Runs the phases of a tick. Users' code may end the simulation in any phase; later phases are then skipped.</summary>
         private void DoTick()
         {
-            var start = Stopwatch.GetTimestamp();
-            TickInProgress = session.Tick + 1;
-            using (TickMarkers.Rules.Auto())
-            {
-                Physics.SyncTransforms();
-                FlushChanges();
-                UpdateRules();
-            }
-            var rulesEnd = Stopwatch.GetTimestamp();
-            using (TickMarkers.Sense.Auto())
-            {
-                Sense();
-                // Last, since users' code may add and remove links until here.
-                Links.Flush(session.Request, registry.IsKnown);
-            }
+            if (!IsPending) Begin();
             if (!IsOpen) return;
-            var senseEnd = Stopwatch.GetTimestamp();
-            session.Request.MeasuresMessages = MeasuresMessages;
-            using (TickMarkers.Step.Auto()) session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
+            using (TickMarkers.Step.Auto()) Step();
+            if (IsPending) return;
             var stepEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Act.Auto())
             {
@@ -287,7 +285,50 @@ namespace Collektive.Unity
             var actEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Physics.Auto()) PhysicsSteps.Advance(this);
             var end = Stopwatch.GetTimestamp();
-            Times = TickTimes.Of(start, rulesEnd, senseEnd, stepEnd, actEnd, end);
+            Times = TickTimes.Of(begun.Start, begun.RulesEnd, begun.SenseEnd, stepEnd, actEnd, end);
+        }
+
+        private void Begin()
+        {
+            begun.Start = Stopwatch.GetTimestamp();
+            TickInProgress = session.Tick + 1;
+            using (TickMarkers.Rules.Auto())
+            {
+                Physics.SyncTransforms();
+                FlushChanges();
+                UpdateRules();
+            }
+            begun.RulesEnd = Stopwatch.GetTimestamp();
+            using (TickMarkers.Sense.Auto())
+            {
+                Sense();
+                // Last, since users' code may add and remove links until here.
+                Links.Flush(session.Request, registry.IsKnown);
+            }
+            begun.SenseEnd = Stopwatch.GetTimestamp();
+        }
+
+        /// <summary>Makes the one call into the JVM. While a debugger stops the JVM, a batch run waits, and others draw frames.</summary>
+        private void Step()
+        {
+            if (IsPending)
+            {
+                IsPending = !session.TryFinish(0);
+                ReportStop();
+                return;
+            }
+            session.Request.MeasuresMessages = MeasuresMessages;
+            IsPending = !session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
+            isStopReported = false;
+            while (IsPending && Application.isBatchMode) IsPending = !session.TryFinish(BatchWaitMs);
+        }
+
+        /// <summary>Not for a tick that is only slow.</summary>
+        private void ReportStop()
+        {
+            if (isStopReported || !IsPending || Stopwatch.GetTimestamp() - begun.SenseEnd < ReportedStopSeconds * Stopwatch.Frequency) return;
+            isStopReported = true;
+            Debug.Log("JVM stopped by the debugger in tick " + TickInProgress + ": continue the program there", Manager);
         }
 
         /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>
@@ -303,6 +344,8 @@ namespace Collektive.Unity
                 if (problem != null) Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
             }
             registry.Flush(session.Request);
+            if (isReloadRequested) session.Request.Reload(Settings.ToSession().Jars);
+            isReloadRequested = false;
         }
 
         /// <summary>Simulated seconds up to which nodes are due in this tick.</summary>

@@ -8,4 +8,6 @@ public final class Shim {
     public static native void error(byte[] utf8);
 
     public static native void log(int level, byte[] utf8);
+
+    public static native void debugger(boolean attached);
 }

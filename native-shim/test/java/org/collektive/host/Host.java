@@ -34,6 +34,10 @@ final class Host {
     private static final int HANG_AT_STOP = 20;
     private static final int WRITE_AT_EXIT = 21;
     private static final int THRASH = 22;
+    private static final int DEBUG = 23;
+    private static final int CRASH_LATER = 24;
+    private static final int OVERFLOW_NATIVELY = 25;
+    private static final int DEBUG_LATER = 26;
 
     private static boolean stays;
     private static volatile boolean hangs;
@@ -106,6 +110,17 @@ final class Host {
                 return 0;
             case HANG:
                 for (;;) Thread.onSpinWait();
+            case OVERFLOW_NATIVELY:
+                System.load(System.getProperty("test.overflow"));
+                return overflow(0);
+            case DEBUG_LATER:
+                Thread.sleep(argument);
+                Shim.debugger(true);
+                Thread.sleep(argument);
+                return 0;
+            case CRASH_LATER:
+                Thread.sleep(argument);
+                // falls through
             case CRASH: {
                 Class<?> unsafe = Class.forName("sun.misc.Unsafe");
                 Field field = unsafe.getDeclaredField("theUnsafe");
@@ -140,6 +155,9 @@ final class Host {
                 new Thread(() -> {
                     for (;;) Thread.onSpinWait();
                 }).start();
+                return 0;
+            case DEBUG:
+                Shim.debugger(argument != 0);
                 return 0;
             case IMPLICIT_NULL:
                 return implicitNulls(argument, answer);
@@ -193,6 +211,9 @@ final class Host {
             return 1;
         }
     }
+
+    /** Recurses in C. */
+    private static native int overflow(int depth);
 
     private static int deeper(int depth) {
         return deeper(depth + 1) + 1;

@@ -2,13 +2,20 @@ package org.collektive.engine
 
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
+import java.util.function.LongSupplier
 
 /**
  * One simulation: nodes, links and their rounds.
  *
  * Call it from one thread at a time; rounds run on the engine's own threads. In steady state the engine allocates nothing per tick.
+ *
+ * @param limitClock nanoseconds for the deadlines of [step].
  */
-public class Engine(private val settings: EngineSettings, private val runtimes: DeviceRuntimes) : AutoCloseable {
+public class Engine @JvmOverloads constructor(
+    private val settings: EngineSettings,
+    private val runtimes: DeviceRuntimes,
+    limitClock: LongSupplier = LongSupplier(System::nanoTime),
+) : AutoCloseable {
     // Declared before `nodes`, because garbage collectors follow the fields in this order.
     private val order = RoundOrder()
     private val nodes = NodeList()
@@ -28,7 +35,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
     }
 
     // Initialised last, because it starts threads.
-    private val pool = RoundPool(if (isSequential) 1 else settings.threads)
+    private val pool = RoundPool(if (isSequential) 1 else settings.threads, limitClock)
 
     /** The last tick whose changes were applied; 0 before the first. */
     public val lastTick: Long get() = clock.tick
@@ -50,7 +57,7 @@ public class Engine(private val settings: EngineSettings, private val runtimes: 
      * An exception fails only its own round: the node keeps the state and messages of its last successful round.
      *
      * @param data reads the sensor data and packs the answers; called on the threads that run the rounds.
-     * @param deadline time limit of all rounds, on the clock of `System.nanoTime()`.
+     * @param deadline end of all rounds, on the clock of the engine's time limits; by default `System.nanoTime()`.
      * @return the outcome, valid until the next call.
      * @throws InvalidTickException when the tick is invalid; nothing has changed.
      * @throws RoundTimeoutException when rounds still run at the deadline; the engine must then be closed.

@@ -3,6 +3,7 @@ package org.collektive.engine
 import java.util.concurrent.atomic.AtomicInteger
 import java.util.concurrent.atomic.AtomicIntegerArray
 import java.util.concurrent.locks.LockSupport
+import java.util.function.LongSupplier
 
 /**
  * The threads that run the rounds of one session. Call [run] from one thread at a time; it allocates nothing.
@@ -10,7 +11,11 @@ import java.util.concurrent.locks.LockSupport
  * Threads process ranges of indices. The assignment of ranges to threads depends on timing, so the results of a task must not depend on
  * their order. If a thread cannot start, the others end.
  */
-internal class RoundPool @JvmOverloads constructor(private val size: Int, start: (Thread) -> Unit = Thread::start) {
+internal class RoundPool(
+    private val size: Int,
+    private val limitClock: LongSupplier = LongSupplier(System::nanoTime),
+    start: (Thread) -> Unit = Thread::start,
+) {
     /** Processes the indices `begin until end` of [input] on the thread [worker]. */
     fun interface Task<in T> {
         fun run(input: T, thread: RoundThread, worker: Int, begin: Int, end: Int)
@@ -60,7 +65,7 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
     /**
      * Runs [task] on [input] over `0 until count` in ranges of [range] indices, and waits for the end.
      *
-     * @return `false` when `System.nanoTime()` passed [deadline] first; the caller must then [abandon] the pool.
+     * @return `false` when the clock of limits passed [deadline] first; the caller must then [abandon] the pool.
      */
     fun <T> run(task: Task<T>, input: T, count: Int, range: Int, deadline: Long): Boolean {
         if (count == 0) return true
@@ -76,10 +81,10 @@ internal class RoundPool @JvmOverloads constructor(private val size: Int, start:
         for (index in 0 until needed) workers[index].start()
         val begin = System.nanoTime()
         while (busy.get() > 0) {
-            val now = System.nanoTime()
-            if (deadline - now <= 0) return false
+            val left = deadline - limitClock.asLong
+            if (left <= 0) return false
             // Spins briefly, because waking an idle core takes longer than the rounds of a small network.
-            if (now - begin < SPIN_NANOS) Thread.yield() else LockSupport.parkNanos(this, deadline - now)
+            if (System.nanoTime() - begin < SPIN_NANOS) Thread.yield() else LockSupport.parkNanos(this, left)
         }
         failure?.let { throw IllegalStateException("an engine thread failed; this is a bug in the engine", it) }
         return true

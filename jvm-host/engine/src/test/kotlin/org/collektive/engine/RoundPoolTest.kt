@@ -3,10 +3,12 @@ package org.collektive.engine
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import java.util.concurrent.CountDownLatch
+import java.util.concurrent.atomic.AtomicBoolean
 import java.util.concurrent.atomic.AtomicIntegerArray
 import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 class RoundPoolTest {
@@ -29,6 +31,18 @@ class RoundPoolTest {
             }
             pool.abandon()
         }
+    }
+
+    @Test
+    @Timeout(60)
+    fun `a limit does not pass while its clock stands still, and passes when it goes on`() {
+        val debugged = AtomicBoolean(true)
+        val pool = RoundPool(1, { if (debugged.get()) 0L else System.nanoTime() })
+        val task = RoundPool.Task<Long> { millis, _, _, _, _ -> Thread.sleep(millis) }
+        assertTrue(pool.run(task, 300L, 1, 1, 1_000_000))
+        debugged.set(false)
+        assertFalse(pool.run(task, 300L, 1, 1, System.nanoTime() + 1_000_000))
+        pool.abandon()
     }
 
     @Test

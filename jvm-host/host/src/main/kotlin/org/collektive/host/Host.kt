@@ -38,6 +38,7 @@ public object Host {
     @JvmStatic
     public fun start(): String {
         log = HostLog(shim).also(HostLog::install)
+        Debugger.watch(shim)
         return "Collektive host, protocol ${SessionOpening.PROTOCOL}, Java ${Runtime.version()} (${System.getProperty("java.vm.name")}, " +
             "${System.getProperty("java.vendor")})"
     }
@@ -62,7 +63,7 @@ public object Host {
             requireLimit(limitMillis)
             val index = indexOf(session)
             if (index < 0) throw HostException(HostError.HANDLE, "unknown session $session")
-            sessions[index].session.step(frame(request, offset, length), slot, answer, begin, begin + millis(limitMillis))
+            sessions[index].session.step(frame(request, offset, length), slot, answer, begin, millis(limitMillis))
         }
 
     /** Processes the `ControlRequest` in [request], which concerns the JVM and not a session: [session] must be 0. */

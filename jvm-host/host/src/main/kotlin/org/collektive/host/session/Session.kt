@@ -13,6 +13,7 @@ import org.collektive.frames.session.writeOpenResponse
 import org.collektive.frames.tick.ReloadOutcome
 import org.collektive.frames.tick.StepResponseWriter
 import org.collektive.frames.tick.UserData
+import org.collektive.host.Debugger
 import org.collektive.host.programs.Programs
 import org.collektive.host.record.RecordWriter
 import org.collektive.host.shim.HostError
@@ -52,16 +53,16 @@ public class Session internal constructor(
      * buffer of [slot].
      *
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
-     * @param deadline end of the time limit, on the same clock.
+     * @param limit time limit of the rounds in nanoseconds; it excludes the time while a debugger is attached.
      * @return the position of the response, `offset << 32 | length`.
      * @throws HostException when the frame is rejected and nothing has changed, or when the session fails and must be closed.
      */
-    public fun step(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
+    public fun step(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, limit: Long): Long {
         failure?.let { throw HostException(HostError.SESSION_FAILED, it) }
-        if (record == null) return run(frame, slot, answer, begin, deadline)
+        if (record == null) return run(frame, slot, answer, begin, limit)
         recording { step(frame) }
         val written = try {
-            run(frame, slot, answer, begin, deadline)
+            run(frame, slot, answer, begin, limit)
         } catch (e: Throwable) {
             recording { failed(e.message ?: e.toString()) }
             throw e
@@ -71,7 +72,7 @@ public class Session internal constructor(
         return written
     }
 
-    private fun run(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, deadline: Long): Long {
+    private fun run(frame: ByteBuffer, slot: Long, answer: ByteBuffer, begin: Long, limit: Long): Long {
         events.begin(begin)
         engine.wake()
         reading { loaded.requests.check(frame) }
@@ -79,7 +80,7 @@ public class Session internal constructor(
         val next = prepared?.loaded ?: loaded
         val tick = reading { next.requests.read() }
         tick.reload = prepared?.change
-        val result = runRounds(tick, next.data, begin, deadline)
+        val result = runRounds(tick, next.data, limit)
         next.data.accept(tick)
         loaded = next
         val outcome = prepared?.let { ReloadOutcome(it.error, next.programs.infos, result.storedValues) }
@@ -98,16 +99,16 @@ public class Session internal constructor(
         return reload.prepare(jars, loaded).also { reading { it.loaded.requests.check(frame) } }
     }
 
-    private fun runRounds(tick: Tick, data: UserData, begin: Long, deadline: Long): TickResult = try {
-        engine.step(tick, data, deadline)
+    private fun runRounds(tick: Tick, data: UserData, limit: Long): TickResult = try {
+        engine.step(tick, data, Debugger.asLong + limit)
     } catch (e: InvalidTickException) {
         throw HostException(HostError.FRAME, e.message.orEmpty(), e)
     } catch (e: RoundTimeoutException) {
         shim.log(LogLevel.ERROR, "${e.message}; stack traces of its threads:")
         e.threads.lineSequence().filter(String::isNotEmpty).forEach { shim.log(LogLevel.ERROR, it) }
         throw fail(e) {
-            val limit = TimeUnit.NANOSECONDS.toMillis(deadline - begin)
-            "${e.message} of $limit ms (stepLimitMs); the log shows what each thread was doing. Fix the program or raise the limit, " +
+            val millis = TimeUnit.NANOSECONDS.toMillis(limit)
+            "${e.message} of $millis ms (stepLimitMs); the log shows what each thread was doing. Fix the program or raise the limit, " +
                 "then start the simulation again"
         }
     } catch (e: Throwable) {

@@ -8,6 +8,7 @@ import org.collektive.frame.Network
 import org.collektive.frame.OpenRequest
 import org.collektive.frames.data.ViewRule
 import org.collektive.frames.session.openRequest
+import org.collektive.host.Debugger
 import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
 import org.collektive.host.library.AggregateLibrary
@@ -59,7 +60,7 @@ public object SessionOpening {
         val library = AggregateLibrary.of(AggregateRuntime.of(request.runtime()), request.runtimeJars().orEmpty())
         val source = ProgramSource(library, request)
         val programs = source.load(jars)
-        return Engine(settings, library.runtimes(ViewRule)).orClose { engine ->
+        return Engine(settings, library.runtimes(ViewRule), Debugger).orClose { engine ->
             record().orClose { writer ->
                 Session(programs, ProgramReload(source, engine, settings.threads, readJars), settings.threads, engine, shim, writer).also {
                     if (event != null) commit(event, programs, settings)

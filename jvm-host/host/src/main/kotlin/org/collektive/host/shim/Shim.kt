@@ -21,6 +21,10 @@ public object Shim {
     /** Logs one line. [level] is a value of `clk_log_level`. Thread-safe and non-blocking. */
     @JvmStatic
     public external fun log(level: Int, utf8: ByteArray)
+
+    /** Reports that a debugger has attached or detached: then the caller must not wait for the host. Thread-safe and non-blocking. */
+    @JvmStatic
+    public external fun debugger(attached: Boolean)
 }
 
 /** The functions of [Shim] as an interface, so that the host also runs without the native library. */
@@ -33,6 +37,9 @@ public interface ShimCalls {
 
     /** See [Shim.log]. */
     public fun log(level: LogLevel, line: String)
+
+    /** See [Shim.debugger]. */
+    public fun debugger(attached: Boolean) {}
 }
 
 internal object NativeShim : ShimCalls {
@@ -41,6 +48,8 @@ internal object NativeShim : ShimCalls {
     override fun error(text: String) = Shim.error(text.encodeToByteArray())
 
     override fun log(level: LogLevel, line: String) = Shim.log(level.ordinal, line.encodeToByteArray())
+
+    override fun debugger(attached: Boolean) = Shim.debugger(attached)
 }
 
 /** The values of `clk_log_level`. */

@@ -98,7 +98,7 @@ internal class Replay(
         val begin = System.nanoTime()
         current = step
         return try {
-            val written = session.step(step.request, 0, answer, begin, begin + LIMIT_NANOS)
+            val written = session.step(step.request, 0, answer, begin, LIMIT_NANOS)
             val offset = (written ushr Int.SIZE_BITS).toInt()
             StepResponseReader(answer.duplicate().order(answer.order()).clear().position(offset).limit(offset + written.toInt()))
         } catch (e: HostException) {
