@@ -11,7 +11,7 @@ import java.util.function.LongSupplier
  * Threads process ranges of indices. The assignment of ranges to threads depends on timing, so the results of a task must not depend on
  * their order. If a thread cannot start, the others end.
  */
-internal class RoundPool(
+internal class RoundPool @JvmOverloads constructor(
     private val size: Int,
     private val limitClock: LongSupplier = LongSupplier(System::nanoTime),
     start: (Thread) -> Unit = Thread::start,
