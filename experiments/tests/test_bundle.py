@@ -4,7 +4,7 @@ import json
 from conftest import Project
 
 
-def test_an_include_that_leads_outside_the_project_is_refused(project: Project) -> None:
+def test_an_include_outside_the_project_is_rejected(project: Project) -> None:
     schema = project.folder / "project/light.fbs"
     outside = project.folder / "outside.fbs"
     outside.write_text("// kept\n")
@@ -22,7 +22,7 @@ def test_results_inside_an_input_are_refused(project: Project) -> None:
     assert f"the results would be inside '{project.folder}/project/programs', which the scenario names as 'programs'" in result.stderr
 
 
-def test_runs_use_what_links_and_includes_led_to(project: Project) -> None:
+def test_runs_use_copies_of_linked_and_included_files(project: Project) -> None:
     folder = project.folder / "project"
     (folder / "light.fbs").rename(project.folder / "light.fbs")
     (folder / "common").mkdir()

@@ -21,7 +21,7 @@ def cluster() -> Iterator[Cluster]:
     made.shutdown()
 
 
-def test_a_node_that_is_lost_loses_no_run_and_does_none_twice(project: Project, cluster: Cluster) -> None:
+def test_a_lost_cluster_node_causes_no_lost_or_duplicate_runs(project: Project, cluster: Cluster) -> None:
     other = next(iter(cluster.worker_nodes))
     driver = project.start("--ray", cluster.address, **KEYS)
     await_runs(project, 4)

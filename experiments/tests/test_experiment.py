@@ -70,13 +70,13 @@ def test_an_object_does_not_replace_keys_in_it(tmp_path: Path) -> None:
     assert [list(run.settings) for run in experiment.runs()] == [["network", "network.loss", "network.jitter"]]
 
 
-def test_a_file_that_is_not_utf_8_is_one_line(tmp_path: Path) -> None:
+def test_a_file_that_is_not_utf_8_is_a_one_line_error(tmp_path: Path) -> None:
     (tmp_path / "experiment.json").write_bytes(b'{"version": "\xff"}')
     with pytest.raises(ExperimentError, match="is not a JSON file: it is not UTF-8"):
         read(str(tmp_path / "experiment.json"))
 
 
-def test_a_pipe_is_not_waited_for(tmp_path: Path) -> None:
+def test_a_pipe_is_rejected_without_reading_it(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "experiment.json")
     with pytest.raises(ExperimentError, match="cannot be read: it is not a file"):
         read(str(tmp_path / "experiment.json"))
@@ -92,7 +92,7 @@ def named(values: dict[str, object]) -> str:
     return name_of(values, values)
 
 
-def test_any_value_makes_a_name_that_folders_may_have() -> None:
+def test_any_value_gives_a_valid_folder_name() -> None:
     assert named({"fields.title": "a/b c.\n", "fields.on": True}).rpartition("-")[0] == "fields.title=a_b_c._,fields.on=true"
     assert len(named({f"fields.{'x' * 1000}": 1})) < 180
     assert "/" not in named({"../../x": "../../y"})

@@ -111,7 +111,7 @@ def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
     (["--by", "program", "--size", "1x1"], "--size leaves too little space for labels: 1x1; enlarge it, or set shorter labels"),
     (["--experiment", "missing.json"], "'missing.json' cannot be read"),
 ])
-def test_wrong_options_are_one_line_before_anything_is_written(out: Path, words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_invalid_options_are_a_one_line_error_and_no_file_is_written(out: Path, words: list[str], message: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(out), *(words if "--metric" in words else ["--metric", "error", *words])]) == 1
     output, errors = capsys.readouterr()
     assert output == "" and errors.count("\n") == 1
@@ -137,7 +137,7 @@ def test_options_of_a_figure_need_a_metric(sweep: str, capsys: pytest.CaptureFix
     (5, '"labels": []', "'labels' must be an object"),
     (6, '"labels": {\n"error": ""}', "'labels.error' is \"\"; it must be a text of one line"),
 ])
-def test_wrong_figures_of_an_experiment_have_a_line(tmp_path: Path, line: int, keys: str, message: str) -> None:
+def test_errors_in_figures_of_an_experiment_have_a_line(tmp_path: Path, line: int, keys: str, message: str) -> None:
     (tmp_path / "scenario.json").write_text("{}")
     path = tmp_path / "experiment.json"
     path.write_text('{"version": 1,\n"scenario": "scenario.json",\n"vary": {"loss": [0, 1],\n"program": "1-11", "seed": "1-2"},\n' + keys + "}")
@@ -165,7 +165,7 @@ def test_figures_and_labels_of_the_experiment_are_on_the_page(tmp_path: Path) ->
     assert "nodes against network.loss" in Path(paths[2]).read_text()
 
 
-def test_two_figures_of_one_name_are_an_error(tmp_path: Path) -> None:
+def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
     figure = {"metric": "error", "x": "network.loss"}
     with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe a figure that exists: 'error-line-network.loss-"):
         plot(write_sweep(tmp_path / "out", 1, figures=[figure, figure]))
@@ -195,7 +195,7 @@ def test_a_key_that_depends_on_x_does_not_divide_figures(tmp_path: Path) -> None
     assert len(list(draw(load(folder), options))) == 1
 
 
-def test_axes_have_scales_limits_and_single_points(sweep: str) -> None:
+def test_axes_support_scales_limits_and_points(sweep: str) -> None:
     def axes(**options: str) -> Any:
         (_, figure, _), *_ = draw(load(sweep), read_options({"metric": "error", "by": "program", **options}))
         return figure.axes[0]

@@ -12,7 +12,7 @@ def test_random_experiments_give_the_rows_of_the_model(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("at", [1, 9, 30, 60, 90, 10_000])
-def test_after_a_failing_call_each_folder_is_complete_or_marked_or_absent(tmp_path: Path, at: int) -> None:
+def test_after_a_failing_system_call_each_folder_is_complete_or_marked_or_absent(tmp_path: Path, at: int) -> None:
     case = Case(random.Random(at))
     case.root |= {"vary": {"seed": [1, 2]}, "zip": {}, "set": {"fields.names": "one"}, "measure": ["one"]}
     calls = try_fault(case, tmp_path, at)

@@ -76,7 +76,7 @@ def test_a_worker_without_a_run_is_not_killed(started: tuple[LocalPool, FakeWork
     assert (worker.kills, worker.stops) == (0, 1)
 
 
-def test_a_run_at_hand_is_killed_and_not_kept(started: tuple[LocalPool, FakeWorker, Events]) -> None:
+def test_a_current_run_is_killed_and_discarded(started: tuple[LocalPool, FakeWorker, Events]) -> None:
     pool, worker, ended = started
     assert worker.began.wait(60)
     pool.stop()

@@ -18,7 +18,7 @@ def results(shift: float, size: int = 20) -> Results:
     return Results(pd.DataFrame(rows), pd.DataFrame(series), None, ["program", "network.loss", "seed"], {"error": "m"})
 
 
-def test_an_effect_has_an_interval_that_holds_it() -> None:
+def test_the_interval_of_an_effect_contains_it() -> None:
     row = compare(results(2), "error", "program").iloc[0]
     assert (row["a"], row["b"], row["n_a"], row["n_b"], row["network.loss"]) == ("a", "b", 20, 20, 0.1)
     assert row["difference_low"] < 2 < row["difference_high"]
@@ -26,7 +26,7 @@ def test_an_effect_has_an_interval_that_holds_it() -> None:
     assert row["p"] < 0.01
 
 
-def test_no_effect_has_an_interval_around_zero() -> None:
+def test_the_interval_of_no_effect_contains_zero() -> None:
     row = compare(results(0), "error", "program").iloc[0]
     assert row["difference_low"] < 0 < row["difference_high"]
     assert row["delta_low"] < 0 < row["delta_high"]
@@ -42,12 +42,12 @@ def test_the_same_values_give_the_same_interval() -> None:
     assert abs((high - low) - 2 * 1.96 * 2.87 / 10 ** 0.5) < 0.3
 
 
-def test_one_value_has_no_interval_and_no_effect() -> None:
+def test_a_single_value_has_no_interval_and_no_effect() -> None:
     assert np.isnan(interval(np.ones(1))).all()
     assert np.isnan(compare(results(2, size=1), "error", "program").iloc[0]["difference"])
 
 
-def test_runs_that_are_not_complete_do_not_count() -> None:
+def test_incomplete_runs_are_ignored() -> None:
     some = results(2)
     some.runs.loc[0, "status"] = "crashed"
     assert compare(some, "error", "program").iloc[0]["n_a"] == 19

@@ -175,7 +175,7 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Study]:
 
 
 @pytest.mark.parametrize(("key", "value", "message"), REFUSED, ids=[f"{key}={json.dumps(value)}" for key, value, _ in REFUSED])
-def test_a_wrong_key_is_refused_with_its_place_before_a_run(study: Study, key: str, value: Any, message: str) -> None:
+def test_an_invalid_key_is_rejected_with_its_position_before_a_run(study: Study, key: str, value: Any, message: str) -> None:
     scenario = copy.deepcopy(SCENARIO)
     part = scenario
     *above, last = key.split(".")
@@ -197,7 +197,7 @@ def test_a_wrong_key_is_refused_with_its_place_before_a_run(study: Study, key: s
             assert int(place[2]) == lines[line - 1].index(json.dumps(value), len(f'  "{last}"')) + 2 + at
 
 
-def test_a_correct_scenario_has_its_metrics(study: Study) -> None:
+def test_checking_a_valid_scenario_returns_its_metrics(study: Study) -> None:
     study.write(SCENARIO)
     assert study.worker.check({"fields.deployment.kind": "Poisson"}) == (None, ["reached", "mean", "sources", "degree_mean"])
 
@@ -221,7 +221,7 @@ def test_a_missing_library_is_reported_with_the_command_that_builds_it(study: St
     {"fields.movement.kind": "Velocity", "fields.neighbourhood.kind": "Nearest"},
     {"fields.deployment.kind": "File", "fields.deployment.file": "walk.gpx", "fields.movement.kind": "Trace", "fields.reading.expression": "exp(-x * time)"},
 ], ids=lambda settings: json.dumps(settings))
-def test_runs_repeat_in_one_process_and_with_two_threads(study: Study, settings: dict[str, Any], tmp_path: Path) -> None:
+def test_runs_are_reproducible_in_one_process_and_with_two_threads(study: Study, settings: dict[str, Any], tmp_path: Path) -> None:
     study.write(SCENARIO)
     results = []
     for threads in (1, 2, 1):
@@ -236,7 +236,7 @@ def test_runs_repeat_in_one_process_and_with_two_threads(study: Study, settings:
     assert not study.worker._idle.is_fresh
 
 
-def test_metrics_are_right(study: Study, tmp_path: Path) -> None:
+def test_metrics_have_the_expected_values(study: Study, tmp_path: Path) -> None:
     scenario = copy.deepcopy(SCENARIO)
     scenario["fields"] = {"deployment": {"nodes": 9, "columns": 3, "spacing": 1}, "neighbourhood": {"radius": 1.1},
                           "sets": [{"name": "other", "ids": [8]}, {"name": "source", "ids": [0], "until": 1}]}
@@ -326,7 +326,7 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
 
 
 @pytest.mark.parametrize(("fields", "seconds", "expected"), SCENES, ids=[json.dumps(fields) for fields, *_ in SCENES])
-def test_nodes_are_where_the_fields_say(study: Study, fields: dict[str, Any], seconds: float, expected: dict[str, tuple[float, float]], tmp_path: Path) -> None:
+def test_fields_set_node_positions(study: Study, fields: dict[str, Any], seconds: float, expected: dict[str, tuple[float, float]], tmp_path: Path) -> None:
     study.write({**SCENARIO, "fields": fields, "metrics": {sql: sql for sql in expected}, "converged": {}})
     outcome = study.worker.run({"seconds": seconds}, "{}", str(tmp_path / "out"), 300, is_repeated=False)
     assert outcome.status == "complete", outcome.message
@@ -344,14 +344,14 @@ def test_nodes_are_where_the_fields_say(study: Study, fields: dict[str, Any], se
      "'sets[0].count' is 4, but obstacles leave 3 nodes"),
     ({"deployment": {"kind": "File", "file": "stations.csv"}, "obstacles": [{"box": [1, 2]}]}, "an obstacle covers node 7 of stations.csv:2"),
 ])
-def test_deployments_without_room_fail_at_the_start(study: Study, fields: dict[str, Any], message: str, tmp_path: Path) -> None:
+def test_deployments_without_enough_space_fail_at_the_start(study: Study, fields: dict[str, Any], message: str, tmp_path: Path) -> None:
     study.write({**SCENARIO, "fields": fields})
     outcome = study.worker.run({}, "{}", str(tmp_path / "out"), 300, is_repeated=False)
     assert outcome.status == "failed"
     assert message in outcome.message
 
 
-def test_a_run_from_its_file_repeats(study: Study, tmp_path: Path) -> None:
+def test_a_run_can_be_repeated_from_its_manifest(study: Study, tmp_path: Path) -> None:
     result = subprocess.run([COLLEKTIVE, "run", study.folder / "scenario.json", "--out", tmp_path / "out", "--set", "deployment.nodes=20",
                              "--set", "outputs.replay=true", "--set", "metrics.none=avg(value) filter (where id < 0)"],
                             capture_output=True, text=True, timeout=300)

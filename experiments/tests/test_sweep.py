@@ -58,7 +58,7 @@ def test_each_run_is_a_row_with_its_parameters_and_results(lamps: Project) -> No
     assert (runs["converged.agreeing"].isna() != runs["censored.agreeing"].isna()).all()
 
 
-def test_each_simulated_second_is_a_row_and_each_node_too(lamps: Project) -> None:
+def test_series_have_a_row_per_second_and_nodes_a_row_per_node(lamps: Project) -> None:
     series = lamps.table(name="series")
     assert list(series["second"]) == [0, 1] * 8
     assert list(series.columns[:6]) == ["run", "fields.lamps", "network.loss", "seed", "second", "agreeing"]
@@ -69,14 +69,14 @@ def test_each_simulated_second_is_a_row_and_each_node_too(lamps: Project) -> Non
     assert list(last["position.x"][:10]) == list(range(10))
 
 
-def test_tables_are_csv_too(lamps: Project) -> None:
+def test_tables_are_also_written_as_csv(lamps: Project) -> None:
     for name in ("runs", "series"):
         table = pd.read_csv(lamps.folder / "out" / f"{name}.csv")
         assert list(table.columns) == pq.read_schema(lamps.folder / "out" / f"{name}.parquet").names
         assert len(table) == len(lamps.table(name=name))
 
 
-def test_one_worker_or_two_or_a_process_for_each_run_give_the_same_digests(lamps: Project, tmp_path: Path) -> None:
+def test_digests_do_not_depend_on_the_number_of_workers_or_processes(lamps: Project, tmp_path: Path) -> None:
     result = lamps.sweep("--jobs", "1", out="one", **EIGHT)
     assert result.returncode == 0, result.stderr
     assert lamps.digests("one") == lamps.digests()
@@ -86,7 +86,7 @@ def test_one_worker_or_two_or_a_process_for_each_run_give_the_same_digests(lamps
     assert "repeated: 10 ticks" in repeated.stdout
 
 
-def test_a_sweep_that_is_done_does_nothing_again_and_takes_more_values(lamps: Project) -> None:
+def test_a_completed_sweep_repeats_no_runs_and_can_be_extended(lamps: Project) -> None:
     record = lamps.run("fields.lamps=5,network.loss=0,seed=1") / "run.json"
     before = record.stat().st_mtime_ns
     refused = lamps.sweep(**EIGHT)
@@ -100,7 +100,7 @@ def test_a_sweep_that_is_done_does_nothing_again_and_takes_more_values(lamps: Pr
     assert "name another folder with --out" in other.stderr
 
 
-def test_scripts_that_changed_are_not_mixed_with_former_runs(project: Project) -> None:
+def test_changed_scripts_are_not_mixed_with_earlier_runs(project: Project) -> None:
     keys = {"vary": {"seed": [1]}}
     assert project.sweep(vary={"sed": [1]}).returncode == 1
     # A sweep that did not come to its first run leaves the folder free.
@@ -121,7 +121,7 @@ def test_scripts_that_changed_are_not_mixed_with_former_runs(project: Project) -
      "'figures[0].metric' is 'converged.glow', which does not exist; these exist: agreeing, seen, converged.seen, nodes"),
     ({"vary": {"seed": [1]}, "labels": {"glow": "x"}}, 10, "'labels.glow' is unknown: it is not one of the varied keys (seed)"),
 ])
-def test_a_key_that_the_scenario_does_not_have_is_named_before_anything_starts(
+def test_an_unknown_scenario_key_is_reported_before_any_run(
         lamps: Project, keys: dict[str, object], line: int, message: str, tmp_path: Path) -> None:
     result = lamps.sweep("--csv", out=str(tmp_path / "out"), **keys)
     assert result.returncode == 1
@@ -164,14 +164,14 @@ def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
     assert not (project.folder / "out").exists()
 
 
-def test_a_dry_run_whose_trial_fails_estimates_nothing(project: Project) -> None:
+def test_a_dry_run_whose_trial_fails_prints_no_estimate(project: Project) -> None:
     result = project.sweep("--dry-run", vary={"fields.lamps": [0, 1]})
     assert result.returncode == 1
     assert "failed (failed: the run had no nodes" in result.stderr
     assert "runs into" not in result.stdout
 
 
-def test_first_runs_that_all_fail_in_the_same_way_end_the_sweep_unless_it_keeps_going(project: Project) -> None:
+def test_a_sweep_stops_if_its_first_runs_fail_in_the_same_way_unless_keep_going(project: Project) -> None:
     keys: dict[str, Any] = {"vary": {"seed": "1-8"}, "set": {"fields.lamps": 0}}
     result = project.sweep(**keys)
     assert result.returncode == 1
@@ -202,7 +202,7 @@ def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(proje
     await_no_worker(project)
 
 
-def test_after_kill_9_of_the_driver_and_of_a_worker_it_goes_on_to_the_same_table(project: Project) -> None:
+def test_a_sweep_killed_with_sigkill_resumes_to_the_same_table(project: Project) -> None:
     driver = project.start(**MANY)
     await_runs(project, 3)
     os.kill(workers(project)[0], signal.SIGKILL)
@@ -220,7 +220,7 @@ def test_after_kill_9_of_the_driver_and_of_a_worker_it_goes_on_to_the_same_table
     assert list(project.table(name="series")["agreeing"]) == list(project.table("whole", "series")["agreeing"])
 
 
-def test_ctrl_c_leaves_what_is_done_and_tables_of_it(project: Project) -> None:
+def test_ctrl_c_keeps_completed_runs_and_writes_their_tables(project: Project) -> None:
     driver = project.start(**MANY)
     await_runs(project, 3)
     driver.send_signal(signal.SIGINT)
@@ -237,7 +237,7 @@ def can_mount() -> bool:
 
 
 @pytest.mark.skipif(not can_mount(), reason="no small disk can be mounted here")
-def test_a_full_disk_stops_the_sweep_which_goes_on_when_there_is_room(project: Project, lamps: Project) -> None:
+def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lamps: Project) -> None:
     disk = project.folder / "disk"
     disk.mkdir()
     keep = project.folder / "out"
@@ -266,7 +266,7 @@ def of_page(language: str) -> str:
     return str(found)
 
 
-def test_the_worked_study_runs_to_its_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     experiment = json.loads((GRADIENTS / "experiment.json").read_text())
     assert experiment == json.loads(of_page("json"))
     experiment["scenario"] = str(GRADIENTS / "scenario.json")
@@ -310,7 +310,7 @@ def test_the_package_can_be_installed_with_pip(tmp_path: Path) -> None:
     assert (tmp_path / "collektive_experiments/__init__.py").exists()
 
 
-def test_an_array_job_of_slurm_does_the_same(lamps: Project) -> None:
+def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
     keys = {**EIGHT, "vary": {**EIGHT["vary"], "fields.lamps": [5]}}
     written = lamps.sweep("--slurm", out="slurm", **keys)
     assert written.returncode == 0, written.stderr

@@ -57,20 +57,20 @@ def change_program(project: Project, statement: str) -> None:
      "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
     ('if (System.AppDomain.CurrentDomain.GetData("lamps") != null) lamps++; System.AppDomain.CurrentDomain.SetData("lamps", "1");', ""),
 ])
-def test_a_run_sees_nothing_of_scripts_before_it(project: Project, build: str, declared: str) -> None:
+def test_a_run_is_not_affected_by_scripts_of_earlier_runs(project: Project, build: str, declared: str) -> None:
     change_scene(project, build, declared)
     result = project.sweep("--jobs", "1", **THREE)
     assert result.returncode == 0, result.stderr
     assert len(set(project.table()["nodes"])) == 1
 
 
-def test_static_fields_get_their_values_in_the_run_that_needs_them(project: Project) -> None:
+def test_static_fields_are_initialised_in_the_run_that_needs_them(project: Project) -> None:
     change_scene(project, "lamps += (int)(First.Value * 50);", "internal static class First { public static readonly float Value = Random.value; }")
     assert project.sweep("--jobs", "1", **THREE).returncode == 0
     assert len(set(project.table()["nodes"])) > 1, "not the value of each run's seed"
 
 
-def test_a_run_sees_nothing_of_programs_before_it(project: Project) -> None:
+def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project) -> None:
     change_program(project, 'val late = System.getProperty("lamps") != null || java.util.Locale.getDefault() == java.util.Locale.GERMANY\n'
                             '    System.setProperty("lamps", "1")\n    java.util.Locale.setDefault(java.util.Locale.GERMANY)\n'
                             '    java.util.TimeZone.setDefault(java.util.TimeZone.getTimeZone("UTC"))')
@@ -83,7 +83,7 @@ def test_a_run_sees_nothing_of_programs_before_it(project: Project) -> None:
 
 
 @pytest.mark.parametrize(("build", "is_used_again"), [("", True), ("System.GC.Collect();", False)])
-def test_a_process_is_used_again_only_for_scripts_that_keep_nothing(project: Project, tmp_path: Path, build: str, is_used_again: bool) -> None:
+def test_a_process_is_reused_only_for_scripts_without_state(project: Project, tmp_path: Path, build: str, is_used_again: bool) -> None:
     change_scene(project, build)
     assert project.sweep(vary={"seed": [1]}).returncode == 0
     worker = Worker(str(project.folder / "out/bundle"), str(tmp_path / "worker.txt"))
@@ -122,14 +122,14 @@ def test_a_script_cannot_fake_a_response(project: Project) -> None:
     assert list(project.table()["status"]) == ["crashed"]
 
 
-def test_a_script_that_closes_its_output_is_ended_by_the_limit(project: Project) -> None:
+def test_a_script_that_closes_its_output_times_out(project: Project) -> None:
     change_scene(project, CLOSED + "while (true) System.Threading.Thread.Sleep(10);")
     result = project.sweep("--time-limit", "3", vary={"seed": [1]})
     assert result.returncode == 1
     assert list(project.table()["status"]) == ["timeout"]
 
 
-def test_a_pipe_that_a_script_left_in_the_folder_is_not_waited_for(project: Project) -> None:
+def test_a_pipe_that_a_script_left_in_the_folder_is_not_read(project: Project) -> None:
     change_scene(project, 'System.Diagnostics.Process.Start("sh", "-c \'cd ../runs/*/ && mkfifo pipe\'").WaitForExit();')
     result = project.sweep(vary={"seed": [1]})
     assert result.returncode == 0, result.stderr
@@ -144,7 +144,7 @@ def test_processes_of_scripts_end_with_the_sweep(project: Project) -> None:
     assert not processes(f"{project.folder}/child")
 
 
-def test_a_folder_is_free_once_a_sweep_has_failed(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failed_sweep_releases_its_folder(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     words = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out")]
 
     def fail(*_: object) -> None:
@@ -160,7 +160,7 @@ def test_a_folder_is_free_once_a_sweep_has_failed(project: Project, monkeypatch:
     assert main(words) == 0
 
 
-def test_a_folder_of_the_users_is_not_touched(project: Project) -> None:
+def test_a_folder_of_the_user_is_not_modified(project: Project) -> None:
     out = project.folder / "out"
     for name in ("bundle", "runs/x.part"):
         (out / name).mkdir(parents=True)
@@ -192,7 +192,7 @@ def test_nothing_is_written_through_a_symbolic_link(project: Project, name: str)
 
 
 @pytest.mark.parametrize("damage", ["empty", "truncated", "removed"])
-def test_damaged_results_are_repeated_by_resume(project: Project, damage: str) -> None:
+def test_resume_repeats_runs_with_damaged_results(project: Project, damage: str) -> None:
     keys = {"vary": {"seed": "1-4"}}
     assert project.sweep(**keys).returncode == 0
     before = project.digests()
@@ -221,7 +221,7 @@ def test_a_scenario_is_read_as_the_player_reads_it(project: Project) -> None:
     assert result.returncode == 0, result.stderr
 
 
-def test_names_and_values_of_metrics_are_data(project: Project) -> None:
+def test_names_and_values_of_metrics_cannot_inject_code_or_paths(project: Project) -> None:
     names = ["<script>alert(1)</script>", '../../x, "y"\n$z$', "../../x, 'y'_$z$"]
     change_scene(project, measure=" values[2] = lamps == 1 ? double.NaN : lamps == 2 ? double.PositiveInfinity : 7;",
                  names="{ " + ", ".join(json.dumps(name) for name in names) + " }")
@@ -241,7 +241,7 @@ def test_names_and_values_of_metrics_are_data(project: Project) -> None:
     assert len(list((out / "figures").glob("*.svg"))) == 6
 
 
-def test_a_table_without_one_of_the_runs_is_an_error(lamps: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_run_in_a_table_is_an_error(lamps: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     experiment = read(lamps.experiment(**EIGHT))
     records = tables._Columns.records
     monkeypatch.setattr(tables._Columns, "records", lambda columns: list(records(columns))[1:])
@@ -268,6 +268,6 @@ def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys:
     assert "has no complete runs to plot" in capsys.readouterr().err
 
 
-def test_a_folder_that_is_not_a_sweep_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_that_is_not_a_sweep_is_a_one_line_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(tmp_path)]) == 1
     assert "is not a folder of a sweep" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-/* The JVM in its own process: deaths of child and parent, and what a start can meet. Only with `own`. */
+/* The JVM in its own process: deaths of child and parent, and failing starts. Only with `own`. */
 #define _GNU_SOURCE
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ void parent(void) { skip("uses signals"); }
 
 extern char **environ;
 
-/* Returns the process id of the JVM, the only child of this process; 0 if there is none. */
+/* Returns the process id of the JVM, the only child of this process; 0 without a child. */
 static pid_t jvm_process(void) {
     char path[300], line[64];
     pid_t found = 0;
@@ -55,7 +55,7 @@ static int descriptors(void) {
     return count;
 }
 
-/* Returns whether the process ends within the limit. A zombie that nobody reaps has ended. */
+/* Returns whether the process ends within the limit. An unreaped zombie counts as ended. */
 static bool ends_within(pid_t process, int limit_ms) {
     char path[64], line[256];
     for (int64_t end = now_ns() + limit_ms * 1000000L;;) {

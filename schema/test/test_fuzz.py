@@ -7,7 +7,7 @@ SEED = 1
 SCHEMAS = 60
 
 
-def test_schemas_are_refused_with_their_line_or_their_data_come_through(tmp_path: Path) -> None:
+def test_random_schemas_are_rejected_with_a_line_or_their_data_round_trips(tmp_path: Path) -> None:
     made, refused, findings = fuzz.batch(str(tmp_path / "batch"), SEED, SCHEMAS)
     print(f"seed {SEED}, {SCHEMAS} random schemas and those of the corpus: {made} made, {refused} refused")
     assert findings == []

@@ -72,7 +72,7 @@ def test_workflows_are_clean_under_actionlint() -> None:
     assert_clean(linter, "-shellcheck", os.path.join(BUILD, "python/bin/shellcheck"), *sources(".github/workflows/*.yml"))
 
 
-def test_texts_are_as_editorconfig_describes() -> None:
+def test_text_files_follow_editorconfig() -> None:
     # ktlint checks Kotlin, and allows long literals and names of tests.
     texts = [path for path in sources("*") if not path.endswith((".kt", ".kts"))]
     assert_clean(os.path.join(BUILD, "python/bin/edcfg-lint"), *texts)
@@ -82,7 +82,7 @@ def pages() -> list[str]:
     return [page for page in sources("*.md") if page not in ("CHANGELOG.md", "THIRD-PARTY.md")]
 
 
-def test_pages_have_no_errors_of_grammar() -> None:
+def test_pages_have_no_grammar_errors() -> None:
     assert_clean("node", "scripts/checks/prose.mjs", *pages(), tools="prose")
 
 

@@ -102,7 +102,7 @@ class ValidatorTest(unittest.TestCase):
         self.change("guids.txt", r"^.* unity/Prefabs/Node\.prefab\n", "")
         self.assert_problem(NODE, "--update")
 
-    def test_an_update_lists_what_is_new_and_forgets_nothing(self) -> None:
+    def test_an_update_lists_new_assets_and_keeps_existing_ones(self) -> None:
         os.remove(os.path.join(self.root, PREFAB))
         os.remove(os.path.join(self.root, PREFAB + ".meta"))
         before = guids.read(self.guids_file)

@@ -12,7 +12,7 @@ HOST_JAR = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
 
 
 class SimultaneousCommandsTest(Project):
-    def test_first_runs_of_one_scenario_compile_and_write_the_class_archive_at_once(self) -> None:
+    def test_simultaneous_first_runs_share_compiled_code_and_one_class_archive(self) -> None:
         with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
             file.write(f"// {self.folder} {os.getpid()}: nothing of it is compiled yet\n")
         home = self.path("home")

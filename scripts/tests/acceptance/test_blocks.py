@@ -31,7 +31,7 @@ def test_each_block_has_a_test() -> None:
 
 
 @pytest.mark.parametrize("page", PAGES)
-def test_no_code_block_is_overlooked(page) -> None:
+def test_all_code_blocks_are_found(page) -> None:
     assert len(re.findall(r"(?m)^ *(?:```|~~~)", text(page))) == 2 * len(blocks(page))
 
 
@@ -48,7 +48,7 @@ def commands():
 
 
 @pytest.mark.parametrize("place, words", commands())
-def test_a_command_that_is_not_run_has_options_that_exist(place, words) -> None:
+def test_commands_that_are_not_run_have_valid_options(place, words) -> None:
     command = os.path.basename(words[0])
     if command == "collektive":
         output = collektive(words[1], "--help")

@@ -15,7 +15,7 @@ class CheckTest(Project):
             json.dump({**scenario, **values}, file, indent=1)
         return path
 
-    def test_a_folder_is_checked_with_its_scenarios_and_experiments(self) -> None:
+    def test_all_scenarios_and_experiments_of_a_folder_are_checked(self) -> None:
         with open(self.path("project", "sweep.json"), "w") as file:
             json.dump({"version": 1, "scenario": "lamps.json", "vary": {"fields.lamps": [5, 7], "seed": "1-2"}}, file)
         before = sorted(os.listdir(self.path("project")))

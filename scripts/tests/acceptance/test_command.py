@@ -21,13 +21,13 @@ class CommandTest(unittest.TestCase):
             self.assertEqual(part.returncode, 0, command)
             self.assertTrue(part.stdout.strip(), command)
 
-    def test_unknown_commands_and_options_are_named(self) -> None:
+    def test_unknown_commands_and_options_are_reported(self) -> None:
         self.assertEqual(collektive("nonesuch").returncode, 2)
         result = collektive("demo", "--nonesuch")
         self.assertEqual(result.returncode, 1)
         self.assertIn("--nonesuch", last_error(result))
 
-    def test_a_site_replaces_no_folder_of_something_else(self) -> None:
+    def test_a_site_does_not_replace_another_folder(self) -> None:
         with tempfile.TemporaryDirectory() as other:
             Path(other, "sitemap.xml").touch()
             for folder in (str(ROOT), other):
@@ -43,7 +43,7 @@ class TestCommandTest(unittest.TestCase):
         self.assertEqual(result.returncode, 2)
         self.assertIn("'no such fault'", last_error(result))
 
-    def test_arguments_too_many_are_refused(self) -> None:
+    def test_extra_arguments_are_rejected(self) -> None:
         for option in ["--exits", "--sanitize"]:
             result = collektive("test", option, "x")
             self.assertEqual(result.returncode, 1)
@@ -52,7 +52,7 @@ class TestCommandTest(unittest.TestCase):
 
 @pytest.mark.quick
 class InvalidDemoOptionsTest(Folder):
-    def test_numbers_that_make_no_sense_are_refused_and_earlier_results_are_kept(self) -> None:
+    def test_invalid_numbers_are_rejected_and_earlier_results_are_kept(self) -> None:
         manifest = Path(self.path("out", "manifest.json"))
         manifest.parent.mkdir()
         manifest.write_text('{"outcome": "complete"}')

@@ -49,7 +49,7 @@ class Compared(Folder):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertEqual([line.split(":")[0] for line in result.stdout.splitlines()], ["each", "fails", "passedOn", "reached"])
 
-    def test_a_difference_is_shrunk_to_the_smallest_network_and_the_shortest_run(self) -> None:
+    def test_a_difference_is_reduced_to_the_smallest_network_and_shortest_run(self) -> None:
         if os.environ.get("COLLEKTIVE_JARS"):
             pytest.skip("the classes are those of this project")
         result = self.compare(DIFFERENT)

@@ -37,7 +37,7 @@ class DemoTest(Folder):
         self.assertRegex(self.whole["digest"], "^[0-9a-f]{16}$")
         self.assertIn("jvm", self.whole["versions"])
 
-    def test_there_is_one_call_a_tick(self) -> None:
+    def test_each_tick_is_one_call(self) -> None:
         self.assertEqual(self.whole["shim_calls"], self.whole["ticks"])
 
     def test_the_swarm_reaches_the_source(self) -> None:
@@ -62,7 +62,7 @@ class DemoTest(Folder):
         self.assertLess(0.8 * self.whole["wall_seconds"], seconds)
         self.assertLess(seconds, self.whole["wall_seconds"] + 0.01)
 
-    def test_a_tenth_of_the_nodes_must_go_round_the_obstacles(self) -> None:
+    def test_obstacles_block_the_way_of_at_least_a_tenth_of_the_nodes(self) -> None:
         metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
         boxes = [shape for shape in metadata["shapes"] if shape["size"] == [1, 3, 5]]
         self.assertEqual(len(boxes), 4)
@@ -86,11 +86,11 @@ class DemoTest(Folder):
         self.assertLessEqual(self.whole["step_ms_median"], 2 * 2, "bridge and rounds, median")
         self.assertLessEqual(self.whole["tick_ms_p99"], 2 * 33, "whole tick, p99")
 
-    def test_the_replay_page_costs_a_tenth_of_the_run_at_most(self) -> None:
+    def test_the_replay_page_takes_at_most_a_tenth_of_the_run(self) -> None:
         self.assertLessEqual(self.whole["replay_ms"], 0.1 * 1000 * self.whole["wall_seconds"])
         self.assertLess(os.path.getsize(os.path.join(self.out, "replay.html")), 3e6, "bytes")
 
-    def test_pictures_are_there_and_named_in_the_output(self) -> None:
+    def test_pictures_are_written_and_listed_in_the_output(self) -> None:
         for name in ["start.png", "middle.png", "end.png", "replay.html", "metrics.csv", "manifest.json"]:
             self.assertGreater(os.path.getsize(os.path.join(self.out, name)), 200)
             self.assertIn(name, self.result.stdout)
@@ -111,7 +111,7 @@ def crosses(start, end, box):
 
 
 class Repeatability(Folder):
-    def test_one_seed_has_one_digest_and_another_seed_another(self) -> None:
+    def test_equal_seeds_have_equal_digests_and_different_seeds_differ(self) -> None:
         digests = []
         for seed, out in [("7", "a"), ("7", "b"), ("8", "c")]:
             result = collektive("demo", "--nodes", "80", "--seconds", "4", "--seed", seed, "--out", self.path(out))
@@ -120,7 +120,7 @@ class Repeatability(Folder):
         self.assertEqual(digests[0], digests[1])
         self.assertNotEqual(digests[0], digests[2])
 
-    def test_threads_and_processes_change_nothing(self) -> None:
+    def test_results_do_not_depend_on_threads_or_placement(self) -> None:
         """Tests bodies that crowd around the source and push each other."""
         with open(os.path.join(SAMPLE, "scenario.json")) as file:
             scenario = json.load(file)
@@ -139,7 +139,7 @@ class Repeatability(Folder):
         self.assertGreater(results[0][1]["contacts"], 300)
         self.assertEqual(results, [results[0]] * 4)
 
-    def test_runs_of_one_seed_are_equal_but_for_the_clock_of_the_machine(self) -> None:
+    def test_runs_with_one_seed_differ_only_in_measured_times(self) -> None:
         shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
         for out in ["a", "b"]:
             result = collektive("run", self.path("project", "lamps.json"), "--seed", "5", "--out", self.path(out))

@@ -38,14 +38,14 @@ class WholeRuns(Project):
         self.assertIn("without its class archive", result.stdout + result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
 
-    def test_an_unknown_program_is_refused_before_anything_is_compiled(self) -> None:
+    def test_an_unknown_program_is_rejected_before_compilation(self) -> None:
         self.change("programs/Brightest.kt", "val mine", "val mine = ")
         result = self.run_it("--set", "program=brigthest")
         self.assertEqual(result.returncode, 1)
         self.assertIn("unknown program 'brigthest'; '", last_error(result))
         self.assertIn("contains brightest", last_error(result))
 
-    def test_runs_that_cannot_be_are_refused(self) -> None:
+    def test_invalid_durations_and_time_steps_are_rejected(self) -> None:
         for old, new, words in [
             ('"seconds": 1', '"seconds": 3e8', ["seconds", "3E+09 ticks", "100 million"]),
             ('"seconds": 1', '"seconds": NaN', ["greater than 0"]),
@@ -67,7 +67,7 @@ class WholeRuns(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("100 million", last_error(result))
 
-    def test_a_replay_ends_where_the_run_ends(self) -> None:
+    def test_a_replay_ends_at_the_end_of_the_run(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.03')
         result = self.run_it("--seconds", "0.3")
@@ -75,7 +75,7 @@ class WholeRuns(Project):
         _, frames = replay.read(self.path("out", "replay.html"))
         self.assertEqual([round(time, 2) for time, *_ in frames], [0, 0.12, 0.24, 0.3])
 
-    def test_seeds_are_of_64_bits_in_files_on_the_command_line_and_in_records(self) -> None:
+    def test_seeds_have_64_bits_in_files_on_the_command_line_and_in_records(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true, "replay": true')
         digests = set()
         for seed in [2**63 - 1, 2**63, 2**64 - 1]:
@@ -97,7 +97,7 @@ class WholeRuns(Project):
                 self.assertIn("2^64 - 1", last_error(result))
             self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
 
-    def test_a_manager_that_a_script_paused_or_disabled_has_not_done_its_ticks(self) -> None:
+    def test_a_run_whose_manager_was_paused_or_disabled_is_incomplete(self) -> None:
         for code, cause in [("manager.Paused = true;", "paused the Simulation Manager"), ("manager.enabled = false;", "disabled the Simulation Manager"),
                             ("Destroy(manager);", "destroyed the Simulation Manager"), ("Time.timeScale = 0;", "set Time.timeScale to 0")]:
             with self.subTest(code):
@@ -107,7 +107,7 @@ class WholeRuns(Project):
                 self.assertIn(f"4 of 10 ticks were completed: a script {cause}; ", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
-    def test_ticks_may_be_as_long_as_an_hour(self) -> None:
+    def test_ticks_can_be_up_to_an_hour_long(self) -> None:
         for schedule in ["Lockstep", "Sequential", "Asynchronous"]:
             for seconds in [0.34, 1, 60, 3600]:
                 with self.subTest(f"{schedule}, {seconds} s"):
@@ -116,7 +116,7 @@ class WholeRuns(Project):
                     self.assertEqual(result.returncode, 0, result.stderr)
                     self.assertEqual(self.manifest(self.path("out"))["ticks"], 3)
 
-    def test_a_stop_condition_and_quit_end_a_run_in_order(self) -> None:
+    def test_a_stop_condition_or_quit_completes_a_run(self) -> None:
         for code, ticks in [("manager.StopCondition = all => true;", 5), ("Application.Quit(0);", 4)]:
             with self.subTest(code):
                 result = self.at_tick_4(code)
@@ -124,7 +124,7 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
 
-    def test_a_script_that_quits_with_a_code_has_not_ended_with_0(self) -> None:
+    def test_the_exit_code_of_a_script_is_returned(self) -> None:
         for code, expected in [(3, 3), (256, 1)]:
             with self.subTest(code):
                 result = self.at_tick_4(f"Application.Quit({code});")
@@ -138,10 +138,10 @@ class WholeRuns(Project):
         self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")
         return result
 
-    def test_a_script_that_ends_the_process_has_not_completed_the_run(self) -> None:
+    def test_a_run_whose_script_ends_the_process_is_incomplete(self) -> None:
         self.assertIn("the player exited with code 0 during the run. Usual causes: ", last_error(self.fails_at_tick_4("System.Environment.Exit(0);")))
 
-    def test_a_crash_of_the_jvm_has_not_completed_the_run(self) -> None:
+    def test_a_run_whose_jvm_crashes_is_incomplete(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     'val mine = sensors.brightness()\n'
                     '    val field = Class.forName("sun.misc.Unsafe").getDeclaredField("theUnsafe").apply { isAccessible = true }\n'
@@ -150,7 +150,7 @@ class WholeRuns(Project):
         self.assertNotEqual(result.returncode, 0)
         self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")
 
-    def test_endless_recursion_in_a_script_is_named(self) -> None:
+    def test_endless_recursion_in_a_script_is_reported(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = SimulationManager.Current.Tick == 4 ? Deep(0) : Brightness;")
         self.change("scene/Lamps.cs", "        protected override void Sense(", """
         private int Deep(int depth) => new object[1000].Length + Deep(depth + 1);
@@ -162,7 +162,7 @@ class WholeRuns(Project):
         self.assertIn(f"the player exited with code {result.returncode} during the run. Usual causes: infinite recursion in a script,", last_error(result))
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "running")
 
-    def test_a_debugger_may_stop_a_run_for_longer_than_the_limit_of_a_tick(self) -> None:
+    def test_a_debugger_can_stop_a_run_longer_than_the_step_limit(self) -> None:
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = str(free.getsockname()[1])
@@ -188,7 +188,7 @@ class WholeRuns(Project):
         self.assertLess(time.monotonic() - began, 60)
         self.assertEqual(processes(self.folder + "/"), {})
 
-    def test_csharp_that_does_not_return_uses_up_the_limit_of_a_tick(self) -> None:
+    def test_csharp_that_does_not_return_exceeds_the_step_limit(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "stepLimitMs": 700')
         caught = "try { System.Threading.Thread.Sleep(100); } catch (System.Exception) { System.Threading.Thread.ResetAbort(); }"
         for code in ["while (true) { }", f"while (true) {{ {caught} }}"]:
@@ -202,7 +202,7 @@ class WholeRuns(Project):
                 self.assertIn(message, last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["outcome"], "failed: " + message)
 
-    def test_no_row_is_lost_however_long_the_run(self) -> None:
+    def test_long_runs_have_all_rows(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "nodes": { "fields": ["position"] }')
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.02, "converged": { "agreeing": { "from": 10, "seconds": 48 } }')
         result = self.run_it("--seconds", "50")
@@ -226,7 +226,7 @@ class WholeRuns(Project):
                 self.assertEqual(list(found), times)
             self.assertIn(self.manifest(self.path("out"))["converged"]["agreeing"], times)
 
-    def test_columns_of_the_metrics_have_different_names(self) -> None:
+    def test_a_metric_with_the_name_of_a_column_is_rejected(self) -> None:
         for name in ["seen", "links", "second"]:
             self.change("scene/Lamps.cs", '"agreeing"', f'"{name}"')
             result = self.run_it()
@@ -235,7 +235,7 @@ class WholeRuns(Project):
             self.assertIn(f"has the metric '{name}', but metrics.csv already has a column of that name: rename the metric", last_error(result))
             self.assertFalse(os.path.exists(self.path("out", "metrics.csv")))
 
-    def test_fields_are_set_to_whole_values_only(self) -> None:
+    def test_malformed_field_values_are_rejected(self) -> None:
         for value in ["0,5", "010", "0x10", "1 2", "[1", ""]:
             result = self.run_it("--set", f"lamps={value}")
             self.assertEqual(result.returncode, 1, value)

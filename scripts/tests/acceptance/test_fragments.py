@@ -78,14 +78,14 @@ class Fragments(Folder):
         folder = Path(self.written("kotlin", kotlin))
         compiled(projects.programs_jar, inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))
 
-    def test_json_is_json(self) -> None:
+    def test_json_is_valid(self) -> None:
         for place, code in fragments("json"):
             with self.subTest(place):
                 json.loads(code if code.startswith("{") else f"{{{code}}}")
 
 
 class Quotations(unittest.TestCase):
-    def test_tests_of_programs_are_quoted_from_tests_that_run(self) -> None:
+    def test_quoted_program_tests_exist_in_the_test_sources(self) -> None:
         sources = ""
         for path in glob.glob(os.path.join(ROOT, "jvm-host/testing/src/test/kotlin/**/*.kt"), recursive=True):
             with open(path) as file:

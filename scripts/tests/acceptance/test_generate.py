@@ -11,7 +11,7 @@ from build.places import BUILD, ROOT
 
 class Generated(Folder):
     @pytest.mark.quick
-    def test_the_command_makes_what_the_build_makes(self) -> None:
+    def test_the_command_generates_the_same_code_as_the_build(self) -> None:
         for schema in glob.glob(os.path.join(os.path.dirname(SAMPLE), "*/*.fbs")):
             made = self.path(os.path.basename(schema))
             self.assertEqual(collektive("generate", schema, "--csharp", made).returncode, 0)
@@ -34,7 +34,7 @@ class Generated(Folder):
                     found[os.path.relpath(path, folder)] = file.read()
         return found
 
-    def test_schemas_that_cannot_be_used_are_refused(self) -> None:
+    def test_unusable_schemas_are_rejected(self) -> None:
         bad = {
             "namespace": ("table SensorData { a: int; } table ActuatorData { a: int; }", "namespace"),
             "sensor": ("namespace a; table Sensors { a: int; } table ActuatorData { a: int; }", "SensorData"),

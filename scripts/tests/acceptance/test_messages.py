@@ -15,7 +15,7 @@ class Messages(Project):
     def in_program(self, line) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()", f"val mine = sensors.brightness()\n    {line}")
 
-    def test_an_error_in_kotlin_comes_first_and_alone(self) -> None:
+    def test_a_kotlin_error_is_printed_first_without_warnings(self) -> None:
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         result = self.run_it(cwd=self.folder)
         lines = [line for line in result.stderr.splitlines() if not line.startswith("[")]
@@ -24,7 +24,7 @@ class Messages(Project):
         log = last_error(result).rsplit(" ", 1)[1]
         self.assertTrue(os.path.isfile(log), log)
 
-    def test_a_run_without_nodes_is_a_failure(self) -> None:
+    def test_a_run_without_nodes_fails(self) -> None:
         result = self.run_it("--set", "lamps=0")
         self.assertEqual(result.returncode, 1)
         self.assertIn("the run had no nodes: create GameObjects with the component Node in the scene builder", last_error(result))
@@ -34,12 +34,12 @@ class Messages(Project):
         self.change("programs/Brightest.kt", '@Program("brightest")', "")
         self.assertIn('the jars contain no programs: annotate the function with @Program("brightest")', last_error(self.run_it()))
 
-    def test_an_error_in_a_schema_has_its_place_at_the_front(self) -> None:
+    def test_a_schema_error_begins_with_its_position(self) -> None:
         self.change("light.fbs", "brightness: float;", "brightness: flaot;")
         place = self.path("project", "light.fbs")
         self.assertRegex(self.run_it().stderr, rf"(?m)^{place}:7: error: type referenced but not defined .*flaot")
 
-    def test_a_tick_of_which_every_round_fails_ends_the_run_unless_it_may_go_on(self) -> None:
+    def test_a_tick_in_which_all_rounds_fail_ends_the_run_unless_keep_going(self) -> None:
         self.in_program("if (mine == 3f) { val all = generateSequence { LongArray(1 shl 20) }.toList() }\n    if (mine == 4f) listOf(1).map { check(it > 2) }\n"
                         '    check(mine < 0) { "always" }')
         result = self.run_it()
@@ -54,7 +54,7 @@ class Messages(Project):
         self.assertEqual(result.returncode, 1)
         self.assertEqual((self.manifest(self.path("out"))["ticks"], self.manifest(self.path("out"))["errors"]), (10, 100))
 
-    def test_settings_are_names_and_lists_are_lists(self) -> None:
+    def test_settings_of_the_wrong_form_are_rejected(self) -> None:
         for value in ["0", "Lockstep,Sequential", "2", ""]:
             with self.subTest(value):
                 self.change("lamps.json", '"threads": 2', f'"threads": 2, "schedule": "{value}"')
@@ -63,7 +63,7 @@ class Messages(Project):
         self.change("lamps.json", '["-Xss2m"]', '"-Xss2m"')
         self.assertIn("it must be of type list of strings", last_error(self.run_it()))
 
-    def test_pipes_and_whole_disks_are_refused_at_once(self) -> None:
+    def test_pipes_and_huge_folders_are_rejected_immediately(self) -> None:
         os.mkfifo(self.path("pipe"))
         result = subprocess.run([COLLEKTIVE, "run", self.path("pipe")], capture_output=True, text=True, timeout=60)
         self.assertIn("pipe' is not a file", last_error(result))
@@ -73,7 +73,7 @@ class Messages(Project):
         self.change("lamps.json", '"scripts": "scene"', '"scripts": "/usr"')
         self.assertIn("the folder '/usr' has more than 10,000 files", last_error(self.run_it()))
 
-    def test_a_folder_may_have_any_name_in_any_locale(self) -> None:
+    def test_folder_names_can_contain_any_characters_in_any_locale(self) -> None:
         odd = self.path("ünïcödé 雪 \"quo'te")
         os.rename(self.path("project"), odd)
         os.symlink(odd, self.path("project"))
@@ -92,7 +92,7 @@ class Messages(Project):
         self.assertEqual(closed.returncode, 0)
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "complete")
 
-    def test_a_folder_of_kotlin_is_replayed_on_a_record(self) -> None:
+    def test_a_record_can_be_replayed_with_a_folder_of_kotlin(self) -> None:
         self.change("lamps.json", '"metrics": true', '"record": true')
         self.assertEqual(self.run_it().returncode, 0)
         record, programs, schema = self.path("out", "run.clkrec"), self.path("project", "programs"), self.path("project", "light.fbs")

@@ -27,7 +27,7 @@ class Outputs(Project):
     def outcome(self):
         return self.manifest(self.path("out"))["outcome"]
 
-    def test_a_scene_without_shades_shows_what_its_nodes_answer(self) -> None:
+    def test_a_replay_without_colourings_shows_answers_of_nodes(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)
         _, frames = replay.read(self.path("out", "replay.html"))
@@ -58,7 +58,7 @@ class Outputs(Project):
         first, second, third = sorted(nodes)[:3]
         self.assertEqual({link for link in links if first in link}, {(first, second), (second, first), (first, third)})
 
-    def test_results_of_a_run_are_kept_unless_they_may_be_overwritten(self) -> None:
+    def test_results_are_kept_without_overwrite(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true, "record": true')
         self.assertEqual(self.run_it().returncode, 0)
         before = self.contents()
@@ -73,7 +73,7 @@ class Outputs(Project):
         self.assertEqual(self.run_it("--overwrite").returncode, 0)
         self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
 
-    def test_a_run_that_cannot_begin_keeps_the_results_of_the_earlier_one(self) -> None:
+    def test_a_run_that_cannot_start_keeps_earlier_results(self) -> None:
         self.assertEqual(self.run_it().returncode, 0)
         before = self.contents()
         for arguments in [("--seed", "1.5"), ("--seconds", "-1"), ("--set", "lamps=many"), ("--set", "candles=3"), ("--set", "scene=Lamps.Nonesuch")]:
@@ -96,7 +96,7 @@ class Outputs(Project):
         self.assertEqual(repeated.returncode, 1)
         self.assertIn("the run was not completed", last_error(repeated))
 
-    def test_links_in_the_folder_are_replaced_and_not_followed(self) -> None:
+    def test_symbolic_links_in_the_output_folder_are_replaced_and_not_followed(self) -> None:
         names = ["manifest.json", "metrics.csv", "metrics.csv.part", "replay.html", "replay.tmp"]
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         # When the tables are created.
@@ -110,7 +110,7 @@ class Outputs(Project):
             self.assertEqual(file.read(), "mine")
         self.assertEqual([name for name in os.listdir(self.path("out")) if os.path.islink(self.path("out", name))], ["metrics.csv.part"])
 
-    def test_a_script_that_changes_the_current_folder_changes_nothing_about_the_outputs(self) -> None:
+    def test_outputs_do_not_depend_on_scripts_that_change_the_current_folder(self) -> None:
         os.mkdir(self.path("elsewhere"))
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
                     f'            System.IO.Directory.SetCurrentDirectory("{self.path("elsewhere")}");')
@@ -120,20 +120,20 @@ class Outputs(Project):
         self.assertTrue(os.path.exists(self.path("run.jfr")))
         self.assertEqual(os.listdir(self.path("elsewhere")), [])
 
-    def test_a_link_to_a_folder_is_one_for_outputs(self) -> None:
+    def test_the_output_folder_can_be_a_symbolic_link(self) -> None:
         os.mkdir(self.path("out"))
         os.symlink("out", self.path("link"))
         result = self.run_it(out="link")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.outcome(), "complete")
 
-    def test_a_player_that_a_limit_of_the_shell_ends_is_one_sentence(self) -> None:
+    def test_a_player_killed_by_a_shell_limit_is_reported_in_one_line(self) -> None:
         command = ["bash", "-c", 'ulimit -f 1; exec "$@"', "bash", COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")]
         result = subprocess.run(command, capture_output=True, text=True)
         self.assertEqual(result.returncode, 128 + signal.SIGXFSZ)
         self.assertIn("the player was ended by SIGXFSZ", last_error(result))
 
-    def test_a_run_whose_pictures_fail_is_not_complete(self) -> None:
+    def test_a_run_whose_pictures_fail_is_incomplete(self) -> None:
         self.change("lamps.json", '"metrics": true', '"replay": true, "pictures": true')
         os.mkdir(self.path("bin"))
         with open(os.open(self.path("bin", "node"), os.O_WRONLY | os.O_CREAT, 0o755), "w") as file:
@@ -148,13 +148,13 @@ class Outputs(Project):
         with open(self.path("out", "metrics.csv")) as file:
             return file.readlines()
 
-    def test_a_run_that_fails_says_why_in_its_manifest(self) -> None:
+    def test_the_manifest_of_a_failed_run_contains_the_reason(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = SimulationManager.Current.Tick < 4 ? Brightness : float.NaN;")
         result = self.run_it()
         self.assertEqual(result.returncode, 1)
         self.assertRegex(self.outcome(), "^failed: stopped at tick 5: .*not finite")
 
-    def test_two_runs_into_one_folder_do_not_meet(self) -> None:
+    def test_a_second_run_into_the_same_folder_is_rejected(self) -> None:
         command = [COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "1000000"]
         first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         self.wait_until(lambda: os.path.exists(self.path("out", "manifest.json")))
@@ -165,7 +165,7 @@ class Outputs(Project):
         first.wait()
         self.assertEqual(self.outcome(), "interrupted")
 
-    def test_folders_that_cannot_be_written_to_are_one_sentence(self) -> None:
+    def test_unwritable_folders_are_reported_in_one_line(self) -> None:
         with open(self.path("file"), "w"):
             pass
         os.symlink(self.path("nowhere", "deep"), self.path("dangling"))
@@ -177,7 +177,7 @@ class Outputs(Project):
         self.assertEqual(read_only.returncode, 1)
         self.assertRegex(last_error(read_only), "^collektive: cannot create the output folder ")
 
-    def test_the_default_folder_is_named_by_the_seed_that_is_used(self) -> None:
+    def test_the_default_folder_is_named_after_the_used_seed(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "seed": 77')
         for arguments, name in [((), "lamps-seed77"), (("--seed", "5"), "lamps-seed5")]:
             result = collektive("run", self.path("project", "lamps.json"), *arguments, cwd=self.folder)
@@ -187,7 +187,7 @@ class Outputs(Project):
 
 @unittest.skipUnless(os.geteuid() == 0, "only root can mount a small file system")
 class FullDisks(Project):
-    def test_a_home_on_a_full_disk_is_done_without_the_class_archive(self) -> None:
+    def test_a_full_home_disk_disables_the_class_archive(self) -> None:
         os.makedirs(self.path("home"))
         script = 'mount -t tmpfs -o size=1m none "$HOME" && "$@"'
         result = subprocess.run(["unshare", "--mount", "sh", "-c", script, "sh", COLLEKTIVE, "run", self.path("project", "lamps.json"),
@@ -197,7 +197,7 @@ class FullDisks(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("no class archive is written", result.stdout + result.stderr)
 
-    def test_a_full_disk_is_one_sentence_and_nothing_looks_complete(self) -> None:
+    def test_a_full_disk_is_reported_in_one_line_and_no_output_looks_complete(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"seconds": 1', '"seconds": 20')
         reached = set()

@@ -74,7 +74,7 @@ class PackageTest(Packaged):
     def packed(self):
         return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
 
-    def test_it_holds_what_unity_needs_and_nothing_else(self) -> None:
+    def test_the_package_contains_only_the_files_that_unity_needs(self) -> None:
         # Scenarios are for runs from the clone, the manifest in unity/ is for git URLs.
         left_out = re.compile(r"unity/package\.json|unity/Samples~/[^/]*/scenario\.json")
         wanted = {path for path in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, path)) and not left_out.fullmatch(path)}
@@ -98,7 +98,7 @@ class PackageTest(Packaged):
     def test_every_asset_has_its_meta(self) -> None:
         self.assertEqual(list(metas.problems(self.root)), [])
 
-    def test_every_link_and_picture_of_its_pages_is_in_it(self) -> None:
+    def test_the_package_contains_all_links_and_pictures_of_its_pages(self) -> None:
         pages = sorted(path for path in self.packed() if re.fullmatch(r"[^/]*\.md|Documentation~/.*\.md", path))
         self.assertIn("README.md", pages)
         self.assertIn("Documentation~/index.md", pages)
@@ -112,7 +112,7 @@ class PackageTest(Packaged):
             lost += [f"{page}: {link}" for link in links if os.path.normpath(link) not in self.packed()]
         self.assertEqual(lost, [])
 
-    def test_its_plugins_are_for_the_platforms_that_they_run_on(self) -> None:
+    def test_plugins_are_enabled_only_on_their_platforms(self) -> None:
         with open(os.path.join(self.root, "unity/Runtime/Plugins/linux-x64/libcollektive_shim.so.meta")) as file:
             native = file.read()
         self.assertRegex(native, r"Any: \n    second:\n      enabled: 0")
@@ -125,12 +125,12 @@ class PackageTest(Packaged):
         self.assertEqual(collektive("package", "--out", again).returncode, 0)
         self.assertEqual(digest(os.path.join(again, os.path.basename(self.archive))), first)
 
-    def test_its_assembly_does_not_depend_on_where_it_was_built(self) -> None:
+    def test_the_assembly_contains_no_build_paths(self) -> None:
         # Symbols contain paths of sources, and the assembly contains the id of its symbols.
         with open(os.path.join(self.root, "unity/Runtime/Plugins/Collektive.FlatBuffers.dll"), "rb") as file:
             self.assertNotIn(b".pdb", file.read())
 
-    def test_a_scene_runs_from_it_with_nothing_of_the_clone_in_reach(self) -> None:
+    def test_a_scene_runs_from_the_package_without_the_clone(self) -> None:
         # The project and the environment do not refer to the clone.
         self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, self.project.folder], capture_output=True, text=True).stdout, "")
         result = self.project.play(JAVA_HOME=jdk())
@@ -138,12 +138,12 @@ class PackageTest(Packaged):
         ran = self.project.manifest()
         self.assertEqual((ran["nodes"], ran["ticks"], ran["errors"]), (30, 20, 0))
 
-    def test_without_a_jvm_it_says_how_to_get_one(self) -> None:
+    def test_a_missing_jvm_is_reported_with_the_solutions(self) -> None:
         result = self.project.play()
         self.assertEqual(result.returncode, 1)
         self.assertIn("install org.collektive.unity.jvm.linux-x64, set JAVA_HOME, or select a folder", last_error(result))
 
-    def test_unknown_arguments_are_named(self) -> None:
+    def test_unknown_arguments_are_reported(self) -> None:
         result = collektive("package", "--nonesuch")
         self.assertEqual(result.returncode, 1)
         self.assertIn("--nonesuch", last_error(result))
@@ -157,27 +157,27 @@ class JvmPackageTest(Packaged):
     def home(self):
         return os.path.join(self.root, "unity/Jvm~/linux-x64")
 
-    def test_its_name_differs_from_the_package_without_a_jvm(self) -> None:
+    def test_the_package_with_a_jvm_has_another_file_name(self) -> None:
         self.assertRegex(os.path.basename(self.archive), r"^org\.collektive\.unity-[0-9.]+-jre\.tgz$")
 
-    def test_its_jvm_is_whole_with_archive_licences_debugger_and_recorder(self) -> None:
+    def test_the_jvm_includes_archive_licences_debugger_and_recorder(self) -> None:
         for path in ["lib/server/classes.jsa", "lib/libjdwp.so", "lib/jfr/default.jfc", "lib/jfr/profile.jfc", "bin/java", "bin/jfr", "bin/jcmd"]:
             self.assertTrue(os.path.isfile(os.path.join(self.home, path)), path)
         for module in ["java.base", "jdk.jfr", "jdk.jdwp.agent"]:
             self.assertGreater(os.path.getsize(os.path.join(self.home, "legal", module, "LICENSE")), 1000, module)
         self.assertTrue(os.access(os.path.join(self.home, "bin/java"), os.X_OK))
 
-    def test_a_scene_runs_where_there_is_no_java_no_variable_and_no_clone(self) -> None:
+    def test_a_scene_runs_without_java_variables_and_clone(self) -> None:
         if os.geteuid() != 0:
             self.skipTest("only root can hide the clone and the machine's JDKs from a process")
         jdks = {"/usr/lib/jvm", jdk()}
-        hidden = [ROOT, *sorted((path for path in jdks if os.path.isdir(path)), reverse=True)]  # what lies inside first
+        hidden = [ROOT, *sorted((path for path in jdks if os.path.isdir(path)), reverse=True)]  # nested folders first
         result = self.project.play(hidden)
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         ran = self.project.manifest()
         self.assertEqual((ran["nodes"], ran["ticks"], ran["errors"]), (30, 20, 0))
 
-    def test_it_is_found_before_java_home(self) -> None:
+    def test_the_bundled_jvm_takes_precedence_over_java_home(self) -> None:
         result = self.project.play(JAVA_HOME="/nowhere/jdk")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
 

@@ -42,7 +42,7 @@ import org.collektive.api.Parameter
 import org.collektive.api.Program
 """
 
-    def test_its_example_runs(self) -> None:
+    def test_the_example_of_the_page_runs(self) -> None:
         """Tests the page's schema, Kotlin and C# in the scene above."""
         schema, kotlin, csharp = (block.text for block in of_kind("project") if block.page == "Documentation~/getting-started.md")
         os.makedirs(self.path("programs"))
@@ -59,7 +59,7 @@ import org.collektive.api.Program
         self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
 
     @pytest.mark.quick
-    def test_its_picture_and_links_exist(self) -> None:
+    def test_pictures_and_links_of_the_page_exist(self) -> None:
         with open(os.path.join(ROOT, "README.md")) as file:
             text = file.read()
         for path in re.findall(r"\]\((?!https:)([^)#]+)", text) + re.findall(r"`((?:docs|unity)/[^`]*\.md)`", text):

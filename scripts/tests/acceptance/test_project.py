@@ -23,7 +23,7 @@ class ProjectTest(Project):
         return result
 
     @pytest.mark.quick
-    def test_it_builds_and_runs(self) -> None:
+    def test_the_project_builds_and_runs(self) -> None:
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
         manifest = self.manifest(self.path("out"))
@@ -66,7 +66,7 @@ class ProjectTest(Project):
             rows = list(csv.DictReader(file))
         return {name: sum(int(row[name]) for row in rows) for name in ("sent", "dropped", "delayed", "expired")}
 
-    def test_its_timing_decides_which_ticks_have_rounds(self) -> None:
+    def test_the_timing_determines_the_ticks_with_rounds(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "schedule": "Asynchronous", "timing": { "period": 0.5, "phase": 0 }')
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -75,14 +75,14 @@ class ProjectTest(Project):
         # All lamps count, although none was due in the last tick.
         self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 18)
 
-    def test_its_network_decides_what_arrives(self) -> None:
+    def test_the_network_determines_which_messages_arrive(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "network": { "loss": 1 }')
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.messages(), {"sent": 180, "dropped": 180, "delayed": 0, "expired": 0})
         self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 0)
 
-    def test_its_profile_counts_each_tick_and_names_the_program_and_its_function(self) -> None:
+    def test_the_profile_counts_ticks_and_names_program_and_function(self) -> None:
         result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", cwd=self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("10 ticks of 10 nodes and 18 links; 0 rounds failed", result.stdout)
@@ -91,7 +91,7 @@ class ProjectTest(Project):
         recorded = subprocess.run([os.path.join(jdk(), "bin/jfr"), "summary", self.path("out", "profile.jfr")], capture_output=True, text=True).stdout
         self.assertRegex(recorded, r"(?m)^ collektive\.Tick +10 ")
 
-    def test_its_profile_is_printed_when_rounds_failed_too(self) -> None:
+    def test_the_profile_is_also_printed_if_rounds_failed(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
         result = collektive("profile", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite", cwd=self.folder)
@@ -112,7 +112,7 @@ class ProjectTest(Project):
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         self.refused("Brightest.kt:", "lightness")
 
-    def test_paths_that_tools_cannot_read_are_refused(self) -> None:
+    def test_paths_that_tools_cannot_read_are_rejected(self) -> None:
         for name, words in [("a\nb", "has a line break or is not UTF-8"), ("\udcff", "is not UTF-8, which the player and the JVM need")]:
             os.rename(self.path("project"), self.path(name))
             result = collektive("run", self.path(name, "lamps.json"), "--out", self.path("out"))
@@ -125,24 +125,24 @@ class ProjectTest(Project):
         self.change("scene/Lamps.cs", "data.Brightness", "data.Lightness")
         self.refused("Lamps.cs(", "Lightness")
 
-    def test_a_schema_that_is_wrong_is_shown_with_file_and_line(self) -> None:
+    def test_an_invalid_schema_is_shown_with_file_and_line(self) -> None:
         self.change("light.fbs", "brightness: float;", "brightness: flaot;")
         self.refused("light.fbs", "flaot")
 
     @pytest.mark.quick
-    def test_an_unknown_key_is_named_with_its_line(self) -> None:
+    def test_an_unknown_key_is_reported_with_its_line(self) -> None:
         self.change("lamps.json", '"threads": 2', '"treads": 2')
         self.refused("lamps.json:10", "treads", "threads")
 
-    def test_a_key_given_twice_is_named(self) -> None:
+    def test_a_duplicate_key_is_reported(self) -> None:
         self.change("lamps.json", '"threads": 2', '"seconds": 2')
         self.refused("seconds", "twice")
 
-    def test_a_value_of_another_type_is_named(self) -> None:
+    def test_a_value_of_another_type_is_reported(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": "two"')
         self.refused("threads", "whole number")
 
-    def test_values_out_of_range_are_named(self) -> None:
+    def test_values_out_of_range_are_reported(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 0')
         self.refused("threads", "1..256")
 
@@ -150,7 +150,7 @@ class ProjectTest(Project):
         self.change("lamps.json", '"threads": 2,', '"threads": 2')
         self.refused("lamps.json:11", "not valid JSON")
 
-    def test_missing_files_are_named(self) -> None:
+    def test_missing_files_are_reported(self) -> None:
         self.change("lamps.json", "light.fbs", "dark.fbs")
         self.refused("schema", "dark.fbs")
 
@@ -158,17 +158,17 @@ class ProjectTest(Project):
         self.change("lamps.json", '"brightest"', '"darkest"')
         self.refused("darkest", "brightest")
 
-    def test_an_unknown_scene_is_named(self) -> None:
+    def test_an_unknown_scene_is_reported(self) -> None:
         self.change("lamps.json", "Lamps.LampScene", "Lamps.Nonesuch")
         self.refused("Lamps.Nonesuch", "SceneBuilder")
 
     def test_an_unknown_field_is_reported_with_the_existing_ones(self) -> None:
         self.refused("brightness", "lamps", "loop", arguments=("--set", "brightness=3"))
 
-    def test_a_field_of_another_type_is_named(self) -> None:
+    def test_a_field_of_another_type_is_reported(self) -> None:
         self.refused("lamps", "whole number", arguments=("--set", "lamps=many"))
 
-    def test_a_missing_scenario_is_named(self) -> None:
+    def test_a_missing_scenario_is_reported(self) -> None:
         result = collektive("run", "nowhere.json", cwd=self.folder)
         self.assertEqual(result.returncode, 1)
         self.assertIn("nowhere.json", last_error(result))
@@ -187,15 +187,15 @@ class ProjectTest(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertTrue(os.path.exists(target))
 
-    def test_a_jvm_option_that_is_wrong_is_shown(self) -> None:
+    def test_an_invalid_jvm_option_is_reported(self) -> None:
         self.change("lamps.json", '"-Xss2m"', '"-Xss2m", "-XX:+UseNonesuchGC"')
         self.refused("UseNonesuchGC")
 
-    def test_a_jvm_setting_out_of_its_range_is_named_with_its_line(self) -> None:
+    def test_a_jvm_setting_out_of_range_is_reported_with_its_line(self) -> None:
         self.change("lamps.json", '"maximumHeapMb": 128', '"maximumHeapMb": 1')
         self.refused("lamps.json:11", "jvm.maximumHeapMb", "16 to")
 
-    def test_an_unknown_jvm_setting_is_named(self) -> None:
+    def test_an_unknown_jvm_setting_is_reported(self) -> None:
         self.change("lamps.json", '"maximumHeapMb"', '"maximumHeep"')
         self.refused("jvm.maximumHeep", "maximumHeapMb")
 
@@ -205,14 +205,14 @@ class ProjectTest(Project):
         self.change("lamps.json", '"programs": "programs"', '"programs": "broken.jar"')
         self.refused("broken.jar")
 
-    def test_a_program_that_throws_fails_the_run_but_not_its_end(self) -> None:
+    def test_a_throwing_program_fails_the_run_after_all_ticks(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
         self.refused("three is too dark", "node 2")
         self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
         self.assertEqual(self.manifest(self.path("out"))["errors"], 10)
 
-    def test_a_schema_changed_on_one_side_only_is_refused_with_the_type(self) -> None:
+    def test_a_schema_that_differs_between_csharp_and_kotlin_is_rejected_with_the_type(self) -> None:
         self.assertEqual(self.run_it().returncode, 0)
         jar = self.programs_jar()
         shutil.copy(jar, self.path("project", "old.jar"))

@@ -51,12 +51,12 @@ def project():
 
 @pytest.mark.quick
 class ReadmeTest(Folder):
-    def test_it_has_at_most_25_lines_of_its_authors(self) -> None:
+    def test_the_example_has_at_most_25_handwritten_lines(self) -> None:
         # All lines but empty ones: imports and braces count.
         lines = [line for block in project() for line in block.splitlines() if line.strip()]
         self.assertLessEqual(len(lines), 25, "\n".join(lines))
 
-    def test_it_runs_as_it_is(self) -> None:
+    def test_the_example_runs_unchanged(self) -> None:
         schema, program, sensor, actuator = project()
         files = {
             "swarm.fbs": schema, "programs/Hops.kt": program, "scripts/LightSensor.cs": sensor, "scripts/HopsColour.cs": actuator,

@@ -38,14 +38,14 @@ class Records(Project):
         return self.path(name, "run.clkrec")
 
     @pytest.mark.quick
-    def test_a_replay_proves_every_digest_without_unity_or_the_jar(self) -> None:
+    def test_a_replay_verifies_all_digests_without_unity_or_the_jar(self) -> None:
         result = collektive("replay", self.a)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("10 ticks replayed, all digests equal the record", result.stdout)
         self.assertIn(self.manifest(self.path("a"))["digest"], result.stdout)
         self.assertIn(next(iter(self.manifest(self.path("a"))["programs"].values())), result.stdout)
 
-    def test_a_changed_program_on_the_same_input_parts_where_it_differs(self) -> None:
+    def test_a_replay_with_a_changed_program_reports_the_first_difference(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()", "val mine = if (sensors.brightness() == 5f) 9f else sensors.brightness()")
         self.record("b")
         jar = self.programs_jar()

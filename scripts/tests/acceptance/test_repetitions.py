@@ -16,7 +16,7 @@ class Repetitions(Project):
     def repeat(self, *arguments):
         return collektive("repeat", self.path("a", "manifest.json"), "--out", self.path("b"), "--overwrite", *arguments)
 
-    def test_it_comes_out_the_same_without_its_scenario_file(self) -> None:
+    def test_a_run_is_repeated_without_its_scenario_file(self) -> None:
         os.remove(self.path("project", "lamps.json"))
         result = self.repeat()
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -29,7 +29,7 @@ class Repetitions(Project):
         self.assertEqual(first["scenario"]["fields"], {"lamps": 12, "loop": False})
         self.assertEqual(first["scenario"]["jvm"]["flags"], ["-Xss2m"])
 
-    def test_inputs_that_changed_are_named_and_so_is_what_came_out_differently(self) -> None:
+    def test_changed_inputs_and_different_results_are_reported(self) -> None:
         self.change("scene/Lamps.cs", "Brightness = i + 1", "Brightness = i + 2")
         result = self.repeat()
         self.assertEqual(result.returncode, 1)
@@ -37,7 +37,7 @@ class Repetitions(Project):
         self.assertNotRegex(result.stderr, "changed since the run of .*: (schema|programs) is ")
         self.assertRegex(last_error(result), "the run differs from the one in .*: digest is [0-9a-f]{16}, previously [0-9a-f]{16}")
 
-    def test_a_project_that_was_moved_is_found_with_folder(self) -> None:
+    def test_a_moved_project_is_found_with_the_folder_option(self) -> None:
         os.rename(self.path("project"), self.path("moved"))
         result = self.repeat()
         self.assertEqual(result.returncode, 1)

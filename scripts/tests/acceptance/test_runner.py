@@ -40,12 +40,12 @@ class TestRunnerTest(Folder):
         code, verdict, _ = self.run_fixture('[Test] public void Fails() => Assert.Fail("no");')
         self.assertEqual((code, verdict), (1, "1 passed, 1 failed"))
 
-    def test_an_attribute_that_it_does_not_run_is_a_failure(self) -> None:
+    def test_an_unsupported_attribute_is_a_failure(self) -> None:
         code, verdict, output = self.run_fixture('[Theory] public void Fails() => Assert.Fail("no");')
         self.assertEqual((code, verdict), (1, "1 passed, 1 failed"))
         self.assertIn("Fixture.Fails: this runner does not know [TheoryAttribute]", output)
 
-    def test_a_category_can_be_left_out(self) -> None:
+    def test_a_category_can_be_skipped(self) -> None:
         test = '[Test, Category("Slow")] public void Fails() => Assert.Fail("no");'
         code, verdict, output = self.run_fixture(test, "--without", "Other", "--without", "Slow")
         self.assertEqual((code, verdict), (0, "1 passed, 0 failed"))

@@ -111,25 +111,25 @@ class Runtimes(Project):
         self.assertEqual(stranger.returncode, 2, stranger.stdout)
         self.assertIn("uses the runtime jars in", stranger.stderr)
 
-    def test_an_error_of_a_round_names_node_and_place(self) -> None:
+    def test_an_error_in_a_round_names_node_and_position(self) -> None:
         self.change("programs/Brightest.kt", "val heard", 'check(localId != 3) { "three is too dark" }\n    val heard')
         self.switch()
         self.refused("three is too dark [node 3 at ", "Brightest.kt:")
 
-    def test_programs_for_the_other_runtime_are_refused(self) -> None:
+    def test_programs_for_the_other_runtime_are_rejected(self) -> None:
         self.use_jar(self.programs_jar())
         self.switch()
         self.refused("programs.jar was compiled for the built-in runtime, and this session runs on the Collektive runtime",
                      "Rebuild the programs")
 
-    def test_programs_for_collektive_are_refused_by_the_built_in_runtime(self) -> None:
+    def test_programs_for_collektive_are_rejected_by_the_built_in_runtime(self) -> None:
         self.switch()
         self.completed()
         self.use_jar(self.collektive_jar())
         self.change("lamps.json", ", " + SETTINGS, "")
         self.refused("programs.jar was compiled for the Collektive runtime, and this session runs on the built-in runtime")
 
-    def test_jars_that_are_missing_or_of_another_version_are_named(self) -> None:
+    def test_missing_or_incompatible_jars_are_reported(self) -> None:
         self.switch()
         self.completed()
         marked = self.collektive_jar()
@@ -153,7 +153,7 @@ class Runtimes(Project):
         os.remove(self.jar("stdlib"))
         self.refused("folder " + self.path("project", "collektive") + " contains no jar", "dsl and stdlib")
 
-    def test_a_plugin_that_is_none_or_does_not_fit_the_compiler_is_named(self) -> None:
+    def test_an_invalid_or_incompatible_plugin_is_reported(self) -> None:
         self.switch()
         plugin = self.path("project", "plugin.jar")
         repack(LIBRARY, plugin)
@@ -162,7 +162,7 @@ class Runtimes(Project):
         repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
         self.refused("the compiler plugin may be built for another version")
 
-    def test_settings_without_jars_or_plugin_are_refused_with_their_line(self) -> None:
+    def test_settings_without_jars_or_plugin_are_rejected_with_their_line(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "runtime": "collektive"')
         self.refused("the key 'runtimeJars' is missing")
         self.change("lamps.json", '"runtime": "collektive"', '"runtime": "collektive", "runtimeJars": "nowhere"')

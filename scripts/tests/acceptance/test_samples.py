@@ -34,7 +34,7 @@ class SamplesTest(Folder):
             yield schedule, self.rows(sample, schedule=schedule, timing={"period": 4 * changes.get("deltaTime", 0.1)}, **changes)
             shutil.rmtree(self.path("samples"))
 
-    def test_all_nodes_of_the_leader_election_are_counted_under_each_schedule(self) -> None:
+    def test_the_leader_election_counts_all_nodes_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("LeaderElection", seconds=15, fields={"failAfter": 1000}):
             self.assertEqual(rows[-1]["led"], 400, schedule)
 
@@ -47,18 +47,18 @@ class SamplesTest(Folder):
             shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes, _ in frames[-5:]}
             self.assertEqual(shown, {rows[-1]["channel_nodes"]}, schedule)
 
-    def test_all_walkers_count_for_the_crowds_density_under_each_schedule(self) -> None:
+    def test_all_walkers_compute_the_density_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("Crowd", seconds=5, fields={"walkers": 60}, outputs={"replay": True}):
             _, frames = replay.read(self.path("out", "replay.html"))
             for _, nodes, _ in frames[-5:]:
                 self.assertEqual([node for node, (*_, density) in nodes.items() if density == 0], [], schedule)
             self.assertAlmostEqual(max(density for *_, density in frames[-1][1].values()), rows[-1]["density"], 3, schedule)
 
-    def test_the_swarm_climbs_under_each_schedule(self) -> None:
+    def test_the_swarm_approaches_the_source_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("GradientAscent", seconds=10, deltaTime=0.05, fields={"nodes": 80}):
             self.assertLess(rows[-1]["mean_distance"], rows[0]["mean_distance"] - 3, schedule)
 
-    def test_the_drones_form_each_shape_in_its_turn_though_their_leader_fails(self) -> None:
+    def test_the_drones_form_each_shape_even_if_their_leader_fails(self) -> None:
         rows = self.rows("Swarm", seconds=24, fields={"drones": 300, "shapeSeconds": 8, "failAfter": 10})
         # Just before the next shape; the leader fails in the second one.
         for row in rows[7], rows[15], rows[23]:
@@ -66,7 +66,7 @@ class SamplesTest(Folder):
             self.assertEqual(row["shapes"], 1, row)
         self.assertGreater(min(row["nearest"] for row in rows), 0.1, "no two drones in one place")
 
-    def test_all_nodes_have_a_leader_near_by_and_again_when_the_leaders_failed(self) -> None:
+    def test_all_nodes_have_a_nearby_leader_even_after_leaders_fail(self) -> None:
         rows = self.rows("LeaderElection")
         before, after = rows[9], rows[-1]
         self.assertEqual(before["led"], 400)
@@ -77,7 +77,7 @@ class SamplesTest(Folder):
         for row in before, after:
             self.assertTrue(0 < row["farthest"] <= 20, row["farthest"])
 
-    def test_the_channel_finds_its_way_around_the_walls_and_around_nodes_that_failed(self) -> None:
+    def test_the_channel_avoids_walls_and_failed_nodes(self) -> None:
         rows = self.rows("Channel")
         before, after = rows[9], rows[-1]
         for row in before, after:
@@ -87,7 +87,7 @@ class SamplesTest(Folder):
         self.assertTrue(98 <= before["length"] <= 115, before["length"])
         self.assertTrue(107 <= after["length"] <= 125, after["length"])
 
-    def test_the_robots_find_all_casualties_and_stay_connected_with_them_when_some_fail(self) -> None:
+    def test_the_robots_find_all_casualties_and_stay_connected_if_some_fail(self) -> None:
         rows = self.rows("Rescue")
         self.assertEqual(rows[59]["found"], 3)
         self.assertEqual(rows[59]["connected"], 3)
@@ -95,7 +95,7 @@ class SamplesTest(Folder):
         self.assertEqual(rows[-1]["robots"], 108)
         self.assertEqual(rows[-1]["connected"], 3)
 
-    def test_the_crowds_pass_without_bumping_and_their_warning_ends(self) -> None:
+    def test_the_crowds_pass_with_few_collisions_and_warnings_end(self) -> None:
         rows = self.rows("Crowd")
         self.assertEqual(rows[-1]["arrived"], 160)
         # 160 walkers in 1,200 rounds.

@@ -56,7 +56,7 @@ class Signals(Project):
                 self.assertIn("interrupted before the first tick", self.assert_ends(process, number))
                 self.assertFalse(os.path.exists(self.path("out", "manifest.json")))
 
-    def test_a_second_signal_ends_a_tick_that_does_not_end(self) -> None:
+    def test_a_second_signal_ends_an_endless_tick(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;",
                     "if (SimulationManager.Current.Tick == 0) System.Threading.Thread.Sleep(60000);\n            data.Brightness = Brightness;")
         process = self.start()
@@ -65,7 +65,7 @@ class Signals(Project):
         time.sleep(0.5)
         self.assertIn("interrupted twice", self.assert_ends(process, signal.SIGINT))
 
-    def test_compilers_end_too_and_the_next_run_compiles_again(self) -> None:
+    def test_a_signal_ends_compilers_and_the_next_run_compiles_again(self) -> None:
         with open(self.path("project", "programs", "Brightest.kt"), "a") as file:
             file.write(f"\n// {time.time_ns()}\n")
         for number in CODES:

@@ -51,9 +51,9 @@ def run(commands, folder):
 
 @pytest.mark.parametrize("page", STORIES, ids=lambda page: os.path.basename(page).removesuffix(".md"))
 def test_tutorials_work_as_written(page, folder) -> None:
-    told, printed = blocks(page), ""
-    assert any(block.language == "sh" for block in told)
-    for block in told:
+    page_blocks, printed = blocks(page), ""
+    assert any(block.language == "sh" for block in page_blocks)
+    for block in page_blocks:
         if block.title:
             path = os.path.join(folder, block.title)
             os.makedirs(os.path.dirname(path), exist_ok=True)
@@ -75,6 +75,6 @@ def see_neighbours(page) -> None:
         assert value == pytest.approx(len({frozenset(link) for link in links if node in link}), abs=0.01)
 
 
-def test_a_line_that_is_not_printed_is_found() -> None:
+def test_a_documented_line_that_is_not_printed_is_detected() -> None:
     assert missing("one\n...\nthr... 3", "one\ntwo\nthree is 3\n") is None
     assert missing("two\none", "one\ntwo\n") == "one"

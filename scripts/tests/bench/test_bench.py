@@ -26,13 +26,13 @@ class BenchTick(unittest.TestCase):
             cls.whole = json.load(file)
         cls.rows = cls.whole["rows"]
 
-    def test_the_file_has_its_form(self) -> None:
+    def test_the_file_has_the_expected_format(self) -> None:
         self.assertEqual(sorted(self.whole), ["machine", "rows"])
         self.assertTrue(self.whole["machine"])
         for row in self.rows:
             self.assertEqual(list(row), KEYS)
 
-    def test_all_variants_are_there(self) -> None:
+    def test_all_variants_are_measured(self) -> None:
         found = {(row["name"], row["variant"], row["nodes"]) for row in self.rows}
         for nodes in [12, 500]:
             for variant in ["in-process", "own-process", "per-node-call", "socket", "engine-only", "hand-written", "in-process, every 8 ms",
@@ -89,7 +89,7 @@ class BenchScene(unittest.TestCase):
             self.assertGreater(min(phases), 0, row)
             self.assertAlmostEqual(sum(phases) / (1000 / row["ticks_per_second"]), 1, places=2, msg=row)
 
-    def test_a_larger_swarm_costs_more(self) -> None:
+    def test_larger_swarms_take_longer(self) -> None:
         small, large = self.whole["rows"]
         self.assertLess(small["physics_ms"], large["physics_ms"])
         self.assertLess(large["ticks_per_second"], small["ticks_per_second"])
@@ -98,7 +98,7 @@ class BenchScene(unittest.TestCase):
         for word in ["ticks/s", "physics ms", "other ms", "RSS MB", "growth", "1000"]:
             self.assertIn(word, self.result.stdout)
 
-    def test_wrong_sizes_are_refused(self) -> None:
+    def test_invalid_sizes_are_rejected(self) -> None:
         for sizes in ["0", "ten", "500,"]:
             result = subprocess.run([os.path.join(ROOT, "collektive"), "bench", "scene", "--nodes", sizes], capture_output=True, text=True)
             self.assertEqual(result.returncode, 1)

@@ -40,7 +40,7 @@ def test_all_modules_are_built_and_tested(runs: list[subprocess.CompletedProcess
     assert runs[0].returncode == 0, runs[0].stdout[-4000:]
 
 
-def test_a_second_run_reads_the_configuration_cache_and_does_nothing(runs: list[subprocess.CompletedProcess[str]]) -> None:
+def test_a_second_run_uses_the_configuration_cache_and_executes_nothing(runs: list[subprocess.CompletedProcess[str]]) -> None:
     assert "Configuration cache entry reused." in runs[1].stdout
     assert re.search(r"(?m)^(\d+) actionable tasks: \1 up-to-date$", runs[1].stdout)
 

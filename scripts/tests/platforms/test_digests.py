@@ -31,7 +31,7 @@ def record() -> Iterator[str]:
 
 
 @pytest.mark.parametrize("platform", JAVA)
-def test_replayed_there_each_tick_has_the_digest_of_the_record(platform: str, record: str) -> None:
+def test_replays_on_the_platform_have_the_recorded_digests(platform: str, record: str) -> None:
     separator = ";" if platform.startswith("win") else ":"
     command = [*JAVA[platform], "-cp", TOOLS + separator + HOST, "org.collektive.tools.record.RecordsKt", "replay", record, "--trust"]
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all"}

@@ -27,11 +27,11 @@ def core(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return package.core(tmp_path_factory.mktemp("work"), tmp_path_factory.mktemp("core"), all_platforms=True)
 
 
-def test_the_package_of_all_platforms_has_less_than_15_mb(core: Path) -> None:
+def test_the_package_for_all_platforms_is_smaller_than_15_mb(core: Path) -> None:
     assert os.path.getsize(core) < 15 * MEGABYTE
 
 
-def test_it_has_each_native_library_and_what_makes_code_in_the_editors(core: Path) -> None:
+def test_the_package_contains_all_native_libraries_and_code_generators(core: Path) -> None:
     with tarfile.open(core) as archive:
         names = {name.removeprefix("package/unity/") for name in archive.getnames()}
     assert not any(name.startswith("Runtime/Plugins/linux-arm64") for name in names), "Linux players before 6000.5 can have one library only"
@@ -46,7 +46,7 @@ def test_the_same_sources_give_the_same_bytes(core: Path, tmp_path: Path) -> Non
 
 
 @pytest.mark.skipif(feature_version(find_jdk()) != 25, reason="only a JDK 25 links JVMs of version 25")
-def test_a_jvm_that_is_cut_again_gives_the_same_bytes(tmp_path: Path) -> None:
+def test_building_a_jvm_image_again_gives_the_same_bytes(tmp_path: Path) -> None:
     archives = []
     for time in "first", "second":
         (BUILD / "stamp/cut-linux-arm64").unlink(missing_ok=True)

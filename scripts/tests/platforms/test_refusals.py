@@ -48,7 +48,7 @@ def others(platform: str) -> list[str]:
 
 
 @pytest.mark.parametrize("platform", JAVA)
-def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(platform: str, tmp_path: Path) -> None:
+def test_a_jvm_of_another_platform_is_rejected_with_the_required_platform(platform: str, tmp_path: Path) -> None:
     for number, home in enumerate(others(platform)):
         folder = tmp_path / str(number)
         folder.mkdir()
@@ -61,7 +61,7 @@ def test_a_jvm_of_another_platform_is_refused_with_the_platform_that_is_needed(p
 
 
 @pytest.mark.parametrize("platform", [platform for platform in JAVA if platform == "win-x64"])
-def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform: str, tmp_path: Path) -> None:
+def test_windows_rejects_a_jvm_path_outside_its_code_page(platform: str, tmp_path: Path) -> None:
     home = tmp_path / FOREIGN
     home.symlink_to(home_of(platform))
     code, text = start(platform, str(home))
@@ -71,7 +71,7 @@ def test_windows_refuses_a_jvm_below_a_path_outside_of_its_code_page(platform: s
 
 
 @pytest.mark.parametrize("platform", [platform for platform in JAVA if platform != "win-x64"])
-def test_linux_takes_a_jvm_below_any_path_in_a_locale_that_has_its_characters(platform: str, tmp_path: Path) -> None:
+def test_linux_accepts_any_jvm_path_that_the_locale_can_represent(platform: str, tmp_path: Path) -> None:
     home = tmp_path / FOREIGN
     home.symlink_to(home_of(platform))
     assert start(platform, str(home), LC_ALL="C.UTF-8")[0] == 0

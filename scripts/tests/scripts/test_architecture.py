@@ -18,7 +18,7 @@ def declaration_pattern(path: str, test: str) -> str:
 
 
 class ArchitectureTest(unittest.TestCase):
-    def test_the_core_knows_no_case_study(self) -> None:
+    def test_the_core_does_not_mention_case_studies(self) -> None:
         core = ["schema", "native-shim", "unity/Runtime", "unity/Headless~/UnityEngine", "unity/Headless~/Player"]
         core += [os.path.join("jvm-host", module) for module in os.listdir(os.path.join(ROOT, "jvm-host")) if module not in ("programs", "bench")]
         words = re.compile(r"gradient.?ascent|leader.?lamp|walker", re.I)
@@ -73,7 +73,7 @@ class ArchitectureTest(unittest.TestCase):
                     if name.endswith((".cs", ".c", ".h", ".kt")):
                         with open(os.path.join(where, name)) as file:
                             sources += file.read()
-        # A text may be put together from literals on several lines.
+        # A text can consist of literals on several lines.
         sources = re.sub(r'"\s*\+?\s*"', "", sources)
         with open(os.path.join(ROOT, "Documentation~/troubleshooting.md")) as file:
             messages = re.findall(r"^\| `([^`]+)`", file.read(), re.M)

@@ -71,7 +71,7 @@ def test_the_editor_part_has_no_public_type() -> None:
     assert [declared for declared in types if not declared.startswith("internal ")] == []
 
 
-def test_what_lacks_documentation_is_found() -> None:
+def test_missing_documentation_is_found() -> None:
     bare = "/** A thing. */\npublic class A(\n    public val a: Int,\n)\n\npublic fun b() = 1"
     assert list(undocumented_kotlin(bare)) == ["3: public val a: Int,", "6: public fun b() = 1"]
     assert list(undocumented_kotlin("/**\n * A.\n *\n * @property a its a.\n */\n@Serializable\npublic class A(\n    public val a: Int,\n)")) == []

@@ -8,7 +8,7 @@ from checkout import Checkout
 
 
 @pytest.mark.parametrize("separator", ":;")
-def test_a_checkout_whose_path_has_a_separator_is_refused(checkout: Checkout, separator: str) -> None:
+def test_a_checkout_path_with_a_path_separator_is_rejected(checkout: Checkout, separator: str) -> None:
     checkout.root = checkout.root.rename(checkout.root.with_name(f"a{separator}b"))
     command = checkout.start_command("clean")
     errors = command.communicate()[1]
@@ -18,7 +18,7 @@ def test_a_checkout_whose_path_has_a_separator_is_refused(checkout: Checkout, se
 
 @pytest.mark.parametrize("words, code", [(("diff", "a", "b"), 2), (("replay", "a"), 2), (("run", "a"), 1)])
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can mount")
-def test_a_read_only_checkout_is_one_line_and_no_difference(checkout: Checkout, words: tuple[str, ...], code: int) -> None:
+def test_a_read_only_checkout_is_a_one_line_error_and_not_a_difference(checkout: Checkout, words: tuple[str, ...], code: int) -> None:
     mount = 'mount --bind "$1" "$1" && mount -o remount,ro,bind "$1" || exit 99; command=$1/collektive; shift; exec "$command" "$@"'
     result = subprocess.run(["unshare", "--mount", "sh", "-c", mount, "sh", str(checkout.root), *words], capture_output=True, text=True)
     if result.returncode == 99 or "unshare:" in result.stderr:

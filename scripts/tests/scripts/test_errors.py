@@ -5,17 +5,17 @@ from build.site import errors
 from build.site.sources import text
 
 
-def test_each_code_of_the_header_has_what_to_do() -> None:
+def test_each_error_code_of_the_header_has_a_solution() -> None:
     assert [name for name, *_ in errors.codes()] == list(errors.SOLUTIONS)
 
 
-def test_the_errors_of_csharp_are_those_of_the_header() -> None:
+def test_the_error_codes_of_csharp_match_the_header() -> None:
     named = {number: name.replace("_", "").lower() for name, number, _ in errors.codes()}
     assert {number: name.lower() for number, name in errors.bridge_errors().items()} == named
     assert len(named) == len(re.findall(r"(?m)^ +\w+ = -", text("unity/Runtime/Bridge/BridgeException.cs")))
 
 
-def test_each_check_of_the_compiler_plugin_says_when_and_what_to_do() -> None:
+def test_each_check_of_the_compiler_plugin_documents_condition_and_solution() -> None:
     found = {name: doc for name, _, doc in errors.checks()}
     source = text("jvm-host/compiler-plugin/src/main/kotlin/org/collektive/compiler/checks/AggregateDiagnostics.kt")
     assert sorted(found) == sorted(re.findall(r"\bval ([A-Z_]{4,}) by ", source))
@@ -29,7 +29,7 @@ def test_each_exit_code_has_a_meaning() -> None:
     assert [meaning for meanings in found.values() for meaning in meanings if not re.match(r"(\d+|any) \S", meaning)] == []
 
 
-def test_the_page_shows_them() -> None:
+def test_the_page_lists_all_errors() -> None:
     page = errors.errors()
     shown = re.findall(r"(?m)^\| .*", page)
     assert page.count("| next tick |") > 20

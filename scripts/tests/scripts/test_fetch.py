@@ -15,13 +15,13 @@ def once(key: str) -> str:
     return f"lock.shared(); fetch.fill_once('thing', '{key}', make)"
 
 
-def test_a_folder_is_filled_once_for_what_it_depends_on(checkout: Checkout) -> None:
+def test_a_folder_is_filled_once_per_key(checkout: Checkout) -> None:
     for key in ["1", "1", "2", "2"]:
         assert checkout.run(once(key)).returncode == 0
     assert checkout.made() == ["made, 0 files there"] * 2
 
 
-def test_an_error_ends_it_and_names_the_log(checkout: Checkout) -> None:
+def test_an_error_ends_the_step_and_names_the_log(checkout: Checkout) -> None:
     for _ in range(2):
         result = checkout.run(NOT_DONE)
         assert result.returncode == 1
@@ -30,7 +30,7 @@ def test_an_error_ends_it_and_names_the_log(checkout: Checkout) -> None:
     assert checkout.made() == ["made, 0 files there"]
 
 
-def test_one_that_was_killed_starts_over(checkout: Checkout) -> None:
+def test_a_killed_step_starts_over(checkout: Checkout) -> None:
     assert checkout.run(once("1")).returncode == 0
     checkout.close_gate()
     process = checkout.start(once("2"))
@@ -56,7 +56,7 @@ def test_a_new_environment_of_experiments_gets_its_additions_again(checkout: Che
     assert (checkout.root / "build/experiments/requirements-test.txt").exists()
 
 
-def test_a_second_command_waits_and_finds_it_done(checkout: Checkout) -> None:
+def test_a_second_command_waits_for_the_first_and_skips_the_step(checkout: Checkout) -> None:
     checkout.close_gate()
     first = checkout.start(once("1"))
     with open(checkout.root / "gate", "w"):
@@ -95,7 +95,7 @@ def test_a_damaged_download_is_fetched_again(checkout: Checkout) -> None:
     assert "crate failed: retrying without cached downloads" in result.stderr
 
 
-def test_an_error_that_stays_ends_the_command(checkout: Checkout) -> None:
+def test_a_persistent_error_ends_the_command(checkout: Checkout) -> None:
     result = checkout.run("fetch._downloaded('crate', ['false'], lambda: None)")
     assert "Failure: crate failed" in result.stderr
 

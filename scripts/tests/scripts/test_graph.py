@@ -26,7 +26,7 @@ def project(checkout: Checkout) -> Checkout:
     return checkout
 
 
-def test_what_changed_is_built_and_nothing_else(project: Checkout) -> None:
+def test_only_changed_targets_are_built(project: Checkout) -> None:
     for text in ["one", "one", "two", "two"]:
         if (project.root / "in").read_text() != text:
             time.sleep(0.02)
@@ -36,7 +36,7 @@ def test_what_changed_is_built_and_nothing_else(project: Checkout) -> None:
     assert project.made() == ["made", "made"]
 
 
-def test_a_build_with_nothing_to_do_waits_for_no_run(project: Checkout) -> None:
+def test_an_up_to_date_build_does_not_wait_for_runs(project: Checkout) -> None:
     assert project.run(MODULE).returncode == 0
     project.close_gate()
     use = project.start("lock.shared(); wait_at_gate()")
@@ -51,7 +51,7 @@ def test_a_build_with_nothing_to_do_waits_for_no_run(project: Checkout) -> None:
     assert build.wait() == 0
 
 
-def test_a_build_that_was_killed_starts_over(project: Checkout) -> None:
+def test_a_killed_build_starts_over(project: Checkout) -> None:
     project.close_gate()
     process = project.start(MODULE)
     with open(project.root / "gate", "w"):

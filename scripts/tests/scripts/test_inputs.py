@@ -26,14 +26,14 @@ def names(part: inputs.Part) -> list[str]:
 
 
 @pytest.mark.parametrize("folder", ["target", "node_modules", ".git", "build"])
-def test_folders_of_any_name_belong_to_the_sources(tmp_path: Path, folder: str) -> None:
+def test_folders_with_unusual_names_are_included(tmp_path: Path, folder: str) -> None:
     write(tmp_path / folder / "A.cs")
     write(tmp_path / folder / "a.kt")
     assert names(inputs.scripts(tmp_path)) == [f"{folder}/A.cs"]
     assert names(inputs.programs(tmp_path)) == [f"{folder}/a.kt"]
 
 
-def test_generated_csharp_is_left_out_but_not_sources_below_a_folder_of_that_name(tmp_path: Path) -> None:
+def test_generated_csharp_is_excluded_but_other_sources_in_folders_of_that_name_are_not(tmp_path: Path) -> None:
     project = tmp_path / "Generated/obj"
     for name in ["A.cs", "Generated/B.cs", "part/obj/C.cs", "Generated/b.kt"]:
         write(project / name)
@@ -41,7 +41,7 @@ def test_generated_csharp_is_left_out_but_not_sources_below_a_folder_of_that_nam
     assert names(inputs.programs(project)) == ["Generated/b.kt"]
 
 
-def test_links_are_followed_and_lead_in_circles_only_once(tmp_path: Path) -> None:
+def test_links_are_followed_and_cycles_end(tmp_path: Path) -> None:
     write(tmp_path / "elsewhere/B.cs", "b")
     write(tmp_path / "scripts/A.cs", "a")
     (tmp_path / "scripts/more").symlink_to(tmp_path / "elsewhere")
@@ -54,7 +54,7 @@ def test_links_are_followed_and_lead_in_circles_only_once(tmp_path: Path) -> Non
     assert inputs.scripts(tmp_path / "scripts").digest != part.digest
 
 
-def test_a_schema_has_all_its_includes_but_those_of_the_package(tmp_path: Path) -> None:
+def test_a_schema_has_all_its_includes_except_those_of_the_package(tmp_path: Path) -> None:
     write(tmp_path / "common/b.fbs", "include /* */ 'c.fbs';")
     write(tmp_path / "common/c.fbs", 'include "../project/a.fbs";')
     write(tmp_path / "project/a.fbs", '// include "no.fbs";\ninclude "../common/b.fbs"; include "types.fbs";')
@@ -63,7 +63,7 @@ def test_a_schema_has_all_its_includes_but_those_of_the_package(tmp_path: Path) 
 
 
 @pytest.mark.parametrize("include, words", [("a\\\\b.fbs", "backslash"), ("link/../b.fbs", "linked folder")])
-def test_includes_whose_file_is_not_certain_are_refused(tmp_path: Path, include: str, words: str) -> None:
+def test_ambiguous_includes_are_rejected(tmp_path: Path, include: str, words: str) -> None:
     write(tmp_path / "other/b.fbs")
     (tmp_path / "project").mkdir()
     (tmp_path / "other/deep").mkdir()
@@ -94,7 +94,7 @@ def test_hashes_depend_on_names_and_contents_but_not_on_the_folder(tmp_path: Pat
     assert inputs.schema(write(tmp_path / "c/a.fbs")).digest != inputs.schema(write(tmp_path / "c/b.fbs")).digest
 
 
-def test_a_file_that_changes_while_it_is_compiled_is_noticed(tmp_path: Path) -> None:
+def test_a_file_that_changes_during_compilation_is_detected(tmp_path: Path) -> None:
     file = write(tmp_path / "A.cs", "one")
     part = inputs.scripts(tmp_path)
     part.require_unchanged()
@@ -209,7 +209,7 @@ class Project:
 
 @needs_flatc
 @pytest.mark.parametrize("seed", range(8))
-def test_when_a_fresh_checkout_would_give_other_inputs_so_does_the_hash(tmp_path: Path, seed: int) -> None:
+def test_the_hash_changes_whenever_a_fresh_checkout_has_other_inputs(tmp_path: Path, seed: int) -> None:
     project = Project(tmp_path, seed)
     before, digests, history = project.compiled(tmp_path / "fresh"), project.digest(), []
     differences = [0, 0, 0]

@@ -16,7 +16,7 @@ def read_error(process: subprocess.Popen[str]) -> str:
     return str(process.stderr.readline())
 
 
-def test_a_second_command_waits_for_the_first_that_changes_the_outputs_and_reports_it(checkout: Checkout) -> None:
+def test_a_command_reports_that_it_waits_for_one_that_changes_outputs(checkout: Checkout) -> None:
     checkout.close_gate()
     first = checkout.start(CHANGE)
     with open(checkout.root / "gate", "w"):  # returns when the first waits at the gate
@@ -28,7 +28,7 @@ def test_a_second_command_waits_for_the_first_that_changes_the_outputs_and_repor
     assert (second.returncode, output, errors) == (0, "done\n", "")
 
 
-def test_commands_that_change_nothing_run_at_once(checkout: Checkout) -> None:
+def test_commands_that_only_use_outputs_run_concurrently(checkout: Checkout) -> None:
     checkout.close_gate()
     first = checkout.start(USE)
     with open(checkout.root / "gate", "w"):
@@ -44,7 +44,7 @@ def test_a_command_that_changes_outputs_releases_the_lock_when_it_only_uses_them
     assert first.wait() == 0
 
 
-def test_of_two_simultaneous_commands_the_second_waits_for_the_build_only(checkout: Checkout) -> None:
+def test_the_second_of_two_simultaneous_commands_waits_only_for_the_build(checkout: Checkout) -> None:
     os.mkfifo(checkout.root / "start")
     runs = [checkout.start("lock.shared(); open(root / 'start').read(); fetch.fill_once('thing', '1', make); print('runs', flush=True); signal.pause()")
             for _ in range(2)]

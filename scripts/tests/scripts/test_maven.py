@@ -65,7 +65,7 @@ def modules(checkout: Checkout) -> Modules:
     return Modules(checkout)
 
 
-def test_modules_are_compiled_when_they_or_what_they_see_changed(modules: Modules) -> None:
+def test_modules_are_compiled_when_they_or_their_dependencies_changed(modules: Modules) -> None:
     assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, modules.output
     assert modules.build() == set(), "nothing changed"
     modules.edit(LOWER, "ordinary(): Int = 1", "ordinary(): Int = 2")

@@ -34,7 +34,7 @@ def test_linux_on_arm_has_no_editor() -> None:
     assert "Standalone: Linux64\n    second:\n      enabled: 1\n      settings:\n        CPU: ARM64" in text
 
 
-def test_guids_of_native_libraries_stay_and_differ() -> None:
+def test_guids_of_native_libraries_are_stable_and_unique() -> None:
     guids = {metas.guid_in(importer(platform, "libcollektive_shim.so")) for platform in metas.NATIVE}
     assert len(guids) == 5
     assert metas.guid_in(importer("linux-x64", "libcollektive_shim.so")) == "7db39c4f0a517853fde8acd0f946d656"
@@ -65,7 +65,7 @@ def test_metas_and_manifests_name_the_platforms_that_are_built() -> None:
 
 
 @pytest.mark.parametrize("platform", platforms.PLATFORMS)
-def test_java_of_a_platform_is_run_by_its_emulator(platform: str) -> None:
+def test_java_of_another_platform_is_run_by_its_emulator(platform: str) -> None:
     words = platforms.java_command(platform)
     assert words[:-1] == platforms.emulator(platform)
     assert words[-1].endswith(f"build/jre-{platform}/bin/java" + (".exe" if platform == "win-x64" else ""))

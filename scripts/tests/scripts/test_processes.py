@@ -73,7 +73,7 @@ def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout) -> None:
     assert ends(child)
 
 
-def test_an_interrupt_lets_the_running_program_end_in_its_own_way(checkout: Checkout) -> None:
+def test_an_interrupt_lets_the_running_program_end_normally(checkout: Checkout) -> None:
     body = CHILD.format("import signal; signal.signal(signal.SIGINT, lambda *_: (time.sleep(0.5), os._exit(0))); time.sleep(600)")
     process = checkout.start(run_in_group(body))
     child = child_of(checkout)
@@ -83,7 +83,7 @@ def test_an_interrupt_lets_the_running_program_end_in_its_own_way(checkout: Chec
     assert ends(child)
 
 
-def test_orphans_of_a_program_end_whichever_group_they_are_in(checkout: Checkout) -> None:
+def test_orphans_of_a_program_end_in_any_process_group(checkout: Checkout) -> None:
     program = """processes.call(['sh', '-c', 'setsid sleep 600 & echo $! > "$0"', str(root / 'pid')])"""
     began = time.monotonic()
     assert checkout.run(run_in_group(f"{program} or processes.end_orphans() or 0")).returncode == 0

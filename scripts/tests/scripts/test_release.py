@@ -19,12 +19,12 @@ def test_a_version_without_a_section_has_no_notes(version: str) -> None:
         release.notes(CHANGES, version)
 
 
-def test_openupm_builds_from_the_tags_with_the_packages_content() -> None:
+def test_openupm_builds_from_tags_with_the_content_of_the_package() -> None:
     made = release.openupm("https://example.org/owner/repository")
     assert (made["name"], made["gitTagPrefix"], made["hunter"]) == (manifest.read(ROOT)["name"], "upm/", "owner")
 
 
-def test_the_bill_names_what_is_not_ours_and_the_package_as_a_whole() -> None:
+def test_the_bill_of_materials_lists_third_parties_and_the_package() -> None:
     maven = {"metadata": {"component": {"name": "parent"}}, "components": [
         {"group": "org.collektive", "name": "host", "bom-ref": "host"}, {"group": "org.slf4j", "name": "slf4j-api", "bom-ref": "slf4j"}]}
     bill = release.complete_bill(maven, manifest.read(ROOT), release.fetched_components("25.1", "0.6.0", "25"))

@@ -21,19 +21,19 @@ def contents(folder: Path) -> dict[str, str]:
     return {file.name: file.read_text() for file in folder.iterdir()}
 
 
-def test_they_are_refused_unless_they_may_be_overwritten(folder: Path) -> None:
+def test_existing_results_are_rejected_without_overwrite(folder: Path) -> None:
     with pytest.raises(Failure, match=r"has results of a run: manifest\.json, profile\.jfr; name another folder"), outputs.open_folder(folder, False):
         pass
     assert len(contents(folder)) == 3
 
 
-def test_a_run_that_has_begun_replaces_them(folder: Path) -> None:
+def test_a_run_that_starts_replaces_the_results(folder: Path) -> None:
     with outputs.open_folder(folder, True):
         (folder / "manifest.json").write_text("running")
     assert contents(folder) == {"manifest.json": "running", "notes.txt": "of the user"}
 
 
-def test_they_come_back_when_the_run_does_not_begin(folder: Path) -> None:
+def test_results_are_restored_if_the_run_does_not_start(folder: Path) -> None:
     before = contents(folder)
     with outputs.open_folder(folder, True):
         assert not (folder / "manifest.json").exists()
@@ -41,7 +41,7 @@ def test_they_come_back_when_the_run_does_not_begin(folder: Path) -> None:
     assert contents(folder) == before
 
 
-def test_after_a_command_that_was_killed_they_come_back_with_the_next_one(folder: Path) -> None:
+def test_results_are_restored_by_the_command_after_a_killed_one(folder: Path) -> None:
     before = contents(folder)
     earlier = folder / outputs.BACKUP
     earlier.mkdir()
@@ -51,7 +51,7 @@ def test_after_a_command_that_was_killed_they_come_back_with_the_next_one(folder
     assert contents(folder) == before
 
 
-def test_files_that_no_run_has_written_are_kept(folder: Path) -> None:
+def test_files_not_written_by_a_run_are_kept(folder: Path) -> None:
     (folder / "manifest.json").write_text('{"name": "a page of the user"}')
     before = contents(folder)
     with pytest.raises(Failure, match="but no manifest of a run"), outputs.open_folder(folder, True):

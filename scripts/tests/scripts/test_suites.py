@@ -44,7 +44,7 @@ def counts(cases: list[junit.Case]) -> tuple[int, int]:
     ({"results.xml": BAD}, "Failed", (1, 1)),
     ({"results.xml": GOOD, "more.xml": BAD}, "Failed", (3, 1)),
 ], ids=["all pass", "one fails", "two files"])
-def test_a_suite_counts_by_the_results_that_it_wrote(tmp_path: Path, files: dict[str, str], failure: str, expected: tuple[int, int]) -> None:
+def test_the_results_file_of_a_suite_determines_its_counts(tmp_path: Path, files: dict[str, str], failure: str, expected: tuple[int, int]) -> None:
     for name, text in files.items():
         (tmp_path / name).write_text(text)
     assert counts(results.read(tmp_path, failure)) == expected
@@ -59,14 +59,14 @@ def test_a_suite_counts_by_the_results_that_it_wrote(tmp_path: Path, files: dict
     ({"results.xml": "<testsuite/>"}, "", (0, 1)),
     ({"output": "7 passed, 0 failed"}, "", (0, 1)),
 ], ids=["no file", "no file and a failure", "failure after its results", "file cut short", "file of something else", "no test", "only a line"])
-def test_a_suite_without_whole_results_or_with_a_bad_end_is_a_failure(tmp_path: Path, files: dict[str, str], failure: str,
+def test_a_suite_with_incomplete_results_or_an_abnormal_end_fails(tmp_path: Path, files: dict[str, str], failure: str,
                                                                        expected: tuple[int, int]) -> None:
     for name, text in files.items():
         (tmp_path / name).write_text(text)
     assert counts(results.read(tmp_path, failure)) == expected
 
 
-def test_a_suite_that_could_run_nothing_says_why(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_suite_without_tests_reports_the_reason(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "it").mkdir()
     (tmp_path / "it/notes").write_text("no emulator\n")
     assert results.read(tmp_path / "it", "") == []
@@ -75,7 +75,7 @@ def test_a_suite_that_could_run_nothing_says_why(tmp_path: Path, capsys: pytest.
     assert counts(results.read(tmp_path / "it", "Failed")) == (0, 1)
 
 
-def test_failed_tests_are_named_and_the_last_line_is_the_sum(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_failed_tests_are_listed_and_the_last_line_is_the_total(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert results.verdict({"it": [junit.Case("one"), junit.Case("two", "no\nat line 3")], "other": [junit.Case("three")]}, tmp_path) == 1
     output = capsys.readouterr()
     assert "FAILED it: two: no\n" in output.err
@@ -96,7 +96,7 @@ def test_tests_without_a_suite_count(tmp_path: Path) -> None:
     assert [case.name for case in junit.read(str(path))] == ["one", "two"]
 
 
-def test_what_is_written_can_be_read(tmp_path: Path) -> None:
+def test_written_results_can_be_read_back(tmp_path: Path) -> None:
     cases = [junit.Case("it's <fine>"), junit.Case("it is not", "because \x1b[31m& more\nlines", 1.5)]
     path = str(tmp_path / "new" / "results.xml")
     junit.write(path, "suite", cases)

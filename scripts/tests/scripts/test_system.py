@@ -51,7 +51,7 @@ def tools(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Tools:
     return Tools(tmp_path)
 
 
-def test_a_tool_that_is_too_old_is_named_with_its_version_and_its_package(tools: Tools) -> None:
+def test_an_outdated_tool_is_reported_with_its_version_and_package(tools: Tools) -> None:
     report = tools.missing("cargo", "cargo 1.65.0", [("cargo", "0.66.0+ds1-1"), ("cargo-web", "1.85.0+dfsg3-1~deb12u3")])
     assert f"{tools.path('cargo')} has version 1.65.0; 1.85 or newer is needed" in report
     assert report.endswith("apt-get install cargo-web")
@@ -62,7 +62,7 @@ def test_a_tool_that_is_too_old_is_named_with_its_version_and_its_package(tools:
     ([("cargo", "1.75.0"), ("cargo-1.85", "1.85.1+dfsg0")], "cargo-1.85"),
     ([], "cargo"),
 ])
-def test_the_package_is_one_that_is_new_enough(tools: Tools, packages: list[tuple[str, str]], expected: str) -> None:
+def test_the_suggested_package_is_new_enough(tools: Tools, packages: list[tuple[str, str]], expected: str) -> None:
     assert tools.missing("cargo", "cargo 1.75.0", packages).endswith(f"apt-get install {expected}")
 
 
@@ -105,7 +105,7 @@ def test_on_a_fresh_system_the_package_is_chosen_when_apt_has_its_lists(tools: T
     ("mvn", "\033[1mApache Maven 3.8.7\033[m"), ("javac", "javac 25"), ("node", "v18.20.4"), ("cargo", "cargo 1.100.0 (abc 2027-01-01)"),
     ("cc", "cc (Ubuntu 13.2.0-23ubuntu4) 13.2.0"),
 ])
-def test_each_form_of_a_version_is_understood(tools: Tools, tool: str, version: str) -> None:
+def test_all_version_formats_are_parsed(tools: Tools, tool: str, version: str) -> None:
     assert tools.missing(tool, version) == ""
 
 
@@ -121,7 +121,7 @@ def test_a_tool_that_explains_why_it_fails_is_quoted(tools: Tools) -> None:
     assert "unknown" not in report
 
 
-def test_a_tool_that_is_missing_is_named(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_tool_is_reported(tools: Tools, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", str(tools.folder))
     tools.fake("python3", "echo Python 3.11.4")
     assert "ninja is missing; 1.11 or newer is needed" in tools.report()
@@ -132,7 +132,7 @@ def test_a_tool_that_is_replaced_is_checked_again(tools: Tools) -> None:
     assert tools.missing("node", "v16.20.10") != ""
 
 
-def test_a_cargo_that_cannot_reach_its_registry_is_one_line(tools: Tools, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_cargo_that_cannot_reach_its_registry_is_a_one_line_error(tools: Tools, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr("build.console.LOGS", tools.folder / "log")
     tools.fake("cargo", 'case $1 in --version) echo cargo 1.85.0 ;; *) echo "error: failed to download from the registry" >&2; exit 101 ;; esac')
     with pytest.raises(Failure, match=r"^flatbuffers failed; the whole log is .*flatbuffers\.log$"):
@@ -142,7 +142,7 @@ def test_a_cargo_that_cannot_reach_its_registry_is_one_line(tools: Tools, monkey
     assert "Traceback" not in shown
 
 
-def test_an_older_python_is_refused(tmp_path: Path) -> None:
+def test_an_older_python_is_rejected(tmp_path: Path) -> None:
     old = "import runpy, sys; sys.version_info = (3, 9, 2, 'final', 0); sys.version = '3.9.2 (default)'; runpy.run_path(sys.argv[1], run_name='__main__')"
     result = subprocess.run(["python3", "-I", "-c", old, ROOT / "scripts/collektive.py", "--help"], capture_output=True, text=True)
     assert result.returncode == 1

@@ -35,7 +35,7 @@ def test_the_shim_has_the_products_version() -> None:
     assert f"#define CLK_VERSION {version.packed(version.product())}\n" in text(version.SHIM)
 
 
-def test_no_other_file_names_it() -> None:
+def test_no_other_file_contains_the_version() -> None:
     listed = subprocess.run(["git", "-C", ROOT, "grep", "-lF", version.product()], capture_output=True, text=True).stdout.split("\n")
     known = {path for path, _ in version.files()}
     # The changelog names all versions, and other software may have the same one.

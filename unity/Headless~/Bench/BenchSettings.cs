@@ -11,7 +11,7 @@ namespace Collektive.Headless.Bench
             "Bench --java-home DIR --host-jar JAR --jar JAR [--jar JAR]... --out FILE [--quick] [--nodes N,N...]";
 
         /// <summary>
-        /// The same for this process's JVM and for the second one: what the product gives a JVM, and a fixed heap, all of it in memory from the start.
+        /// Options of both JVMs: those of the product, and a fixed heap that is in memory from the start.
         /// </summary>
         internal static readonly string[] JvmOptions =
             { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2", "-XX:+UseCondCardMark" };
@@ -20,7 +20,7 @@ namespace Collektive.Headless.Bench
 
         internal string HostJar { get; private set; }
 
-        /// <summary>The library for the rounds without a session.</summary>
+        /// <summary>The library with which the second process runs rounds without a session.</summary>
         internal string LibraryJar => System.IO.Path.Combine(System.IO.Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
         internal List<string> Jars { get; } = new List<string>();

@@ -9,7 +9,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>Measures all variants in one run, a batch of each in turn, so that what slows the machine down slows all of them.</summary>
+    /// <summary>Measures all variants in one run, in alternating batches, so that load on the machine slows all of them equally.</summary>
     internal sealed class Benchmark
     {
         private const int Batches = 5;
@@ -43,7 +43,7 @@ namespace Collektive.Headless.Bench
             Gates.Print(rows, Console.Out);
         }
 
-        /// <summary>First, as a JVM in this process stays until the end.</summary>
+        /// <summary>Runs first, because a JVM in this process stays until the end.</summary>
         private void RunOwnProcess()
         {
             Start(JvmPlacement.OwnProcess);
@@ -124,11 +124,11 @@ namespace Collektive.Headless.Bench
             variant.Row.Add(times, count, variant.IsManaged ? (double)managed / count : -1, (double)jvm / count);
         }
 
-        /// <summary>Nodes, or what is as much work.</summary>
+        /// <summary>Number of nodes, or the equivalent amount of work.</summary>
         private static int Weight(Variant variant) => variant is PerNodeCall ? variant.Row.Nodes * 20 : variant is Spawn ? variant.Row.Nodes * 4
             : variant.Row.Nodes;
 
-        /// <summary>Ticks until the compilers are done: some seconds' worth at first, then enough for caches.</summary>
+        /// <summary>Ticks until the compilers are done, at least enough to fill the caches.</summary>
         private int WarmUp(int weight) => Math.Max(10, (settings.Quick ? 1500000 : 4000000) / Math.Max(weight, 400));
 
         private int BatchSize(int weight, bool paced) => paced ? 50

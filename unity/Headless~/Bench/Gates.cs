@@ -55,7 +55,7 @@ namespace Collektive.Headless.Bench
 
         private static void AtLeast(TextWriter output, string what, double value, double limit) => Line(output, what, value, "at least", limit, value >= limit);
 
-        /// <summary>The parts of a promise.</summary>
+        /// <summary>Prints a value that contributes to a required one.</summary>
         private static void Part(TextWriter output, string what, double value) =>
             output.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0,-44} {1,10:0.0#}", what, value));
 

@@ -7,8 +7,8 @@ using org.collektive.schema;
 namespace Collektive.Headless.Bench
 {
     /// <summary>
-    /// The benchmark's world: nodes a metre apart on a grid that is as square as it can be, each linked with its (up to) eight neighbours. The
-    /// Kotlin side builds the same one.
+    /// The benchmark's world: nodes on a grid with 1 m spacing, as square as possible, each linked to its (up to) eight neighbours. The Kotlin side
+    /// builds the same one.
     /// </summary>
     internal sealed class GridWorld
     {
@@ -30,7 +30,7 @@ namespace Collektive.Headless.Bench
 
         internal int Size { get; }
 
-        /// <summary>Asks for all nodes and links.</summary>
+        /// <summary>Requests all nodes and links.</summary>
         internal void AddTo(StepRequest request)
         {
             for (var node = 0; node < Size; node++) request.AddNode(node, null, null);
@@ -48,7 +48,7 @@ namespace Collektive.Headless.Bench
             for (var node = 0; node < Size; node++) request.RemoveNode(node);
         }
 
-        /// <summary>Makes all nodes due, with what they sense in a tick.</summary>
+        /// <summary>Makes all nodes due, with their sensor data of a tick.</summary>
         internal void Sense(StepRequest request, long tick)
         {
             request.ClearDue();
@@ -56,7 +56,7 @@ namespace Collektive.Headless.Bench
             for (var node = 0; node < Size; node++) Sense(request, node, node, tick);
         }
 
-        /// <summary>Makes one node due; its data are element <paramref name="index"/>.</summary>
+        /// <summary>Makes one node due. Its sensor data is element <paramref name="index"/>.</summary>
         internal void Sense(StepRequest request, int node, int index, long tick)
         {
             var sensors = (SensorBuffer<SensorData>)request.Sensors;

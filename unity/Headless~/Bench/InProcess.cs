@@ -4,7 +4,7 @@ using gradientascent;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>The product: C# fills the frame, one call, the JVM runs the rounds, C# reads the answer in place.</summary>
+    /// <summary>The product: C# fills the frame, the JVM runs all rounds in one call, and C# reads the answer in place.</summary>
     internal class InProcess : Variant
     {
         private readonly AllocationProbe probe;
@@ -24,7 +24,7 @@ namespace Collektive.Headless.Bench
 
         protected Session Session { get; }
 
-        /// <summary>Keeps the answers from being optimised away.</summary>
+        /// <summary>Prevents dead-code elimination of the answers.</summary>
         internal float Sum { get; private set; }
 
         internal override int CallsPerTick => 1;
@@ -63,7 +63,7 @@ namespace Collektive.Headless.Bench
         }
     }
 
-    /// <summary>The same at a pace, as in a game: caches and cores cool down between ticks.</summary>
+    /// <summary>The same with pauses as in a game, in which caches and cores cool down.</summary>
     internal sealed class PacedInProcess : InProcess
     {
         internal PacedInProcess(BenchSettings settings, AllocationProbe probe, int nodes, int threads)
@@ -76,7 +76,7 @@ namespace Collektive.Headless.Bench
         protected override void Pause() => Measurement.Pause();
     }
 
-    /// <summary>As collektive.unity does, over the same shim: a call for each node.</summary>
+    /// <summary>One call per node over the same shim, as in collektive.unity.</summary>
     internal sealed class PerNodeCall : InProcess
     {
         internal PerNodeCall(BenchSettings settings, AllocationProbe probe, int nodes, int threads)
@@ -101,14 +101,14 @@ namespace Collektive.Headless.Bench
         }
     }
 
-    /// <summary>A tick adds all nodes with their links; between two of them all leave again.</summary>
+    /// <summary>Each tick adds all nodes with their links. All leave again between two ticks.</summary>
     internal sealed class Spawn : InProcess
     {
         internal Spawn(BenchSettings settings, AllocationProbe probe, int nodes, int threads) : base(settings, probe, "spawn", "in-process", nodes, threads)
         {
         }
 
-        /// <summary>The tick between two counts too.</summary>
+        /// <summary>The tick in between counts too.</summary>
         internal override int CallsPerTick => 2;
 
         protected override void Prepare()

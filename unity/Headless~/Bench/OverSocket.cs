@@ -5,7 +5,7 @@ using Google.FlatBuffers;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>The same frames to a second process over TCP on loopback: no delay, one write and one read per tick.</summary>
+    /// <summary>Sends the same frames to a second process over TCP on loopback, with no delay and with one write and one read per tick.</summary>
     internal sealed class OverSocket : Variant
     {
         private readonly Peer peer;
@@ -32,7 +32,7 @@ namespace Collektive.Headless.Bench
             peer.Call(PeerRequest.Open, id, builder);
         }
 
-        /// <summary>Keeps the answers from being optimised away.</summary>
+        /// <summary>Prevents dead-code elimination of the answers.</summary>
         internal float Sum { get; private set; }
 
         internal override bool IsPaced => paced;
@@ -70,7 +70,7 @@ namespace Collektive.Headless.Bench
         }
     }
 
-    /// <summary>Ticks of the second process alone: rounds without the boundary, or plain loops.</summary>
+    /// <summary>Ticks that run entirely in the second process: rounds without the boundary, or plain loops.</summary>
     internal sealed class OnJvm : Variant
     {
         private readonly Peer peer;

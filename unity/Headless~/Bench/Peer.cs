@@ -42,7 +42,7 @@ namespace Collektive.Headless.Bench
         /// <summary>The last answer's payload; valid until the next call.</summary>
         internal ByteBuffer Answer => received.Buffer;
 
-        /// <summary>A number for a session or workload of the second process.</summary>
+        /// <summary>Number of a session or workload of the second process.</summary>
         internal int NewId() => ++lastId;
 
         /// <summary>Sends the frame that a builder finished, in one write, and waits for the answer.</summary>

@@ -13,7 +13,7 @@ namespace Collektive.Headless.Bench
             try
             {
                 new Benchmark(BenchSettings.Parse(arguments)).Run();
-                // The JVM goes before the managed runtime: its threads and signal handlers must not outlive Mono's.
+                // The JVM stops before the managed runtime, because its threads and signal handlers must not outlive Mono's.
                 Jvm.Stop(JvmStopLimitMs);
                 return 0;
             }

@@ -36,17 +36,17 @@ namespace Collektive.Headless.Bench
 
         internal double Median => Quantiles.Of(times, 0.5);
 
-        /// <summary>The rounds' part of the median tick; 0 when unknown.</summary>
+        /// <summary>Time of the rounds in the median tick; 0 when unknown.</summary>
         internal double Rounds => rounds.Count == 0 ? 0 : Quantiles.Of(rounds, 0.5);
 
         internal double P99 => Quantiles.Of(times, 0.99);
 
-        /// <summary>The smallest of all batches, since the runtimes themselves allocate now and then; NaN when unknown.</summary>
+        /// <summary>Minimum over all batches, because the runtimes themselves sometimes allocate; NaN when unknown.</summary>
         internal double ManagedBytes => Least(managedBytes);
 
         internal double JvmBytes => Least(jvmBytes);
 
-        /// <summary>More that only this kind of row has.</summary>
+        /// <summary>Additional values of this kind of row.</summary>
         internal JObject More { get; } = new JObject();
 
         /// <summary>Adds a batch: the microseconds of its ticks, and the bytes per tick; negative when unknown.</summary>

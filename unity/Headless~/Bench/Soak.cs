@@ -8,8 +8,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless.Bench
 {
     /// <summary>
-    /// A long run that measures tail latency, garbage collection and memory growth. It begins as all measurements do, when the
-    /// compilers are done, and without what those before left in the heap.
+    /// A long run that measures tail latency, garbage collection and memory growth. Like all measurements, it begins when the
+    /// compilers are done and the heap has been collected.
     /// </summary>
     internal sealed class Soak
     {

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Faults
 {
-    /// <summary>Faults on the side of C#, and of native libraries.</summary>
+    /// <summary>Faults in C# and in native libraries.</summary>
     internal static class Acts
     {
         private const int SegmentationFault = 11;
@@ -21,14 +21,14 @@ namespace Collektive.Headless.Faults
                 case "sensor-null": node.gameObject.AddComponent<NullSensor>(); break;
                 case "sensor-divides": node.gameObject.AddComponent<DividingSensor>(); break;
                 case "unknown-node": SendUnknownNode(manager); break;
-                case "other-options": StartOtherwise(); break;
+                case "other-options": StartWithOtherOptions(); break;
                 case "kill-jvm": kill(Jvm.Process, KillSignal); break;
                 case "record-nowhere": JvmRecording.Start("/proc/nowhere/record.jfr"); break;
                 default: throw new ArgumentException("unknown act '" + act + "'");
             }
         }
 
-        /// <summary>Exceptions that come from signals, and a collection.</summary>
+        /// <summary>Raises exceptions that are implemented by signals, and runs a collection.</summary>
         internal static bool CSharpWorks()
         {
             var caught = 0;
@@ -70,7 +70,7 @@ namespace Collektive.Headless.Faults
             }
         }
 
-        private static void StartOtherwise()
+        private static void StartWithOtherOptions()
         {
             try
             {

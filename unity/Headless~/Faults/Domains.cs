@@ -6,7 +6,7 @@ using Collektive.Headless.Tests;
 
 namespace Collektive.Headless.Faults
 {
-    /// <summary>Plays in C# domains that are unloaded afterwards, as the editor does after each change of a script.</summary>
+    /// <summary>Plays in C# domains that are then unloaded, as the editor does after each change of a script.</summary>
     internal static class Domains
     {
         private const int Times = 50;
@@ -17,7 +17,7 @@ namespace Collektive.Headless.Faults
             typeof(Google.FlatBuffers.FlatBufferBuilder), typeof(Bridge.Jvm), typeof(UnityEngine.Object), typeof(Unity.SimulationManager), typeof(ShimCounts),
         };
 
-        /// <summary>Whether all plays went well and left no session, slot or thread behind.</summary>
+        /// <summary>Returns whether all plays succeeded and released their sessions, slots and threads.</summary>
         internal static bool Play()
         {
             var arguments = Array.FindAll(Environment.GetCommandLineArgs(),
@@ -26,7 +26,7 @@ namespace Collektive.Headless.Faults
             var threads = 0;
             for (var i = 0; i < Times; i++)
             {
-                // Every third one is unloaded in the middle of its play.
+                // Unload every third domain in the middle of its play.
                 arguments[arguments.Length - 1] = i % 3 == 2 ? "act=play-on" : "act=play";
                 var code = IsCoreClr ? PlayInContext(arguments) : PlayInDomain(arguments);
                 if (code != 0 || ShimCounts.Sessions != 0 || ShimCounts.Slots != 0)
@@ -34,9 +34,9 @@ namespace Collektive.Headless.Faults
                     Console.WriteLine("play " + i + ": code " + code + ", " + ShimCounts.Sessions + " sessions, " + ShimCounts.Slots + " slots");
                     return false;
                 }
-                if (i == 10) threads = Settled();
+                if (i == 10) threads = CountThreadsAfterDelay();
             }
-            var left = Settled() - threads;
+            var left = CountThreadsAfterDelay() - threads;
             Console.WriteLine(left + " threads more after " + Times + " domains");
             return left <= 2;
         }
@@ -51,7 +51,7 @@ namespace Collektive.Headless.Faults
             return code;
         }
 
-        /// <summary>CoreCLR has load contexts in the place of domains. One goes when nothing refers to its code any more.</summary>
+        /// <summary>CoreCLR has load contexts instead of domains. A context is unloaded when nothing refers to its code any more.</summary>
         private static int PlayInContext(string[] arguments)
         {
             var code = PlayInContext(arguments, out var context);
@@ -64,7 +64,7 @@ namespace Collektive.Headless.Faults
             return code;
         }
 
-        // By reflection, as the class is not in netstandard2.1. No variable of the caller may refer to what is in the context.
+        // By reflection, because netstandard2.1 lacks the class. No variable of the caller may refer to objects of the context.
         [MethodImpl(MethodImplOptions.NoInlining)]
         private static int PlayInContext(string[] arguments, out WeakReference reference)
         {
@@ -80,7 +80,7 @@ namespace Collektive.Headless.Faults
             return code;
         }
 
-        private static int Settled()
+        private static int CountThreadsAfterDelay()
         {
             Thread.Sleep(300);
             return ShimCounts.Threads;

@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Faults
 {
-    /// <summary>A scene that ends its process in the way of <see cref="how"/>, while its nodes run.</summary>
+    /// <summary>A scene that ends its process as <see cref="how"/> selects, while its nodes run.</summary>
     public sealed class Ending : SceneBuilder
     {
         /// <summary>leave, quit, ctrl-c, termination, exception, or thread-exception.</summary>

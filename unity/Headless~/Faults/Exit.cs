@@ -6,7 +6,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Faults
 {
-    /// <summary>Plays the scene <see cref="Ending"/> on a runtime that the headless player does not run on.</summary>
+    /// <summary>Plays the scene <see cref="Ending"/> on a runtime that the headless player does not support.</summary>
     internal static class Exit
     {
         private const int Ticks = 40;
@@ -25,7 +25,7 @@ namespace Collektive.Headless.Faults
                 key.Cancel = true;
                 signal = SigInt;
             };
-            // Comes with SIGTERM, too; the process ends when the handlers have returned.
+            // Also raised by SIGTERM. The process ends when the handlers have returned.
             AppDomain.CurrentDomain.ProcessExit += (sender, arguments) =>
             {
                 signal = SigTerm;

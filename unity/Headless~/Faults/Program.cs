@@ -7,9 +7,9 @@ namespace Collektive.Headless.Faults
 {
     /// <summary>
     /// Tests one fault in its own process: plays a scene, causes the fault in the fourth tick or at the start, and prints what still
-    /// works. Arguments are key=value: home, host and jar of the trial, <c>good-*</c> of what it recovers with, placement, limit (of a tick, in
+    /// works. Arguments are key=value: home, host and jar of the trial, <c>good-*</c> for the recovery, placement, limit (of a tick, in
     /// milliseconds), fault (of the program), act (in C#), and any number of option. Ends with a line "still works: ..., JVM ...", and code 0. With
-    /// act=exit it ends in the way that <c>how</c> selects.
+    /// act=exit it ends as <c>how</c> selects.
     /// </summary>
     internal static class Program
     {

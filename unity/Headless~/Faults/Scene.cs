@@ -9,7 +9,7 @@ namespace Collektive.Headless.Faults
     /// <summary>Two nodes that count their rounds; the second one causes the fault.</summary>
     internal sealed class Scene
     {
-        /// <summary>Where the JVMs of all scenes run.</summary>
+        /// <summary>Placement of the JVMs of all scenes.</summary>
         internal static JvmPlacement Placement;
 
         private readonly SimulationManager manager;
@@ -40,7 +40,7 @@ namespace Collektive.Headless.Faults
             return manager;
         }
 
-        /// <summary>Whether the nodes' rounds go on after the fault.</summary>
+        /// <summary>Whether the nodes' rounds continue after the fault.</summary>
         internal bool Play(string act)
         {
             Frames(3);

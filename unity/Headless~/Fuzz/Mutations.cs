@@ -4,10 +4,10 @@ using System.Text;
 
 namespace Collektive.Fuzz
 {
-    /// <summary>Inputs made of those of a corpus: bytes changed, parts removed, doubled, exchanged with other inputs, or replaced by words of JSON.</summary>
+    /// <summary>Inputs derived from a corpus by changing bytes, and by removing, duplicating, exchanging and replacing parts.</summary>
     internal sealed class Mutations
     {
-        private static readonly string[] Words =
+        private static readonly string[] JsonTokens =
         {
             "null", "true", "-1", "0", "1e999", "-0", "1e-400", "NaN", "Infinity", "18446744073709551616", "9223372036854775807", "0x7", "{}", "[]", "[[[[",
             "{\"a\":", "\"\"", "\"\\u0000\"", "\"\\ud800\"", "\"..\"", "\"/\"", "\"0\"", "//", "/*", "\uFEFF", ",", ":", "\"$type\"", "new Date(1)",
@@ -48,10 +48,10 @@ namespace Collektive.Fuzz
                     break;
                 case 3:
                     bytes.RemoveRange(at, length);
-                    bytes.InsertRange(at, Word());
+                    bytes.InsertRange(at, RandomToken());
                     break;
                 case 4:
-                    bytes.InsertRange(at, Word());
+                    bytes.InsertRange(at, RandomToken());
                     break;
                 case 5:
                     var other = corpus[random.Next(corpus.Count)];
@@ -61,13 +61,13 @@ namespace Collektive.Fuzz
                     break;
                 case 6:
                     if (random.Next(20) > 0) break;
-                    // Nesting is a risk of its own.
+                    // Deep nesting is a separate risk.
                     bytes.InsertRange(at, Encoding.ASCII.GetBytes(new string(random.Next(2) == 0 ? '[' : '{', random.Next(100000))));
                     break;
             }
             if (bytes.Count > 300000) bytes.RemoveRange(300000, bytes.Count - 300000);
         }
 
-        private byte[] Word() => Encoding.UTF8.GetBytes(Words[random.Next(Words.Length)]);
+        private byte[] RandomToken() => Encoding.UTF8.GetBytes(JsonTokens[random.Next(JsonTokens.Length)]);
     }
 }

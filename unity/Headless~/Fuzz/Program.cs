@@ -8,8 +8,8 @@ using Collektive.Headless;
 namespace Collektive.Fuzz
 {
     /// <summary>
-    /// Reads damaged scenario files and manifests: each is read, or refused with a message that names the file. Arguments: corpus, folder for findings,
-    /// seconds, seed, and if wanted a file for JUnit XML. The files of the corpus are read first, as they are. Exit code 1 with findings.
+    /// Reads damaged scenario files and manifests. Each is read, or rejected with a message that names the file. Arguments: corpus, folder for findings,
+    /// seconds, seed, and optionally a file for JUnit XML. The files of the corpus are first read unchanged. The exit code is 1 with findings.
     /// </summary>
     internal static class Program
     {

@@ -45,7 +45,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Infinity and numbers beyond the range of float, such as the distance without a source, count as no value, because the page stores floats.
+        /// Infinity and numbers beyond the range of float, such as the distance without a source, count as missing, because the page stores floats.
         /// </summary>
         private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
     }

@@ -22,7 +22,7 @@ namespace Collektive.Headless
 
         internal Type Type { get; }
 
-        /// <summary>Fields and properties of the schema's answers, in their order there.</summary>
+        /// <summary>Fields and properties of the schema's answers, in the schema's order.</summary>
         internal static List<AnswerField> Of(SimulationManager manager)
         {
             var buffer = Schemas.Find(manager.Settings.schema).CreateActuators().GetType();

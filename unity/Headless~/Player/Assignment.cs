@@ -5,7 +5,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A value that a key of a scenario gets instead of the file's: <c>--set KEY=VALUE</c>, or a key that a sweep varies.</summary>
+    /// <summary>A value that replaces the value of a scenario key: <c>--set KEY=VALUE</c>, or a key that a sweep varies.</summary>
     internal sealed class Assignment
     {
         private const string Fields = "fields";
@@ -14,7 +14,7 @@ namespace Collektive.Headless
         private readonly string[] path;
         private readonly JToken value;
 
-        /// <param name="key">Names of keys, one in the other, with dots between them.</param>
+        /// <param name="key">Names of nested keys, separated by dots.</param>
         internal Assignment(string key, JToken value)
         {
             Key = key;
@@ -25,7 +25,7 @@ namespace Collektive.Headless
         internal string Key { get; }
 
         /// <summary>
-        /// Reads <c>KEY=VALUE</c>. A key that no scenario has is a field of the scene; its value stays text until the field's type is known.
+        /// Reads <c>KEY=VALUE</c>. Any other key sets a field of the scene. Its value stays text until the field's type is known.
         /// </summary>
         /// <param name="field">The field and its value, <c>FIELD=VALUE</c>; null for other keys.</param>
         /// <returns>Null for a field.</returns>
@@ -37,7 +37,7 @@ namespace Collektive.Headless
             var key = text.Substring(0, equals);
             if (key.StartsWith(Fields + ".", StringComparison.Ordinal)) field = text.Substring(Fields.Length + 1);
             else if (!Scenario.Keys.Contains(key.Split('.')[0])) field = text;
-            // A field of an object: its type is known when the scene is.
+            // The type of an object's field is known only with the scene.
             if (field != null && field.IndexOf('.') is var dot && dot >= 0 && dot < field.IndexOf('='))
             {
                 key = Fields + "." + field.Substring(0, field.IndexOf('='));

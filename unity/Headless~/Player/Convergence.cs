@@ -14,7 +14,7 @@ namespace Collektive.Headless
 
         internal IReadOnlyList<Criterion> Criteria => criteria;
 
-        /// <summary>Whether there are criteria, and all metrics have converged.</summary>
+        /// <summary>Whether criteria exist and all metrics have converged.</summary>
         internal bool IsComplete => criteria.Count > 0 && criteria.TrueForAll(criterion => criterion.Time != null);
 
         /// <summary>Reads the bands, by metric.</summary>
@@ -37,7 +37,7 @@ namespace Collektive.Headless
             return convergence;
         }
 
-        /// <summary>Finds the metrics among those of the run.</summary>
+        /// <summary>Finds the columns of the metrics in the run's metrics.</summary>
         internal void Bind(IReadOnlyList<string> names)
         {
             foreach (var criterion in criteria)
@@ -49,7 +49,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Takes a row of the metrics.</summary>
+        /// <summary>Adds a row of the metrics.</summary>
         internal void Add(double second, IReadOnlyList<double> values)
         {
             foreach (var criterion in criteria) criterion.Add(second, values[criterion.Index]);

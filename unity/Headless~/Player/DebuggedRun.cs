@@ -7,7 +7,7 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>A run with a debugger: begins when one has attached to the JVM, and may stop at breakpoints for any time.</summary>
+    /// <summary>A run with a debugger. It begins when a debugger has attached to the JVM, and can stop at breakpoints for any time.</summary>
     internal static class DebuggedRun
     {
         private const int PollMs = 100;

@@ -7,13 +7,13 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// Ends frames whose C# does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a tick, so a frame that takes
-    /// twice as long has used up as much in C#. Frames in which the simulation is not open yet have no limit.
+    /// twice as long has spent the same time in C#. Frames before the simulation is open have no limit.
     /// </summary>
     internal sealed class FrameLimit : IDisposable
     {
         private const int PollMs = 50;
 
-        /// <summary>Time for an aborted frame to end, because native code ignores the abort.</summary>
+        /// <summary>Time for an aborted frame to end. Native code ignores the abort.</summary>
         private const int AbortMs = 3000;
 
         private readonly object gate = new object();

@@ -6,8 +6,8 @@ using Mono.Unix.Native;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Ctrl-C and SIGTERM. While a run plays, the first ends it after the current tick, with its outputs. Before that, and the second time,
-    /// the process ends at once: users' code may be at work that does not end. One object for the whole process.
+    /// Handles Ctrl-C and SIGTERM. The first signal during a run ends it after the current tick, with its outputs. A signal before the run, and the
+    /// second one, end the process immediately, because user code may not return. One object for the whole process.
     /// </summary>
     internal sealed class Interrupt
     {
@@ -24,7 +24,7 @@ namespace Collektive.Headless
         /// <summary>The exit code that shells use for a command that the signal ended.</summary>
         internal int ExitCode => 128 + number;
 
-        /// <summary>From now on the run ends itself when it is <see cref="Requested"/>.</summary>
+        /// <summary>Lets the run end itself when <see cref="Requested"/> is set.</summary>
         internal void BeginPlay() => isPlaying = true;
 
         private void Watch()

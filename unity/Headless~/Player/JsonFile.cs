@@ -17,7 +17,7 @@ namespace Collektive.Headless
         private const int MaxBytes = 1 << 26;
 
         // Strings, comments, numbers and names. The last group matches the beginning of a number that JSON does not have.
-        private static readonly Regex Words = new Regex(
+        private static readonly Regex TokenPattern = new Regex(
             @"""[^""\\]*(\\.[^""\\]*)*""|'[^'\\]*(\\.[^'\\]*)*'|//[^\n]*|/\*.*?\*/|-?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)?(?![\w.+-])|-Infinity"
                 + @"|[\p{L}_$][\w.$-]*|(?<number>[0-9.+-][\w.+-]*)", RegexOptions.Singleline | RegexOptions.ExplicitCapture | RegexOptions.CultureInvariant);
 
@@ -38,7 +38,7 @@ namespace Collektive.Headless
             var text = File.ReadAllText(path);
             try
             {
-                RefuseDuplicates(path, text);
+                RejectDuplicateKeys(path, text);
                 var root = Parse(text, LineInfoHandling.Load) as JObject;
                 if (root == null) throw new ScenarioException(path + ": the file must contain one JSON object");
                 return new JsonFile(path, root);
@@ -53,8 +53,8 @@ namespace Collektive.Headless
         /// <exception cref="JsonReaderException">The text is not one JSON value.</exception>
         internal static JToken Parse(string text, LineInfoHandling lines = LineInfoHandling.Ignore)
         {
-            // The reader takes 010 for 8, and 0x10 for 16.
-            for (var match = Words.Match(text); match.Success; match = match.NextMatch())
+            // The reader would read 010 as 8, and 0x10 as 16.
+            for (var match = TokenPattern.Match(text); match.Success; match = match.NextMatch())
             {
                 if (!match.Groups["number"].Success) continue;
                 var before = text.Substring(0, match.Index);
@@ -70,7 +70,7 @@ namespace Collektive.Headless
             return value;
         }
 
-        internal void RefuseUnknown(JObject part, string place, IEnumerable<string> known)
+        internal void RejectUnknownKeys(JObject part, string place, IEnumerable<string> known)
         {
             foreach (var property in part.Properties())
             {
@@ -79,14 +79,14 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>An object in a part of the file, with known keys only; empty if missing.</summary>
+        /// <summary>Returns an object in a part of the file, with known keys only; empty if missing.</summary>
         internal JObject Part(JObject whole, string place, string key, IEnumerable<string> known)
         {
             var token = whole[key];
             if (token == null) return new JObject();
             if (!(token is JObject part))
                 throw Error(token, NotOfType(token, place + key, typeof(JObject)) + "; its keys are: " + string.Join(", ", known));
-            RefuseUnknown(part, place + key + ".", known);
+            RejectUnknownKeys(part, place + key + ".", known);
             return part;
         }
 
@@ -102,7 +102,7 @@ namespace Collektive.Headless
             return token == null ? otherwise : (T)Convert(token, typeof(T), key);
         }
 
-        /// <summary>Gives fields of an object the values that a part of the file has for them; an object in a field is filled likewise, strictly.</summary>
+        /// <summary>Sets fields of an object from a part of the file. Objects in fields are filled in the same strict way.</summary>
         internal void Fill(object target, IEnumerable<FieldInfo> fields, JObject part, string place)
         {
             foreach (var field in fields)
@@ -121,7 +121,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Converts a value to a .NET type. A type of whole numbers takes only those that it holds exactly.</summary>
+        /// <summary>Converts a value to a .NET type. An integer type accepts only exactly representable numbers.</summary>
         internal object Convert(JToken token, Type type, string key)
         {
             var kind = token.Type;
@@ -142,13 +142,13 @@ namespace Collektive.Headless
             }
             catch (Exception error) when (error is OverflowException || error is ArgumentException)
             {
-                // Falls through: the value does not fit the type.
+                // The value does not fit the type.
             }
             var names = type.IsEnum ? " (one of " + string.Join(", ", Enum.GetNames(type)) + ")" : "";
             throw Error(token, NotOfType(token, key, type) + names);
         }
 
-        /// <param name="column">In the token's line, from 1; 0: not known.</param>
+        /// <param name="column">Column in the token's line, from 1; 0 if unknown.</param>
         internal ScenarioException Error(JToken token, string message, int column = 0)
         {
             var line = (IJsonLineInfo)token;
@@ -159,7 +159,7 @@ namespace Collektive.Headless
         private static string NotOfType(JToken token, string key, Type type) =>
             "'" + key + "' is " + token.ToString(Formatting.None) + "; it must be of type " + NameOf(type);
 
-        /// <summary>The enum's own name for it; <c>Enum.Parse</c> would also take numbers and lists of names.</summary>
+        /// <summary>Returns the matching name, ignoring case, or an empty text. <c>Enum.Parse</c> would also accept numbers and lists of names.</summary>
         private static string NameIn(Type type, string text) =>
             Array.Find(Enum.GetNames(type), name => name.Equals(text, StringComparison.OrdinalIgnoreCase)) ?? "";
 
@@ -181,7 +181,7 @@ namespace Collektive.Headless
             return type == typeof(JObject) ? "object" : type.IsEnum ? "string" : type.Name.ToLowerInvariant();
         }
 
-        /// <summary>The value in a form that <see cref="Convert"/> reads back; null for types that files cannot hold.</summary>
+        /// <summary>Returns the value in a form that <see cref="Convert"/> reads back; null for types that files cannot contain.</summary>
         internal static JToken Token(object value)
         {
             switch (value)
@@ -202,7 +202,7 @@ namespace Collektive.Headless
         private static JsonTextReader Reader(string text) =>
             new JsonTextReader(new StringReader(text)) { DateParseHandling = DateParseHandling.None };
 
-        private static void RefuseDuplicates(string path, string text)
+        private static void RejectDuplicateKeys(string path, string text)
         {
             var reader = Reader(text);
             var keys = new Stack<HashSet<string>>();

@@ -10,15 +10,15 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Writes manifest.json: the inputs, versions and results of a run, to repeat and compare it. Times of the machine are in the keys with "_ms", and
-    /// in "wall_seconds".
+    /// Writes manifest.json with the inputs, versions and results of a run, to repeat and compare it. Measured times are in keys with "_ms" and in
+    /// "wall_seconds".
     /// </summary>
     internal sealed class Manifest
     {
-        /// <summary><see cref="Outcome"/> of a run that did all its ticks, or that a script ended in order.</summary>
+        /// <summary><see cref="Outcome"/> of a run that completed all its ticks, or that a script ended normally.</summary>
         internal const string Complete = "complete";
 
-        /// <summary><see cref="Outcome"/> of a complete run whose pictures the command still has to make. It then sets <see cref="Complete"/>.</summary>
+        /// <summary><see cref="Outcome"/> of a complete run without its pictures. The command creates them, then sets <see cref="Complete"/>.</summary>
         internal const string WithoutPictures = "the pictures are missing";
 
         /// <summary>The other files of a run.</summary>
@@ -42,11 +42,11 @@ namespace Collektive.Headless
 
         internal JObject Root { get; }
 
-        /// <summary>"running" until the end, and for good if the process is killed; then <see cref="Complete"/>, or why the run is not complete.</summary>
+        /// <summary>"running" during the run, also if the process is killed; then <see cref="Complete"/>, or the reason why the run is not complete.</summary>
         internal string Outcome { set => Root["outcome"] = value; }
 
         /// <param name="parameters">Parameters of the programs that ran.</param>
-        /// <param name="ticks">Ticks that were done.</param>
+        /// <param name="ticks">Completed ticks.</param>
         /// <param name="calls">Calls into the JVM.</param>
         internal void AddResults(
             SimulationManager manager, JObject parameters, int ticks, RunMetrics metrics, IReadOnlyList<double> start, IReadOnlyList<double> end,

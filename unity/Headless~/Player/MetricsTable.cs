@@ -9,8 +9,8 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// metrics.csv: a row per interval, by default a simulated second; messages are sums over the interval's ticks. Times are means in milliseconds, so that
-    /// the phases of a tick add up to it: "other" is the rest, outside the phases of <see cref="TickTimes"/>.
+    /// Writes metrics.csv with a row per interval, by default a simulated second. Messages are summed over the ticks of the interval. Times are means in
+    /// milliseconds, so that the phases of a tick add up to it: "other" is the rest, outside the phases of <see cref="TickTimes"/>.
     /// </summary>
     internal sealed class MetricsTable : IDisposable
     {
@@ -40,7 +40,7 @@ namespace Collektive.Headless
         /// <summary>The run's metrics at the last row.</summary>
         internal IReadOnlyList<double> Values => values;
 
-        /// <summary>The reproducible metrics of a row: the run's, then those of links and messages.</summary>
+        /// <summary>The reproducible metrics of a row: those of the run, then those of links and messages.</summary>
         internal static IEnumerable<string> NamesOf(RunMetrics metrics)
         {
             foreach (var name in metrics.Names) yield return name;
@@ -78,7 +78,7 @@ namespace Collektive.Headless
         internal void Measure() => metrics.Measure(manager, values);
 
         /// <summary>
-        /// Writes the row of an interval that ended, and returns it without its times of the machine: by <see cref="NamesOf"/>, valid until the next call.
+        /// Writes the row of an interval that ended. Returns it without measured times, in the order of <see cref="NamesOf"/>, valid until the next call.
         /// </summary>
         internal IReadOnlyList<double> EndInterval(double second, int links)
         {
@@ -93,7 +93,7 @@ namespace Collektive.Headless
                 text += "," + Text(time / Math.Max(1, ticks));
             text += "," + Text(Quantiles.Of(whole, 0.99));
             writer.Write(text + "\n");
-            // A run that is killed keeps what it has measured.
+            // A killed run keeps its measurements.
             writer.Flush();
             whole.Clear();
             ticks = 0;

@@ -15,7 +15,7 @@ namespace Collektive.Headless
     /// </summary>
     internal sealed class NodeColumns
     {
-        /// <summary>Fields in fields, at most: a table may contain its own type.</summary>
+        /// <summary>Maximum depth of nested fields: a table may contain its own type.</summary>
         private const int MaxDepth = 3;
 
         private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
@@ -59,7 +59,7 @@ namespace Collektive.Headless
         /// <summary>Number of columns in use.</summary>
         internal int Width => used.Count;
 
-        /// <summary>Definitions of the columns in SQL. Names of several words can also be written as in Kotlin.</summary>
+        /// <summary>Definitions of the columns in SQL. Names can also be written in Kotlin's camel case.</summary>
         internal string Definitions
         {
             get
@@ -74,7 +74,7 @@ namespace Collektive.Headless
 
         internal static string Quoted(string name) => "\"" + name + "\"";
 
-        /// <summary>Reads only these columns from now on.</summary>
+        /// <summary>Restricts <see cref="Read"/> to these columns.</summary>
         internal void Use(IEnumerable<string> names)
         {
             foreach (var name in names)
@@ -107,7 +107,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Prepares to read the nodes of this moment.</summary>
+        /// <summary>Prepares to read the current nodes.</summary>
         internal void Begin(SimulationManager manager)
         {
             var capacity = manager.Simulation.IdCapacity;
@@ -123,7 +123,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Reads the values of a node into an array, from an index on; NaN: none.</summary>
+        /// <summary>Reads the values of a node into an array, starting at an index; NaN for missing values.</summary>
         internal void Read(SimulationManager manager, Node node, double[] values, int first)
         {
             var hasAnswer = answers.Load(node);
@@ -205,7 +205,7 @@ namespace Collektive.Headless
             internal bool IsKept => Kind == Kind.Sensor || Kind == Kind.Message;
         }
 
-        /// <summary>Reads fields of data whose type only generated code knows, without boxing.</summary>
+        /// <summary>Reads fields of generated types without boxing.</summary>
         private abstract class Reader
         {
             internal List<string> Fields { get; } = new List<string>();

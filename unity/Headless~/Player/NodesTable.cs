@@ -11,8 +11,8 @@ using Schema = org.collektive.schema;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// nodes.csv: a row per node and interval with fields of the program's last answer, by their names in the schema, and <c>position</c>. A node without an
-    /// answer has empty cells.
+    /// Writes nodes.csv with a row per node and interval: fields of the program's last answer, by their names in the schema, and <c>position</c>. Cells of
+    /// missing answers are empty.
     /// </summary>
     internal sealed class NodesTable : IDisposable
     {
@@ -54,8 +54,8 @@ namespace Collektive.Headless
             var known = new List<string> { Position };
             foreach (var field in answers)
             {
-                if (!Column.CanHold(field.Type)) continue;
-                if (Plain(field.Name) == Plain(wanted)) return new Column(wanted, field, field.Type);
+                if (!Column.IsSupported(field.Type)) continue;
+                if (Normalize(field.Name) == Normalize(wanted)) return new Column(wanted, field, field.Type);
                 known.Add(field.Name);
             }
             throw new ScenarioException(
@@ -64,13 +64,13 @@ namespace Collektive.Headless
         }
 
         /// <summary>Generated code has other capitals than the schema.</summary>
-        private static string Plain(string name) => name.Replace("_", "").ToLowerInvariant();
+        private static string Normalize(string name) => name.Replace("_", "").ToLowerInvariant();
 
         private sealed class Column
         {
-            private const BindingFlags Any = BindingFlags.Public | BindingFlags.Instance | BindingFlags.IgnoreCase;
+            private const BindingFlags MemberFlags = BindingFlags.Public | BindingFlags.Instance | BindingFlags.IgnoreCase;
 
-            // Of a vector; none for other types.
+            // The parts of a vector; empty for other types.
             private readonly MemberInfo[] parts;
 
             /// <param name="field">Null for the node's position.</param>
@@ -79,7 +79,7 @@ namespace Collektive.Headless
                 Field = field;
                 var names = PartsOf(type);
                 type = Nullable.GetUnderlyingType(type) ?? type;
-                parts = Array.ConvertAll(names, part => (MemberInfo)type.GetField(part, Any) ?? type.GetProperty(part, Any));
+                parts = Array.ConvertAll(names, part => (MemberInfo)type.GetField(part, MemberFlags) ?? type.GetProperty(part, MemberFlags));
                 Header = names.Length == 0 ? name : string.Join(",", names.Select(part => name + "." + part));
             }
 
@@ -87,7 +87,7 @@ namespace Collektive.Headless
 
             internal string Header { get; }
 
-            internal static bool CanHold(Type type) => type.IsPrimitive || type.IsEnum || type == typeof(string) || PartsOf(type).Length > 0;
+            internal static bool IsSupported(Type type) => type.IsPrimitive || type.IsEnum || type == typeof(string) || PartsOf(type).Length > 0;
 
             /// <summary>Writes a value with a comma before it, or before each part of a vector; empty cells for null.</summary>
             internal void Write(TextWriter writer, object value)

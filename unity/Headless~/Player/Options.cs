@@ -54,7 +54,7 @@ namespace Collektive.Headless
 
         internal double? Seconds { get; private set; }
 
-        /// <summary>Whether the run goes on after a tick of which all rounds failed.</summary>
+        /// <summary>Whether the run continues after a tick in which all rounds failed.</summary>
         internal bool KeepGoing { get; private set; }
 
         /// <summary>Whether the run ends after its first tick, without a replay.</summary>
@@ -63,10 +63,10 @@ namespace Collektive.Headless
         /// <summary>Overrides of scenario keys on the command line.</summary>
         internal List<Assignment> Assignments { get; } = new List<Assignment>();
 
-        /// <summary>The same for fields of the scene, as <c>FIELD=VALUE</c>.</summary>
+        /// <summary>Values of fields of the scene, as <c>FIELD=VALUE</c>.</summary>
         internal List<string> FieldAssignments { get; } = new List<string>();
 
-        /// <summary>The options of one of several runs, with its own folder.</summary>
+        /// <summary>Returns the options of one of several runs, with its own folder.</summary>
         internal Options For(string folder)
         {
             var options = (Options)MemberwiseClone();

@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The run of a manifest, to repeat and compare.</summary>
+    /// <summary>The recorded run of a manifest, to repeat and compare it.</summary>
     internal sealed class OriginalRun
     {
         internal const string ScenarioKey = "scenario";
@@ -34,10 +34,10 @@ namespace Collektive.Headless
         /// <summary>Folder of its relative paths.</summary>
         internal string Folder { get; }
 
-        /// <summary>Number of ticks: fewer than in its scenario if the run was interrupted.</summary>
+        /// <summary>Number of ticks, which is less than in its scenario if the run was interrupted.</summary>
         internal int Ticks { get; }
 
-        /// <summary>Compares the results of a run with those of this one, and prints what differs.</summary>
+        /// <summary>Compares the results of a run with those of this one, and prints the differences.</summary>
         internal bool IsRepeatedBy(Manifest now)
         {
             var differences = new List<string>();

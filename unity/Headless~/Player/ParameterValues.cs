@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>Parameters of the nodes' programs: for each program and parameter its value, or all values where nodes differ.</summary>
+    /// <summary>Parameters of the nodes' programs. Each has its value, or all values if nodes differ.</summary>
     internal static class ParameterValues
     {
         internal static JObject Of(SimulationManager manager)

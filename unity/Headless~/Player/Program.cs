@@ -13,7 +13,7 @@ namespace Collektive.Headless
 
         private static int Main(string[] arguments)
         {
-            // For exceptions in threads that a script started: the runtime prints them, then ends the process.
+            // The runtime prints exceptions of threads that a script started, then ends the process.
             AppDomain.CurrentDomain.UnhandledException += (sender, unhandled) => StopJvm(1);
             var code = StopJvm(Run(arguments));
             Console.Out.Flush();
@@ -22,7 +22,7 @@ namespace Collektive.Headless
             return code;
         }
 
-        /// <summary>The JVM goes before the managed runtime: its threads and signal handlers must not outlive Mono's.</summary>
+        /// <summary>Stops the JVM before the managed runtime, because its threads and signal handlers must not outlive Mono's.</summary>
         /// <returns>The exit code.</returns>
         private static int StopJvm(int code)
         {
@@ -63,7 +63,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Prints why a run ended.</summary>
+        /// <summary>Prints the reason why a run ended.</summary>
         /// <returns>The exit code.</returns>
         internal static int Report(Exception error)
         {

@@ -4,7 +4,7 @@ using System.Globalization;
 
 namespace Collektive.Headless
 {
-    /// <summary>Progress on standard error: a bar on a terminal, a line every few seconds elsewhere.</summary>
+    /// <summary>Prints progress to standard error: a bar on a terminal, otherwise a line every few seconds.</summary>
     internal sealed class ProgressBar
     {
         private const int Width = 30;

@@ -6,7 +6,7 @@ namespace Collektive.Headless
     /// <summary>Order statistics.</summary>
     internal static class Quantiles
     {
-        /// <summary>The smallest value that is not below the given part of all values (nearest rank); 0 for none. Sorts the list.</summary>
+        /// <summary>Returns a quantile by the nearest-rank method; 0 for an empty list. Sorts the list.</summary>
         internal static double Of(List<double> values, double quantile)
         {
             if (values.Count == 0) return 0;

@@ -5,15 +5,15 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>Flight recording of a run, from before the first tick. Disposing of it writes the file.</summary>
+    /// <summary>Flight recording of a run that starts before the first tick. Disposing of it writes the file.</summary>
     internal sealed class RecordedRun : IDisposable
     {
         /// <summary>Frames per sample: aggregate programs nest deeply, and their own frames must not be cut off.</summary>
-        private const string WholeStacks = "-XX:FlightRecorderOptions=stackdepth=512";
+        private const string StackDepth = "-XX:FlightRecorderOptions=stackdepth=512";
 
         internal RecordedRun(JvmSettings settings, string path)
         {
-            settings.flags.Add(WholeStacks);
+            settings.flags.Add(StackDepth);
             Jvm.Start(Installation.ToLaunch(settings));
             JvmRecording.Start(path, JvmRecording.Profile);
             WaitFor(RecordingState.On);

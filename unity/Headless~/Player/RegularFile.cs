@@ -2,7 +2,7 @@ using Mono.Unix.Native;
 
 namespace Collektive.Headless
 {
-    /// <summary>Tests for regular files: reading a pipe or a device may block.</summary>
+    /// <summary>Tests for regular files. Reading a pipe or a device may block.</summary>
     internal static class RegularFile
     {
         /// <summary>Returns whether a regular file exists. Follows links.</summary>

@@ -8,29 +8,29 @@ using UnityEngine.SceneManagement;
 
 namespace Collektive.Headless
 {
-    /// <summary>Records the scene's nodes, links and standing shapes for the replay page.</summary>
+    /// <summary>Records the scene's nodes, links and static shapes for the replay page.</summary>
     internal sealed class ReplayRecorder : IDisposable
     {
-        /// <summary>Frames of a simulated second, at most; ticks in between are skipped.</summary>
+        /// <summary>Maximum number of frames per simulated second. Ticks in between are skipped.</summary>
         private const double MaxFrames = 10;
 
-        /// <summary>Nodes in the frames of a simulated second, at most: large swarms have fewer frames.</summary>
+        /// <summary>Maximum number of nodes in all frames of a simulated second. Large swarms have fewer frames.</summary>
         private const double MaxNodes = 50000;
 
-        /// <summary>Moving shapes that are recorded, at most: their poses are in the page's header.</summary>
+        /// <summary>Maximum number of recorded moving shapes. Their poses are in the page's header.</summary>
         private const int MaxMovers = 64;
 
-        /// <summary>Along each side of a terrain that is drawn, at most.</summary>
+        /// <summary>Maximum number of squares along each side of a terrain.</summary>
         private const int MaxTerrainSquares = 64;
 
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
         private readonly SimulationManager manager;
-        // By field of the replay: a node's value.
+        // A node's value, by field of the replay.
         private readonly List<Func<Node, double>> readers = new List<Func<Node, double>>();
         private readonly ReplayMetrics metrics;
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
-        // By node id, where nodes are coloured.
+        // Colours by node id.
         private readonly Dictionary<int, IColours> colours;
         // By node id; null if the scene has colourings.
         private int[] neighbours;
@@ -66,14 +66,14 @@ namespace Collektive.Headless
         /// <param name="values">By <see cref="MetricsTable.NamesOf"/>.</param>
         internal void Measure(double time, IReadOnlyList<double> values) => metrics.Add(time, values);
 
-        /// <summary>Records a frame if one is due, between ticks.</summary>
+        /// <summary>Records a frame if one is due. Called between ticks.</summary>
         /// <param name="time">Simulated seconds.</param>
         internal void Add(double time)
         {
             if (time >= last + Math.Max(1 / MaxFrames, manager.Nodes.Count / MaxNodes) - 1e-6) Record(time);
         }
 
-        /// <summary>Writes the page, which ends with this moment.</summary>
+        /// <summary>Writes the page, which ends at the current time.</summary>
         internal void Finish(string template, string path)
         {
             if (manager.SimulatedTime > last) Record(manager.SimulatedTime);
@@ -89,7 +89,7 @@ namespace Collektive.Headless
             if (neighbours != null) CountNeighbours();
             writer.BeginFrame(time, manager.Simulation.PresentLinks.Count);
             var nodes = manager.Nodes;
-            // Of many nodes that left.
+            // Many nodes have left.
             if (colours?.Count > 2 * nodes.Count) colours.Clear();
             for (var i = 0; i < nodes.Count; i++)
             {
@@ -142,7 +142,7 @@ namespace Collektive.Headless
                     if (collider is CapsuleCollider upright)
                     {
                         metadata.NodeRadius = Radius(upright);
-                        // The page does not know how nodes are turned.
+                        // The page does not store rotations of nodes.
                         metadata.NodeHeight = upright.direction == 1 ? Height(upright) : 0;
                     }
                     continue;
@@ -213,7 +213,7 @@ namespace Collektive.Headless
 
         private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
-        /// <summary>The standing box with the largest top, if all nodes are above it: the page draws its own floor there.</summary>
+        /// <summary>The static box with the largest top, if all nodes are above it. The page draws its own floor instead.</summary>
         private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;
@@ -259,7 +259,7 @@ namespace Collektive.Headless
             Add(metadata, corners, collider.sharedMesh.triangles, collider.transform.position, collider.transform.rotation);
         }
 
-        /// <summary>A terrain is drawn of few of its samples.</summary>
+        /// <summary>Adds a terrain with a subset of its samples.</summary>
         private static void Add(ReplayMetadata metadata, TerrainCollider collider)
         {
             var data = collider.terrainData;

@@ -3,7 +3,7 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>When the rows of a table are due. Ticks are counted, since a sum of times drifts: 50 times 0.02f is less than 1.</summary>
+    /// <summary>Determines when rows of a table are due. Counts ticks, because sums of times drift: 50 times 0.02f is less than 1.</summary>
     internal sealed class RowSchedule
     {
         /// <summary>Tolerance of quotients of seconds.</summary>
@@ -12,7 +12,7 @@ namespace Collektive.Headless
         private readonly double ticksPerRow;
         private int rows = 1;
 
-        /// <param name="interval">Simulated seconds from one row to the next; the first row is at second 0.</param>
+        /// <param name="interval">Simulated seconds between two rows. The first row is at second 0.</param>
         internal RowSchedule(double interval, float deltaTime)
         {
             ticksPerRow = interval / SimulatedSeconds.Exact(deltaTime);

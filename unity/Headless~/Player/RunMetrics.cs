@@ -4,7 +4,7 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>All metrics of a run: the scene's, then the scenario's.</summary>
+    /// <summary>All metrics of a run: those of the scene, then those of the scenario.</summary>
     internal sealed class RunMetrics : IDisposable
     {
         private readonly SceneBuilder scene;
@@ -26,10 +26,10 @@ namespace Collektive.Headless
         /// <summary>Requests what metrics need from the next tick on.</summary>
         internal void Begin(SimulationManager manager) => queries.Begin(manager);
 
-        /// <summary>Takes what the next tick overwrites.</summary>
+        /// <summary>Copies the data that the next tick overwrites.</summary>
         internal void Ticked(SimulationManager manager) => queries.Ticked(manager);
 
-        /// <summary>Evaluates all metrics of this moment, by <see cref="Names"/>.</summary>
+        /// <summary>Evaluates all metrics at the current time, in the order of <see cref="Names"/>.</summary>
         internal void Measure(SimulationManager manager, double[] values)
         {
             scene.Measure(own);

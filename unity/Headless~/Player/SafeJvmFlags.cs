@@ -14,8 +14,8 @@ namespace Collektive.Headless
             @"-X(mx|ms|mn|ss)[0-9]+[kKmMgGtT]?",
             @"-X(int|comp|mixed|batch|noclassgc|check:jni|share:(auto|on|off))",
             @"-XX:-\w+",
-            @"-XX:\+(?!\w*(" + WritingSwitches + @"))\w+",
-            @"-XX:(?!\w*(" + NamesOfPlaces + @")=)\w+=-?[0-9]+(\.[0-9]+)?[kKmMgGtT]?",
+            @"-XX:\+(?!\w*(" + UnsafeSwitches + @"))\w+",
+            @"-XX:(?!\w*(" + PathSuffixes + @")=)\w+=-?[0-9]+(\.[0-9]+)?[kKmMgGtT]?",
             @"-XX:(NativeMemoryTracking|DisableIntrinsic|ControlIntrinsic|ShenandoahGCHeuristics|ShenandoahGCMode)=[\w,+-]+",
             @"-Xlog(:disable|(:[\w+*=,-]*(:(stdout|stderr)?(:\w*(,\w+)*)?)?)?)",
             @"-verbose(:(gc|class|module|jni))?",
@@ -26,14 +26,14 @@ namespace Collektive.Headless
             @"--(enable-preview|((illegal-(access|final-field-mutation|native-access))|sun-misc-unsafe-memory-access|finalization)=\w+)",
         }.Select(form => new Regex("^(" + form + @")\z", RegexOptions.CultureInvariant | RegexOptions.Singleline)).ToArray();
 
-        /// <summary>Parts of the names of switches that make the JVM write files, listen, or load code.</summary>
-        private const string WritingSwitches =
+        /// <summary>Parts of the names of switches that make the JVM write files, open ports, or load code.</summary>
+        private const string UnsafeSwitches =
             "Dump|Save|LogVM|LogCompilation|LogFile|Record|Archive|JVMCI|Replay|ManagementServer|AttachListener|IdealGraph|PauseAt";
 
         /// <summary>
-        /// Ends of the names of options whose value is a path, even when it looks like a number, or a limit at which the JVM ends the process.
+        /// Suffixes of options whose value is a path, even if it looks like a number, or a limit at which the JVM ends the process.
         /// </summary>
-        private const string NamesOfPlaces = "MallocLimit|File|Path|List|Exit|At|Cache|Output|Configuration|Config|Options|Command|Recording|Only|Error|Mode";
+        private const string PathSuffixes = "MallocLimit|File|Path|List|Exit|At|Cache|Output|Configuration|Config|Options|Command|Recording|Only|Error|Mode";
 
         internal static bool Contains(string flag) => SafePatterns.Any(form => form.IsMatch(flag));
     }

@@ -10,7 +10,7 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// A scenario file, or the scenario in the manifest of a run that is to be repeated. Paths in it are relative to its folder; here they are absolute.
+    /// A scenario file, or the scenario in the manifest of a run to repeat. Paths in the file are relative to its folder. Here they are absolute.
     /// </summary>
     internal sealed class Scenario
     {
@@ -39,7 +39,7 @@ namespace Collektive.Headless
                 nameof(SimulationSettings.record), nameof(SimulationSettings.libraries), nameof(SimulationSettings.defaultProgram),
             }.Contains(field.Name)).ToArray();
 
-        /// <summary>All keys at the top of a scenario.</summary>
+        /// <summary>All top-level keys of a scenario.</summary>
         internal static IEnumerable<string> Keys => OwnKeys.Concat(Shared.Select(field => field.Name));
 
         private readonly JObject root;
@@ -47,18 +47,18 @@ namespace Collektive.Headless
         private Scenario(JsonFile file, string path, JObject root, string folder, bool trustsJvm)
         {
             this.root = root;
-            file.RefuseUnknown(root, "", Keys);
+            file.RejectUnknownKeys(root, "", Keys);
             var version = file.Required<int>(root, "version");
             if (version != Version) throw file.Error(root["version"], "version " + version + " is not supported; use version " + Version);
             File = file;
             Path = path;
             Folder = folder;
             Scene = file.Required<string>(root, "scene");
-            // Sweeps name their copies.
+            // Copies of sweeps set both keys.
             var isOurs = Scene == StandardScene && root["scripts"] == null && root["schema"] == null;
-            Scripts = isOurs ? StandardFolder : Existing(file, root, "scripts", folder, directory: true);
-            Schema = isOurs ? System.IO.Path.Combine(StandardFolder, "standard.fbs") : Existing(file, root, "schema", folder, directory: false);
-            Programs = Existing(file, root, "programs", folder, directory: null);
+            Scripts = isOurs ? StandardFolder : ExistingPath(file, root, "scripts", folder, directory: true);
+            Schema = isOurs ? System.IO.Path.Combine(StandardFolder, "standard.fbs") : ExistingPath(file, root, "schema", folder, directory: false);
+            Programs = ExistingPath(file, root, "programs", folder, directory: null);
             if (root["data"] != null) Data = ReadData(file, root, folder);
             Fields = file.Optional(root, "fields", new JObject());
             Seconds = file.Required<double>(root, "seconds");
@@ -72,9 +72,9 @@ namespace Collektive.Headless
                 throw file.Error(root["stopWhenConverged"], "'stopWhenConverged' needs 'converged', which defines when a metric has converged");
             if (Settings.runtime == AggregateRuntime.Collektive)
             {
-                RuntimeJars = Existing(file, root, nameof(SimulationSettings.runtimeJars), folder, directory: true);
-                // Programs that are a jar were compiled already.
-                if (Directory.Exists(Programs)) RuntimePlugin = Existing(file, root, nameof(SimulationSettings.runtimePlugin), folder, directory: false);
+                RuntimeJars = ExistingPath(file, root, nameof(SimulationSettings.runtimeJars), folder, directory: true);
+                // A jar contains compiled programs.
+                if (Directory.Exists(Programs)) RuntimePlugin = ExistingPath(file, root, nameof(SimulationSettings.runtimePlugin), folder, directory: false);
             }
             Jvm = ReadJvm(file, file.Part(root, "", "jvm", JvmSetting.All.Select(setting => setting.Key)), folder, trustsJvm);
             var outputs = file.Part(root, "", "outputs", new[] { "metrics", "interval", "nodes", "replay", "pictures", "record" });
@@ -98,7 +98,7 @@ namespace Collektive.Headless
         /// <summary>Folder that relative paths start from.</summary>
         internal string Folder { get; }
 
-        /// <summary>The run to repeat; null if the file is not a manifest.</summary>
+        /// <summary>The run to repeat; null unless the file is a manifest.</summary>
         internal OriginalRun OriginalRun { get; private set; }
 
         internal string Scene { get; }
@@ -118,12 +118,12 @@ namespace Collektive.Headless
         /// <summary>Folder of Collektive's jars; empty with the built-in runtime.</summary>
         internal string RuntimeJars { get; } = "";
 
-        /// <summary>Collektive's compiler plugin; empty with the built-in runtime, and with programs that are compiled.</summary>
+        /// <summary>Collektive's compiler plugin; empty with the built-in runtime and with compiled programs.</summary>
         internal string RuntimePlugin { get; } = "";
 
         internal JObject Fields { get; }
 
-        /// <summary>The simulation's settings, as far as scenario and inspector share them.</summary>
+        /// <summary>The settings that scenario and inspector share.</summary>
         internal SimulationSettings Settings { get; } = new SimulationSettings();
 
         internal double Seconds { get; private set; }
@@ -135,19 +135,19 @@ namespace Collektive.Headless
 
         internal bool Metrics { get; }
 
-        /// <summary>Simulated seconds from one row of the metrics to the next.</summary>
+        /// <summary>Simulated seconds between two rows of the metrics.</summary>
         internal double Interval { get; }
 
-        /// <summary>Fields of the nodes that are written over time; none: no table of nodes.</summary>
+        /// <summary>Fields in the table of nodes; empty if no table is written.</summary>
         internal string[] NodeFields { get; }
 
-        /// <summary>Simulated seconds from one row of each node to the next.</summary>
+        /// <summary>Simulated seconds between two rows of each node.</summary>
         internal double NodeInterval { get; }
 
         /// <summary>SQL of the scenario's metrics, by name.</summary>
         internal JObject Queries { get; }
 
-        /// <summary>When metrics have converged.</summary>
+        /// <summary>Criteria of convergence.</summary>
         internal Convergence Convergence { get; }
 
         /// <summary>Whether the run ends when all metrics of <see cref="Convergence"/> have converged.</summary>
@@ -160,9 +160,9 @@ namespace Collektive.Headless
         internal bool Record { get; }
 
         /// <param name="path">A scenario file, or the manifest of a run.</param>
-        /// <param name="folder">Where relative paths start; null: at the file, and for a manifest where they did in its run.</param>
+        /// <param name="folder">Folder of relative paths; null for the folder of the file, or the original one for a manifest.</param>
         /// <param name="trustsJvm">Whether the file's JVM settings may write files, open ports and load code.</param>
-        /// <param name="assignments">Values that keys get instead of the file's; a manifest's run has none.</param>
+        /// <param name="assignments">Values that replace those of the file; none for a manifest.</param>
         internal static Scenario Read(string path, string folder, bool trustsJvm, params Assignment[] assignments)
         {
             var file = JsonFile.Read(path);
@@ -190,7 +190,7 @@ namespace Collektive.Headless
         /// <summary>Checks and prepares the metrics. The schema's code must be loaded.</summary>
         internal SqlMetrics MakeMetrics() => new SqlMetrics(File, Queries, Queries.Count == 0 ? null : Schemas.Find(""), Settings.stepLimitMs);
 
-        /// <summary>Copies the shared settings to the manager's.</summary>
+        /// <summary>Copies the shared settings to those of the manager.</summary>
         internal void CopyTo(SimulationSettings settings)
         {
             foreach (var field in Shared) field.SetValue(settings, field.GetValue(Settings));
@@ -215,7 +215,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>A value as programs read it.</summary>
+        /// <summary>Returns a value as text for programs.</summary>
         private static string ProgramText(object value) =>
             value is bool truth ? truth ? "true" : "false" : value is double number ? number.ToString("R", System.Globalization.CultureInfo.InvariantCulture)
                 : System.Convert.ToString(value, System.Globalization.CultureInfo.InvariantCulture);
@@ -243,7 +243,7 @@ namespace Collektive.Headless
                     ? "that is at most " + Text(MaxTicks) : "that is at least 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime))));
         }
 
-        /// <summary>The scenario as it is run, in the form of a scenario file that leaves nothing to a default.</summary>
+        /// <summary>Returns the scenario as a scenario file without defaults.</summary>
         internal JObject ToJson(JObject fields)
         {
             var jvm = new JObject();
@@ -278,7 +278,7 @@ namespace Collektive.Headless
 
         private void Count(System.Func<string, ScenarioException> error)
         {
-            // An invalid delta time is refused together with the other settings.
+            // An invalid delta time is rejected together with the other settings.
             var deltaTime = SimulatedSeconds.Exact(Settings.deltaTime);
             var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
@@ -292,7 +292,7 @@ namespace Collektive.Headless
 
         private static string ReadData(JsonFile file, JObject root, string folder)
         {
-            var data = Existing(file, root, "data", folder, directory: true).TrimEnd('/');
+            var data = ExistingPath(file, root, "data", folder, directory: true).TrimEnd('/');
             if (!(folder + "/").StartsWith(data + "/", StringComparison.Ordinal)) return data;
             throw file.Error(root["data"], "'data' contains the scenario: name a folder that contains only data files, which are copied and hashed");
         }
@@ -309,12 +309,12 @@ namespace Collektive.Headless
                 setting.Set(settings, isFolder ? System.IO.Path.Combine(folder, (string)value) : value);
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
-            if (!trusted) RefuseUnsafe(file, root, settings);
+            if (!trusted) RejectUnsafeSettings(file, root, settings);
             return settings;
         }
 
         /// <summary>A scenario file may come from someone else. The user decides whether its JVM settings may affect this machine.</summary>
-        private static void RefuseUnsafe(JsonFile file, JObject root, JvmSettings settings)
+        private static void RejectUnsafeSettings(JsonFile file, JObject root, JvmSettings settings)
         {
             const string hint = "; add --trust-jvm if you trust the file, or remove it";
             if (settings.home.Length > 0)
@@ -335,11 +335,11 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>The path from the root. Mono takes two slashes for the start of a Windows share.</summary>
+        /// <summary>Returns the absolute path. Mono reads two leading slashes as a Windows share.</summary>
         private static string FullPath(string path) =>
             System.IO.Path.GetFullPath(path.StartsWith("//", StringComparison.Ordinal) ? "/" + path.TrimStart('/') : path);
 
-        private static string Existing(JsonFile file, JObject root, string key, string folder, bool? directory)
+        private static string ExistingPath(JsonFile file, JObject root, string key, string folder, bool? directory)
         {
             var named = file.Required<string>(root, key);
             var path = FullPath(System.IO.Path.Combine(folder, named));

@@ -15,7 +15,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless
 {
-    /// <summary>One run of a scenario: builds its scene, plays it for its time, writes its outputs.</summary>
+    /// <summary>One run of a scenario. Builds its scene, plays it for its duration, and writes its outputs.</summary>
     internal sealed class ScenarioRun
     {
         private readonly Scenario scenario;
@@ -34,7 +34,7 @@ namespace Collektive.Headless
         private string cause = "";
         private int done;
 
-        /// <param name="began">When the run began; by default, when the process did.</param>
+        /// <param name="began">Start time of the run; by default, of the process.</param>
         internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, DateTime? began = null)
         {
             this.scenario = scenario;
@@ -52,7 +52,7 @@ namespace Collektive.Headless
 
         /// <returns>
         /// The exit code: that of a script's <c>Application.Quit</c>, 130 after Ctrl-C, else 0, or 1 when the simulation stopped early, rounds,
-        /// sensors or actuators failed, or a run that was to be repeated came out differently.
+        /// sensors or actuators failed, or a repeated run had other results.
         /// </returns>
         internal int Run()
         {
@@ -61,7 +61,7 @@ namespace Collektive.Headless
             Installation.JavaHome = options.JavaHome;
             Loop.PhysicsThreads = scenario.Settings.threads;
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
-            // A frame is a tick, however long.
+            // Each frame runs one tick, regardless of its length.
             Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, scenario.Settings.deltaTime);
             var manager = MakeManager();
             var scene = MakeScene(manager);
@@ -187,11 +187,11 @@ namespace Collektive.Headless
 
         private int Play(SimulationManager manager, SceneBuilder scene)
         {
-            // An original run that was interrupted is repeated up to there.
+            // An interrupted run is repeated up to its last tick.
             var ticks = scenario.OriginalRun == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.OriginalRun.Ticks);
             if (options.IsCheck) ticks = Math.Min(ticks, 1);
             var hasReplay = scenario.Replay && !options.IsCheck;
-            // A repetition goes on like the original run.
+            // A repetition continues after failures like the original run.
             var stopsAtFailures = !options.KeepGoing && scenario.OriginalRun == null;
             JObject parameters = null;
             var hadNodes = manager.Nodes.Count > 0;
@@ -290,7 +290,7 @@ namespace Collektive.Headless
             return 1;
         }
 
-        /// <summary>Returns why a frame had no tick, as far as that can be seen.</summary>
+        /// <summary>Returns the likely reason why a frame had no tick.</summary>
         private static string ReasonForMissingTick(SimulationManager manager)
         {
             if (!manager) return ": a script destroyed the Simulation Manager";
@@ -299,7 +299,7 @@ namespace Collektive.Headless
             return Time.timeScale == 1 ? "" : ": a script set Time.timeScale to " + Time.timeScale.ToString(CultureInfo.InvariantCulture);
         }
 
-        /// <summary>Whether all metrics have converged and the scenario stops then.</summary>
+        /// <summary>Whether all metrics have converged and the scenario ends in that case.</summary>
         private bool HasConverged => scenario.StopWhenConverged && scenario.Convergence.IsComplete;
 
         private JObject ProgramsWithParameters(SimulationManager manager)

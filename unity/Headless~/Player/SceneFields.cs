@@ -14,7 +14,7 @@ namespace Collektive.Headless
     {
         private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
 
-        /// <summary>The values of all fields that a scenario can set, those with their defaults included.</summary>
+        /// <summary>The values of all fields that a scenario can set, including defaults.</summary>
         internal static JObject Get(SceneBuilder builder) => (JObject)ToJson(builder, typeof(SceneBuilder));
 
         internal static void Set(SceneBuilder builder, Scenario scenario, IReadOnlyList<string> assignments)
@@ -42,7 +42,7 @@ namespace Collektive.Headless
                 "the scene " + builder.GetType().FullName + " has no public field '" + name + "'; it has: " + string.Join(", ", names));
         }
 
-        /// <summary>The error of a scene whose message may begin with a field in quotes; with its line if the scenario sets it.</summary>
+        /// <summary>Returns the error of a scene. If its message begins with a quoted field that the scenario sets, the error has the field's line.</summary>
         internal static ScenarioException Error(Scenario scenario, string problem)
         {
             JToken found = scenario.Fields;
@@ -77,14 +77,14 @@ namespace Collektive.Headless
             }
             if (!IsObject(type)) return file.Convert(token, type, key);
             var part = (JObject)file.Convert(token, typeof(JObject), key);
-            file.RefuseUnknown(part, key + ".", Array.ConvertAll(type.GetFields(Public), field => field.Name));
+            file.RejectUnknownKeys(part, key + ".", Array.ConvertAll(type.GetFields(Public), field => field.Name));
             var value = Activator.CreateInstance(type);
             foreach (var field in type.GetFields(Public))
                 if (part[field.Name] is JToken given) field.SetValue(value, Value(file, given, field.FieldType, key + "." + field.Name));
             return value;
         }
 
-        /// <summary>The value in a form that <see cref="Value"/> reads back; null for what scenarios cannot set.</summary>
+        /// <summary>Returns the value in a form that <see cref="Value"/> reads back; null for types that scenarios cannot set.</summary>
         private static JToken ToJson(object value, Type type)
         {
             if (value is Vector3 vector) return new JArray(vector.x, vector.y, vector.z);

@@ -33,10 +33,10 @@ namespace Collektive.Headless
             + "FormatException Index Range Span`1 ReadOnlySpan`1 ArraySegment`1 Random StringComparison StringComparer Convert HashCode "
             + "RuntimeTypeHandle RuntimeFieldHandle TimeSpan StringSplitOptions MidpointRounding").Split(' '));
 
-        /// <summary>Types of any number of parameters.</summary>
+        /// <summary>Generic types with any number of parameters.</summary>
         private static readonly HashSet<string> GenericTypes = new HashSet<string> { "Action", "Func", "Tuple", "ValueTuple" };
 
-        /// <summary>Types of which scripts may use some members only.</summary>
+        /// <summary>Types of which scripts may use only some members.</summary>
         private static readonly Dictionary<string, string> Members = new Dictionary<string, string>
         {
             ["System.Threading.Interlocked"] = "CompareExchange",
@@ -72,7 +72,7 @@ namespace Collektive.Headless
             OpCodes.Conv_U, OpCodes.Conv_I, OpCodes.Localloc, OpCodes.Cpblk, OpCodes.Initblk, OpCodes.Calli,
         };
 
-        /// <summary>Returns the first reference that could leave something behind, or null.</summary>
+        /// <summary>Returns the first reference that could leave state behind, or null.</summary>
         internal static string FindProblem(Assembly scripts)
         {
             var module = scripts.ManifestModule;
@@ -100,7 +100,7 @@ namespace Collektive.Headless
             return null;
         }
 
-        /// <summary>Whether the compiler made a type for lambdas without variables and for constants: C# itself allows no such name.</summary>
+        /// <summary>Whether the compiler generated the type, for constants or lambdas that capture no variables. C# source cannot use its name.</summary>
         internal static bool IsStateless(Type type) =>
             type.Name.IndexOf('<') >= 0 && type.IsDefined(typeof(CompilerGeneratedAttribute), false)
                 && type.GetFields(BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Instance).Length == 0;
@@ -113,7 +113,7 @@ namespace Collektive.Headless
             foreach (var constructor in type.GetConstructors(All)) yield return constructor;
         }
 
-        /// <summary>Whether a method can write to any address. Verifiable code has no native integers.</summary>
+        /// <summary>Whether a method can write to arbitrary addresses. Verifiable code does not use native integers.</summary>
         private static bool UsesPointers(MethodBase method)
         {
             var body = method.GetMethodBody()?.GetILAsByteArray();
@@ -125,7 +125,7 @@ namespace Collektive.Headless
             return false;
         }
 
-        /// <summary>Whether the initial values of static fields could depend on the run that needs them first.</summary>
+        /// <summary>Whether the initial values of static fields could depend on the first run that needs them.</summary>
         private static bool DependsOnRun(Type type)
         {
             foreach (var instruction in Instructions.Of(type.TypeInitializer.GetMethodBody().GetILAsByteArray()))

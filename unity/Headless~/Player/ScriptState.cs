@@ -11,7 +11,7 @@ namespace Collektive.Headless
     /// </summary>
     internal sealed class ScriptState
     {
-        private const BindingFlags Statics = BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.DeclaredOnly;
+        private const BindingFlags StaticFields = BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.DeclaredOnly;
 
         private readonly List<KeyValuePair<FieldInfo, object>> before = new List<KeyValuePair<FieldInfo, object>>();
 
@@ -21,7 +21,7 @@ namespace Collektive.Headless
             foreach (var type in scripts.GetTypes())
             {
                 if (type.ContainsGenericParameters || ScriptReferences.IsStateless(type)) continue;
-                foreach (var field in type.GetFields(Statics))
+                foreach (var field in type.GetFields(StaticFields))
                 {
                     if (!field.IsLiteral && !IsComparable(field)) Problem = Problem ?? type.FullName + "." + field.Name;
                 }
@@ -31,7 +31,7 @@ namespace Collektive.Headless
             foreach (var type in scripts.GetTypes())
             {
                 if (type.ContainsGenericParameters || ScriptReferences.IsStateless(type)) continue;
-                foreach (var field in type.GetFields(Statics))
+                foreach (var field in type.GetFields(StaticFields))
                 {
                     if (field.IsLiteral || IsLambda(field)) continue;
                     var value = field.GetValue(null);
@@ -43,14 +43,14 @@ namespace Collektive.Headless
         /// <summary>A possible remaining state that is not compared, or null.</summary>
         internal string Problem { get; }
 
-        /// <summary>Whether the fields are as they were.</summary>
+        /// <summary>Whether the fields are unchanged.</summary>
         internal bool IsUnchanged => Problem == null && before.TrueForAll(field => AreEqual(field.Value, field.Key.GetValue(null)));
 
         private static bool IsComparable(FieldInfo field) =>
-            IsLambda(field) || IsPlain(field.FieldType) || field.FieldType.IsArray && IsPlain(field.FieldType.GetElementType())
+            IsLambda(field) || IsValueData(field.FieldType) || field.FieldType.IsArray && IsValueData(field.FieldType.GetElementType())
                 || field.IsInitOnly && IsWithoutState(field.FieldType);
 
-        /// <summary>Whether the compiler keeps a lambda without variables in a field.</summary>
+        /// <summary>Whether the field caches a lambda that captures no variables.</summary>
         private static bool IsLambda(FieldInfo field) =>
             field.Name.StartsWith("<>", StringComparison.Ordinal) && typeof(Delegate).IsAssignableFrom(field.FieldType);
 
@@ -68,13 +68,13 @@ namespace Collektive.Headless
         /// <summary>Whether a type is a delegate or generated code of a schema.</summary>
         private static bool IsWithoutState(Type type) => typeof(Delegate).IsAssignableFrom(type) || type.Assembly == typeof(DataSchema).Assembly;
 
-        private static bool IsPlain(Type type)
+        private static bool IsValueData(Type type)
         {
             if (type.IsPrimitive || type.IsEnum || type == typeof(string)) return true;
             if (!type.IsValueType) return false;
             foreach (var field in type.GetFields(BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Instance))
             {
-                if (field.FieldType != type && !IsPlain(field.FieldType)) return false;
+                if (field.FieldType != type && !IsValueData(field.FieldType)) return false;
             }
             return true;
         }

@@ -17,9 +17,9 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// Runs a scenario for a sweep, one or more times with one JVM. Requests and answers are lines of JSON on the descriptor <c>--channel</c>; an answer has
-    /// the <c>id</c> of its request. <c>{"start": true, "set": {KEY: VALUE}}</c> starts the JVM, and answers <c>keepsState</c>: what in the scripts could
-    /// leave something behind for the next run, or null. <c>{"out": FOLDER, "set": ...}</c> runs the scenario; the answer has its exit <c>code</c>, and
-    /// whether another run may follow <c>again</c>. What a run prints goes to log.txt in its folder. <c>{"check": true, "set": ...}</c> reads the scenario
+    /// the <c>id</c> of its request. <c>{"start": true, "set": {KEY: VALUE}}</c> starts the JVM. Its answer has <c>keepsState</c>: the part of the scripts
+    /// that could leave state for the next run, or null. <c>{"out": FOLDER, "set": ...}</c> runs the scenario; the answer has its exit <c>code</c>, and
+    /// <c>again</c>: whether another run may follow. A run prints to log.txt in its folder. <c>{"check": true, "set": ...}</c> reads the scenario
     /// and the scene's fields, and runs nothing; the answer has the <c>problem</c>, or the names of the scene's <c>metrics</c>. The process
     /// ends when the channel is closed.
     /// </summary>
@@ -39,12 +39,12 @@ namespace Collektive.Headless
             // Children of scripts must not answer, nor keep the channel open.
             Syscall.fcntl(options.Channel, FcntlCommand.F_SETFD, CloseOnExec);
             channel = new UnixStream(options.Channel);
-            // As in the editor, the JVM stays when a run ends.
+            // As in the editor, the JVM keeps running when a run ends.
             Loop.IsEditor = true;
             new Thread(ReadRequests) { IsBackground = true }.Start();
         }
 
-        /// <summary>Answers requests until a run leaves something behind that the next one could see.</summary>
+        /// <summary>Answers requests until a run leaves state that could affect the next one.</summary>
         internal void Serve()
         {
             while (true)

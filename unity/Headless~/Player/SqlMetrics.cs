@@ -9,8 +9,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The metrics of a scenario: SQL aggregates over the table of nodes at one moment, with a row per node in order of their ids. Without a value, that is
-    /// of no nodes at all for instance, a metric is NaN.
+    /// The metrics of a scenario: SQL aggregates over the current table of nodes, with a row per node in the order of ids. A metric without a value, for
+    /// example over zero nodes, is NaN.
     /// </summary>
     internal sealed class SqlMetrics : IDisposable
     {
@@ -19,7 +19,7 @@ namespace Collektive.Headless
         private const string After = "\n) FROM " + Sqlite.Table;
 
         /// <summary>Rows of one statement.</summary>
-        private const int RowsAtOnce = 64;
+        private const int RowsPerInsert = 64;
 
         private readonly List<Metric> metrics = new List<Metric>();
         private readonly List<string> names = new List<string>();
@@ -43,8 +43,8 @@ namespace Collektive.Headless
             columns.Use(read);
             clear = database.Prepare("DELETE FROM " + Sqlite.Table);
             insert = Insertion(1);
-            insertMany = Insertion(RowsAtOnce);
-            rows = new double[RowsAtOnce * columns.Width];
+            insertMany = Insertion(RowsPerInsert);
+            rows = new double[RowsPerInsert * columns.Width];
             foreach (var metric in metrics) RequireAggregate(metric);
         }
 
@@ -56,7 +56,7 @@ namespace Collektive.Headless
         /// <summary>Takes the sensor data and messages of a tick.</summary>
         internal void Ticked(SimulationManager manager) => columns?.Ticked(manager);
 
-        /// <summary>Evaluates the metrics of this moment into an array, from an index on.</summary>
+        /// <summary>Evaluates the metrics at the current time into an array, starting at an index.</summary>
         internal void Measure(SimulationManager manager, double[] values, int first)
         {
             if (metrics.Count == 0) return;
@@ -81,7 +81,7 @@ namespace Collektive.Headless
             var nodes = manager.Nodes;
             for (var next = 0; next < nodes.Count;)
             {
-                var count = nodes.Count - next >= RowsAtOnce ? RowsAtOnce : 1;
+                var count = nodes.Count - next >= RowsPerInsert ? RowsPerInsert : 1;
                 for (var i = 0; i < count; i++) columns.Read(manager, nodes[next++], rows, i * columns.Width);
                 (count == 1 ? insert : insertMany).Execute(rows, count * columns.Width);
             }
@@ -91,7 +91,7 @@ namespace Collektive.Headless
         private Sqlite.Statement Insertion(int rows)
         {
             var used = columns.Used.Select(NodeColumns.Quoted).ToList();
-            // A row needs a column.
+            // A table needs at least one column.
             var row = used.Count == 0 ? "(NULL)" : "(" + string.Join(",", used.Select(name => "?")) + ")";
             return database.Prepare("INSERT INTO " + Sqlite.Table + " (" + (used.Count == 0 ? "id" : string.Join(",", used)) + ") VALUES "
                 + string.Join(",", Enumerable.Repeat(row, rows)));
@@ -160,14 +160,14 @@ namespace Collektive.Headless
             var at = error.CharacterIn(sql, Before.Length);
             return file.Error(
                 property.Value, "'metrics." + property.Name + "': " + error.Describe(sql, Before.Length, string.Join(", ", columns.Names)),
-                at >= 0 ? PlaceIn(property.Value, sql, at) : 0);
+                at >= 0 ? ColumnOf(property.Value, sql, at) : 0);
         }
 
         /// <summary>Returns the column of a character in the file's line; 0 if the file writes the text with escapes.</summary>
-        private static int PlaceIn(IJsonLineInfo token, string text, int character)
+        private static int ColumnOf(IJsonLineInfo token, string text, int character)
         {
             if (!token.HasLineInfo() || text.Any(letter => letter < ' ' || letter == '"' || letter == '\\')) return 0;
-            // Place of a token: behind its quote.
+            // The position of a token is after its quote.
             return Math.Max(0, token.LinePosition - text.Length + character);
         }
 

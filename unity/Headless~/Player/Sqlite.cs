@@ -7,7 +7,7 @@ using System.Text;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// A database in memory. Queries can only read the table and call functions whose results repeat, because they may come from strangers.
+    /// A database in memory. Queries are untrusted: they can only read the table and call deterministic functions.
     /// Not thread-safe.
     /// </summary>
     internal sealed class Sqlite : IDisposable
@@ -32,7 +32,7 @@ namespace Collektive.Headless
         /// <summary>Bytes of all databases of the process.</summary>
         private const long MaxMemory = 1L << 30;
 
-        /// <summary>Functions of numbers that depend on their arguments alone.</summary>
+        /// <summary>Numeric functions that depend only on their arguments.</summary>
         private static readonly HashSet<string> Allowed = new HashSet<string>(
             ("avg count max median min percentile percentile_cont percentile_disc sum total "
                 + "cume_dist dense_rank first_value lag last_value lead nth_value ntile percent_rank rank row_number "
@@ -68,10 +68,10 @@ namespace Collektive.Headless
 
         public void Dispose() => sqlite3_close_v2(database);
 
-        /// <summary>Executes statements of our own.</summary>
+        /// <summary>Executes trusted statements.</summary>
         internal void Execute(string sql) => Check(sqlite3_exec(database, Bytes(sql), IntPtr.Zero, IntPtr.Zero, IntPtr.Zero));
 
-        /// <summary>Prepares a statement of our own.</summary>
+        /// <summary>Prepares a trusted statement.</summary>
         internal Statement Prepare(string sql)
         {
             var bytes = Bytes(sql);
@@ -82,7 +82,7 @@ namespace Collektive.Headless
         /// <summary>Prepares a query of a user's, restricted to reading.</summary>
         /// <param name="columns">Gets the names of the columns of the table that the query reads.</param>
         /// <param name="parameters">The number of parameters in our part of the query.</param>
-        /// <exception cref="SqlException">The text is not one query with one column, or does what is refused.</exception>
+        /// <exception cref="SqlException">The text is not one query with one column, or its action is not allowed.</exception>
         internal Statement PrepareQuery(string sql, ISet<string> columns, int parameters = 0)
         {
             var bytes = Bytes(sql);
@@ -269,10 +269,10 @@ namespace Collektive.Headless
         private static extern double sqlite3_column_double(IntPtr statement, int column);
     }
 
-    /// <summary>A query that SQLite refuses.</summary>
+    /// <summary>A query that SQLite rejects.</summary>
     internal sealed class SqlException : Exception
     {
-        /// <param name="character">Place in the query, from 0; -1: not known.</param>
+        /// <param name="character">Position in the query, from 0; -1 if unknown.</param>
         internal SqlException(string message, int character)
             : base(message) => Character = character;
 

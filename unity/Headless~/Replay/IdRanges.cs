@@ -3,16 +3,16 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A set of ids as ranges, which are few when ids are given out in order.</summary>
+    /// <summary>A set of ids as ranges. Ids that are assigned in order form few ranges.</summary>
     internal sealed class IdRanges
     {
-        // By range, ascending; there is a gap between two of them.
+        // By range, ascending, with a gap between two ranges.
         private readonly List<int> first = new List<int>();
         private readonly List<int> last = new List<int>();
 
         internal void Add(int id)
         {
-            // The first range that ends at the id or behind it.
+            // The first range that ends at the id or after it.
             var place = last.BinarySearch(id);
             if (place < 0) place = ~place;
             if (place < first.Count && first[place] <= id) return;

@@ -3,7 +3,7 @@ using System;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Sorts links by their slots: by counting, since a comparing sort takes ten times as long and allocates. Its memory is used again.
+    /// Sorts links by their slots with a counting sort, because a comparison sort is ten times slower and allocates. Reuses its memory.
     /// </summary>
     internal sealed class LinkSorter
     {
@@ -11,8 +11,8 @@ namespace Collektive.Headless
         private int[] places = new int[64];
 
         /// <param name="keys">As <see cref="ReplayFrame.LinkKeys"/>.</param>
-        /// <param name="count">How many there are.</param>
-        /// <param name="slots">Each slot is below it.</param>
+        /// <param name="count">Number of keys.</param>
+        /// <param name="slots">Upper bound of the slots, exclusive.</param>
         internal void Sort(long[] keys, int count, int slots)
         {
             if (other.Length < count) other = new long[keys.Length];
@@ -21,7 +21,7 @@ namespace Collektive.Headless
             Pass(other, keys, count, slots, 26);
         }
 
-        /// <summary>Copies the keys in the order of one slot; equal ones stay in the order that they have.</summary>
+        /// <summary>Copies the keys in the order of one slot. The sort is stable.</summary>
         private void Pass(long[] from, long[] to, int count, int slots, int shift)
         {
             Array.Clear(places, 0, slots + 1);

@@ -8,8 +8,8 @@ namespace Collektive.Headless
     {
         private readonly float[] least;
         private readonly float[] greatest;
-        // Metres by which it may grow at each end of an axis.
-        private readonly float mayGrow;
+        // Maximum growth in metres at each end of an axis.
+        private readonly float maxGrowth;
         private readonly float[] reachedMin;
         private readonly float[] reachedMax;
 
@@ -18,16 +18,16 @@ namespace Collektive.Headless
             this.least = least;
             this.greatest = greatest;
             for (var axis = 0; axis < 3; axis++) LongestSide = Math.Max(LongestSide, (double)greatest[axis] - least[axis]);
-            mayGrow = grows ? (float)LongestSide : 0;
+            maxGrowth = grows ? (float)LongestSide : 0;
             reachedMin = (float[])least.Clone();
             reachedMax = (float[])greatest.Clone();
         }
 
-        /// <summary>Of the arena before it grows.</summary>
+        /// <summary>Bounds of the arena before it grows.</summary>
         internal double LongestSide { get; }
 
         /// <summary>The initial arena.</summary>
-        internal ReplayArena Copy() => new ReplayArena(least, greatest, mayGrow > 0);
+        internal ReplayArena Copy() => new ReplayArena(least, greatest, maxGrowth > 0);
 
         /// <summary>Extends the arena to a point, within its limits.</summary>
         internal void Include(float x, float y, float z)
@@ -42,8 +42,8 @@ namespace Collektive.Headless
 
         private void Include(int axis, float place)
         {
-            if (place < reachedMin[axis]) reachedMin[axis] = Math.Max(place, least[axis] - mayGrow);
-            if (place > reachedMax[axis]) reachedMax[axis] = Math.Min(place, greatest[axis] + mayGrow);
+            if (place < reachedMin[axis]) reachedMin[axis] = Math.Max(place, least[axis] - maxGrowth);
+            if (place > reachedMax[axis]) reachedMax[axis] = Math.Min(place, greatest[axis] + maxGrowth);
         }
     }
 }

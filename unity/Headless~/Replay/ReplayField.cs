@@ -18,19 +18,19 @@ namespace Collektive.Headless
         Colour,
     }
 
-    /// <summary>A value of each node in each frame, which can colour it.</summary>
+    /// <summary>A value that each node has in each frame and that can colour the node.</summary>
     public sealed class ReplayField
     {
         private const int MaxInteger = 1 << 30;
 
-        // Categories with a colour in the order of their appearance.
-        private const int MaxInOrder = 256;
+        // Coloured categories, in the order of appearance.
+        private const int MaxColouredCategories = 256;
 
         private readonly HashSet<int> known = new HashSet<int>();
         private readonly JArray order = new JArray();
 
         /// <param name="name">Shown in the legend; different for each field.</param>
-        /// <param name="kind">What the values are.</param>
+        /// <param name="kind">Kind of the values.</param>
         public ReplayField(string name, ReplayFieldKind kind = ReplayFieldKind.Number)
         {
             Name = name ?? throw new ArgumentNullException(nameof(name), "A field of the replay has no name.");
@@ -57,7 +57,7 @@ namespace Collektive.Headless
         internal bool HasMissingValues { get; private set; }
 
         /// <summary>Returns why a value cannot be stored, or null if it can.</summary>
-        internal string Refuse(double value)
+        internal string FindProblem(double value)
         {
             if (double.IsNaN(value)) return null;
             if (double.IsInfinity(value)) return "an infinite " + Name;
@@ -69,8 +69,8 @@ namespace Collektive.Headless
         internal void Include(double value)
         {
             if (double.IsNaN(value)) HasMissingValues = true;
-            else if (Kind == ReplayFieldKind.Category && known.Count < MaxInOrder && known.Add((int)value)) order.Add((int)value);
-            // Neither is true of NaN.
+            else if (Kind == ReplayFieldKind.Category && known.Count < MaxColouredCategories && known.Add((int)value)) order.Add((int)value);
+            // Both comparisons are false for NaN.
             if (value < Least) Least = value;
             if (value > Greatest) Greatest = value;
         }
@@ -83,7 +83,7 @@ namespace Collektive.Headless
             if (Max.HasValue) json["max"] = ReplayMetadata.Number(Max.Value);
             if (Kind == ReplayFieldKind.Category) json["order"] = order;
             if (Categories.Count > 0) json["words"] = new JArray(Categories);
-            // No value at all: no range either.
+            // No values, therefore no range.
             json["least"] = Least <= Greatest ? Least : 0;
             json["greatest"] = Least <= Greatest ? Greatest : 0;
             json["someWithout"] = HasMissingValues;

@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>One frame: by slot the presence of a node, its position in steps and its values; and its links.</summary>
+    /// <summary>One frame: its links, and for each slot the presence of a node, its position in steps and its values.</summary>
     internal sealed class ReplayFrame
     {
         private bool[] present = new bool[0];
@@ -94,7 +94,7 @@ namespace Collektive.Headless
             {
                 if (!present[slot]) continue;
                 var value = (float)values[field][slot];
-                // Neither is true of NaN.
+                // Both comparisons are false for NaN.
                 if (value < min) min = value;
                 if (value > max) max = value;
             }

@@ -33,8 +33,8 @@ namespace Collektive.Headless
 
         /// <summary>The space of the first view. The floor is at <paramref name="minY"/>.</summary>
         /// <param name="grows">
-        /// Whether it grows to hold nodes that leave it: at each end of an axis by its longest side at most, so that a node that flies away does not make
-        /// all others small.
+        /// Whether it grows to include nodes that leave it: at each end of an axis by at most its longest side, so that a distant node does not make all
+        /// others small.
         /// </param>
         public void SetArena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ, bool grows = false)
         {
@@ -49,17 +49,17 @@ namespace Collektive.Headless
             float x, float y, float z, float width, float height, float depth,
             float rotationX = 0, float rotationY = 0, float rotationZ = 0, float rotationW = 1)
         {
-            shapes.Add(Placed(Box(width, height, depth), x, y, z, rotationX, rotationY, rotationZ, rotationW));
+            shapes.Add(ShapeAt(Box(width, height, depth), x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
-        /// <summary>Adds a static body of triangles with a rotation (unit quaternion).</summary>
-        /// <param name="vertices">x, y, z of each corner, as its own axes have them.</param>
-        /// <param name="triangles">Three corners for each.</param>
+        /// <summary>Adds a static triangle mesh with a rotation (unit quaternion).</summary>
+        /// <param name="vertices">x, y, z of each corner in local axes.</param>
+        /// <param name="triangles">Three indices of corners per triangle.</param>
         public void AddMesh(
             float[] vertices, int[] triangles, float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
         {
             var mesh = new JObject { ["kind"] = "mesh", ["vertices"] = Numbers(vertices), ["triangles"] = new JArray(triangles) };
-            shapes.Add(Placed(mesh, x, y, z, rotationX, rotationY, rotationZ, rotationW));
+            shapes.Add(ShapeAt(mesh, x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
         /// <summary>Adds a moving box. Add its pose in each frame.</summary>
@@ -68,25 +68,25 @@ namespace Collektive.Headless
         /// <summary>Adds a moving sphere. Add its pose in each frame.</summary>
         public ReplayMover AddMovingSphere(float radius) => AddMover(new JObject { ["kind"] = "sphere", ["radius"] = Number(radius) });
 
-        /// <summary>A static sphere.</summary>
+        /// <summary>Adds a static sphere.</summary>
         public void AddSphere(float x, float y, float z, float radius)
         {
             shapes.Add(new JObject { ["kind"] = "sphere", ["centre"] = Numbers(x, y, z), ["radius"] = Number(radius) });
         }
 
-        /// <summary>A static capsule, turned by the unit quaternion.</summary>
-        /// <param name="height">With both caps.</param>
-        /// <param name="axis">Its own axis that it lies along: 0, 1, 2 for x, y, z.</param>
+        /// <summary>Adds a static capsule with a rotation (unit quaternion).</summary>
+        /// <param name="height">Height including both caps.</param>
+        /// <param name="axis">Local axis of the capsule: 0, 1, 2 for x, y, z.</param>
         public void AddCapsule(
             float x, float y, float z, float radius, float height, int axis, float rotationX, float rotationY, float rotationZ, float rotationW)
         {
-            shapes.Add(Placed(Capsule(radius, height, axis), x, y, z, rotationX, rotationY, rotationZ, rotationW));
+            shapes.Add(ShapeAt(Capsule(radius, height, axis), x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
-        /// <summary>A capsule that moves, as in <see cref="AddCapsule"/>; add its pose in each frame.</summary>
+        /// <summary>Adds a moving capsule, as in <see cref="AddCapsule"/>. Add its pose in each frame.</summary>
         public ReplayMover AddMovingCapsule(float radius, float height, int axis) => AddMover(Capsule(radius, height, axis));
 
-        /// <summary>A named place.</summary>
+        /// <summary>Adds a named place.</summary>
         public void AddMarker(string name, float x, float y, float z)
         {
             markers.Add(new JObject { ["name"] = Text(name), ["position"] = Numbers(x, y, z) });
@@ -102,7 +102,7 @@ namespace Collektive.Headless
             return new JObject
             {
                 ["title"] = Text(Title),
-                // Greater than what JavaScript's numbers hold exactly.
+                // Larger than JavaScript's exact integers.
                 ["seed"] = Seed.ToString(CultureInfo.InvariantCulture),
                 ["deltaTime"] = Number(DeltaTime),
                 ["nodeRadius"] = Number(NodeRadius),
@@ -126,7 +126,7 @@ namespace Collektive.Headless
         private static JObject Capsule(float radius, float height, int axis) =>
             new JObject { ["kind"] = "capsule", ["radius"] = Number(radius), ["height"] = Number(height), ["axis"] = axis };
 
-        private static JObject Placed(
+        private static JObject ShapeAt(
             JObject shape, float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
         {
             shape["centre"] = Numbers(x, y, z);
@@ -136,7 +136,7 @@ namespace Collektive.Headless
 
         internal static JArray Numbers(params float[] numbers) => new JArray(Array.ConvertAll(numbers, number => (object)Number(number)));
 
-        // JSON has no place for other numbers.
+        // JSON cannot represent other numbers.
         internal static double Number(double value)
         {
             if (double.IsNaN(value) || double.IsInfinity(value))

@@ -15,8 +15,8 @@ namespace Collektive.Headless
             foreach (var name in names) series.Add(new JObject { ["name"] = name, ["values"] = new JArray() });
         }
 
-        /// <param name="time">Simulated seconds, later than those of the row before.</param>
-        /// <param name="values">One for each name; what is not finite is a gap in the chart.</param>
+        /// <param name="time">Simulated seconds, later than those of the previous row.</param>
+        /// <param name="values">One for each name. Non-finite values are gaps in the chart.</param>
         public void Add(double time, IReadOnlyList<double> values)
         {
             times.Add(time);

@@ -3,7 +3,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The positions of a moving shape without a node, by frame.</summary>
+    /// <summary>The poses of a moving shape that is not a node, by frame.</summary>
     public sealed class ReplayMover
     {
         private readonly JObject shape;
@@ -14,7 +14,7 @@ namespace Collektive.Headless
         /// <summary>Adds the pose of the next frame: metres, and a unit quaternion. Call it once for each frame.</summary>
         public void Add(float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
         {
-            // Thousandths: what the eye can see, in few characters.
+            // Thousandths are precise enough for display, and short.
             foreach (var number in new[] { x, y, z, rotationX, rotationY, rotationZ, rotationW }) poses.Add(Math.Round(ReplayMetadata.Number(number), 3));
         }
 

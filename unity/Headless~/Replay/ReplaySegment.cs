@@ -35,7 +35,7 @@ namespace Collektive.Headless
         internal int Count { get; private set; }
 
         /// <summary>The next frame, empty.</summary>
-        /// <param name="slots">Slots in use before it.</param>
+        /// <param name="slots">Slots in use before the frame.</param>
         internal ReplayFrame Add(int slots)
         {
             var frame = frames[Count] = frames[Count] ?? new ReplayFrame(fields);
@@ -45,8 +45,8 @@ namespace Collektive.Headless
         }
 
         /// <summary>Encodes the frames and removes them.</summary>
-        /// <param name="ids">By slot, the node that has it in these frames.</param>
-        /// <param name="coded">Holds the segment; valid until the next call.</param>
+        /// <param name="ids">By slot, the node that uses it in these frames.</param>
+        /// <param name="coded">The encoded segment; valid until the next call.</param>
         /// <returns>Length of the segment in bytes.</returns>
         internal int Encode(List<int> ids, out byte[] coded)
         {
@@ -101,7 +101,7 @@ namespace Collektive.Headless
             WriteFloat(min);
             WriteFloat(max);
             least[field] = min;
-            // In double: the difference of two floats may overflow.
+            // In double, because the difference of two floats may overflow.
             scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
         }
 
@@ -152,7 +152,7 @@ namespace Collektive.Headless
             WritePairs(frame, before);
         }
 
-        /// <summary>Writes the links of one frame that another does not have.</summary>
+        /// <summary>Writes the links that one frame has and another lacks.</summary>
         private void WritePairs(ReplayFrame of, ReplayFrame without)
         {
             WriteNumber((uint)WalkPairs(of, without, false));

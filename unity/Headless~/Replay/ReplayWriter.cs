@@ -10,15 +10,15 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Writes a run as a replay page; the format is in FORMAT.md. For each frame: <see cref="BeginFrame"/>, each node, then each
-    /// link between those nodes, <see cref="EndFrame"/>; at the end <see cref="Finish"/>. Every <see cref="FramesPerSegment"/> frames go to a
-    /// scratch file, and slots of nodes that left go to others: memory grows by eight bytes a frame, and between two of those moments a frame
-    /// allocates nothing once the greatest numbers of nodes and links were seen. One thread at a time. After an exception, dispose
-    /// the writer; the recording is unusable.
+    /// Writes a run as a replay page in the format of FORMAT.md. For each frame, call <see cref="BeginFrame"/>, add each node and then each link
+    /// between them, and call <see cref="EndFrame"/>. Call <see cref="Finish"/> at the end. Every <see cref="FramesPerSegment"/> frames are written to
+    /// a scratch file, and slots of departed nodes are reused. Memory therefore grows by eight bytes per frame. Within a segment, frames do not
+    /// allocate unless they have more nodes or links than any earlier frame. One thread at a time. After an exception, dispose of the writer: the
+    /// recording is unusable.
     /// </summary>
     public sealed class ReplayWriter : IDisposable
     {
-        /// <summary>Frames that are compressed together; the first of them is a key frame.</summary>
+        /// <summary>Frames that are compressed together. The first one is a key frame.</summary>
         public const int FramesPerSegment = 20;
 
         /// <summary>Approximate limit of stored links per frame, each direction counted.</summary>
@@ -44,9 +44,9 @@ namespace Collektive.Headless
         private long textLength;
 
         private readonly Dictionary<int, int> slotOfId = new Dictionary<int, int>();
-        // By slot: the node that has it now, or had it last.
+        // By slot: the current or last node.
         private readonly List<int> ids = new List<int>();
-        // Slots of nodes that left before this segment, the greatest first.
+        // Slots of nodes that left before this segment, in descending order.
         private readonly List<int> free = new List<int>();
         private readonly IdRanges known = new IdRanges();
         private readonly List<double> times = new List<double>();
@@ -59,8 +59,8 @@ namespace Collektive.Headless
         private bool inFrame;
         private bool finished;
 
-        /// <param name="scratchPath">A file for the frames until <see cref="Finish"/>: made or replaced now, deleted by <see cref="Dispose"/>.</param>
-        /// <param name="metadata">What the page shows beside the frames.</param>
+        /// <param name="scratchPath">A file for the frames until <see cref="Finish"/>: created or replaced now, deleted by <see cref="Dispose"/>.</param>
+        /// <param name="metadata">The content of the page other than frames.</param>
         public ReplayWriter(string scratchPath, ReplayMetadata metadata)
         {
             this.metadata = metadata.ToJson();
@@ -78,10 +78,10 @@ namespace Collektive.Headless
         /// <summary>Number of frames written.</summary>
         public int Frames => times.Count;
 
-        /// <param name="time">Simulated seconds; later than the frame before.</param>
+        /// <param name="time">Simulated seconds, later than those of the previous frame.</param>
         /// <param name="links">
-        /// Number of different links in the frame, each direction counted. Of more than <see cref="LinkBudget"/>, a sample is stored: those with the
-        /// smallest hash of their nodes' ids, so that the same ones stay from frame to frame.
+        /// Number of different links in the frame, each direction counted. Above <see cref="LinkBudget"/>, a sample is stored: the links with the smallest
+        /// hash of their nodes' ids, so that the sample is stable from frame to frame.
         /// </param>
         public void BeginFrame(double time, int links = 0)
         {
@@ -103,7 +103,7 @@ namespace Collektive.Headless
         /// of the origin.
         /// </summary>
         /// <param name="id">The node's id, the same in all frames.</param>
-        /// <param name="value">Its value of the first field; NaN: it has none.</param>
+        /// <param name="value">Its value of the first field; NaN if missing.</param>
         public void Node(int id, float x, float y, float z, double value)
         {
             if (!inFrame) throw Order(nameof(Node), "no frame has begun");
@@ -121,10 +121,10 @@ namespace Collektive.Headless
 
         /// <summary>Sets a value of the last added node. Fields without a call have no value.</summary>
         /// <param name="field">Index in <see cref="ReplayMetadata.Fields"/>.</param>
-        /// <param name="value">NaN: it has none.</param>
+        /// <param name="value">The value; NaN if missing.</param>
         public void Value(int field, double value)
         {
-            var problem = fields[field].Refuse(value);
+            var problem = fields[field].FindProblem(value);
             if (problem != null)
                 throw new ArgumentException("Node " + Number(ids[slotOfLast]) + " has " + problem + " in frame " + Number(Frames - 1)
                     + " of the replay: use another value, or NaN for no value.");
@@ -135,7 +135,7 @@ namespace Collektive.Headless
         /// <summary>Adds a link between two different nodes of this frame. Repetitions have no effect.</summary>
         /// <param name="from">Id of the sender.</param>
         /// <param name="to">Id of the receiver.</param>
-        /// <param name="isMutual">Whether there is also a link in the other direction.</param>
+        /// <param name="isMutual">Whether to add a link in the other direction too.</param>
         public void Link(int from, int to, bool isMutual = false)
         {
             if (!inFrame) throw Order(nameof(Link), "no frame has begun");
@@ -158,8 +158,8 @@ namespace Collektive.Headless
         }
 
         /// <summary>Writes the page, which is the template with the recording. Call it once, after the last frame.</summary>
-        /// <param name="templatePath">The page that <c>build.mjs</c> makes.</param>
-        /// <param name="outputHtmlPath">Made or replaced.</param>
+        /// <param name="templatePath">The page that <c>build.mjs</c> builds.</param>
+        /// <param name="outputHtmlPath">The file to create or replace.</param>
         /// <exception cref="InvalidDataException">The file is not a template. No file is written.</exception>
         public void Finish(string templatePath, string outputHtmlPath)
         {
@@ -199,7 +199,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Between segments, in each of which a slot belongs to one node: frees the slots of nodes that are not in the last frame.</summary>
+        /// <summary>Frees the slots of nodes that are not in the last frame. Called between segments, in which slots must not change.</summary>
         private void FreeSlots()
         {
             free.Clear();

@@ -6,10 +6,10 @@ using Mono.Unix.Native;
 
 namespace Collektive.Headless
 {
-    /// <summary>Creates the files of a run. None is written through a symbolic link, and synced ones survive a power failure.</summary>
+    /// <summary>Creates the files of a run. Never writes through a symbolic link. Synced files survive a power failure.</summary>
     internal static class ResultFile
     {
-        /// <summary>Creates a file that grows during the run, in place of one of that name.</summary>
+        /// <summary>Creates a file that grows during the run, and replaces an existing one.</summary>
         internal static StreamWriter Create(string path)
         {
             File.Delete(path);
@@ -17,7 +17,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Writes a file beside <paramref name="path"/>, syncs it, and replaces the file of that name. After an exception that file is unchanged.
+        /// Writes a temporary file beside <paramref name="path"/>, syncs it, and replaces the target. After an exception the target is unchanged.
         /// </summary>
         internal static void Write(string path, Action<TextWriter> write)
         {
@@ -44,7 +44,7 @@ namespace Collektive.Headless
             if (descriptor < 0) throw Failure(path);
             try
             {
-                // File systems without such a call give EINVAL.
+                // File systems without this call return EINVAL.
                 if (Syscall.fsync(descriptor) != 0 && Stdlib.GetLastError() != Errno.EINVAL) throw Failure(path);
             }
             finally

@@ -8,8 +8,8 @@ const FLAGS = [
 ];
 
 /**
- * `modules` is the folder of playwright-core and of the browser, as `./collektive setup` makes it; CHROMIUM names another browser.
- * The browser finds its libraries and its only fonts beside it: pictures are the same on each system.
+ * `modules` is the folder of playwright-core and of the browser that `./collektive setup` creates. CHROMIUM selects another browser.
+  * The browser uses the libraries and fonts beside it, so that pictures are the same on all systems.
  */
 export function launch(modules = process.env.COLLEKTIVE_NODE_MODULES, extraFlags = []) {
   if (!modules) {

@@ -56,7 +56,7 @@ const state = (tab) => tab.evaluate(() => {
 
 const seek = (tab, frame) => tab.evaluate((i) => window.replay.seek(i), frame);
 
-/** Whether a frame is on show soon: it may have to be read first. */
+/** Waits for a frame, which may have to be read first. */
 const arrives = (tab, frame, message) => eventually(tab, (now) => now.frame === frame, message);
 
 /** The canvas as it is drawn now. */
@@ -105,7 +105,7 @@ async function eventually(tab, holds, message) {
   throw new Error(`${message}; it is ${JSON.stringify(now)}`);
 }
 
-/** Makes the window another size, and waits until its picture has it. */
+/** Resizes the window and waits for its picture. */
 async function resize(tab, size) {
   await tab.setViewportSize(size);
   await tab.waitForFunction(({ width, height }) => {
@@ -121,13 +121,13 @@ async function inaccessible(tab) {
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`);
 }
 
-/** The file that a click gives. */
+/** The file that a click downloads. */
 async function download(tab, button) {
   const [file] = await Promise.all([tab.waitForEvent('download'), tab.click(button)]);
   return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
 }
 
-/** A copy of the page whose recording has another header, or other segments. */
+/** A copy of the page with another header or other segments. */
 const withHeader = (name, change) => withData(name, (data) => {
   const [first, ...segments] = data.split('\n');
   const header = JSON.parse(gunzipSync(Buffer.from(first, 'base64')));
@@ -163,7 +163,7 @@ async function expectMessage(path, words, options) {
   assert.deepEqual(complaints, []);
 }
 
-/** Tests what only a run with known content shows. */
+/** Tests that need a run with known content. */
 async function testSample(test, tab) {
   await resize(tab, { width: 1280, height: 720 });
   if (await tab.locator('#charts').isHidden()) await tab.click('#charts-shown');
@@ -222,7 +222,7 @@ async function testSample(test, tab) {
     }
     assert.match(await tab.getAttribute('#history .uplot', 'aria-label'), /^brightness \(lx\) from 0 to 19.9 s: .*minimum .* lx/);
     const words = await tab.$$eval('#neighbour-list button', (buttons) => buttons.map((button) => button.textContent));
-    // As SampleReplay links them; node 7 is away.
+    // Links of SampleReplay, in which node 7 is missing.
     assert.deepEqual(words, ['3', 'from 4', 'to 6']);
   });
 
@@ -333,7 +333,7 @@ await suite('replay page', async (page) => {
     await Promise.all([browser.close(), blind.close()]);
     rmSync(folder, { recursive: true });
   });
-  // Comparisons with numbers need no large picture.
+  // Small pictures are sufficient for comparisons.
   const { tab, complaints, close } = await open(file, expected ? { viewport: { width: 480, height: 270 } } : {});
   try {
     const loaded = await tab.evaluate(() => window.replay.ready.then(() => performance.now()));
@@ -361,7 +361,7 @@ await suite('replay page', async (page) => {
         }
       });
       if (nodes >= 9000) {
-        // Half of the time that a browser with a graphics card has for a picture. This one draws with the processor: its drawing is not counted.
+        // Half the time of a picture in a browser with a graphics card. Drawing is not counted, because this browser uses the processor.
         await test('each of sixty pictures a second costs the script little', async () => {
           const { mean, greatest } = await tab.evaluate(async () => {
             let [sum, most] = [0, 0];
@@ -422,7 +422,7 @@ await suite('replay page', async (page) => {
       assert.ok(found > 200, `${found} colours`);
     });
 
-    // Shorter runs are over before this test has seen them play.
+    // Shorter runs end before this test can observe them.
     await seek(tab, frames - 1);
     const plays = (await state(tab)).time >= 1;
 
@@ -569,7 +569,7 @@ await suite('replay page', async (page) => {
       });
     }
 
-    // The processor draws: smaller pictures are sooner there.
+    // Smaller pictures are faster, because the processor draws them.
     await resize(tab, { width: 800, height: 500 });
 
     if (nodes > 0) {

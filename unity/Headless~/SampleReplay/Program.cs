@@ -6,9 +6,9 @@ using Newtonsoft.Json;
 namespace Collektive.Headless.Samples
 {
     /// <summary>
-    /// Writes an artificial run for the test of the page, which reads it back: nodes walk at random, come and go. Each has a link to the next two,
-    /// and each third one a link back.
-    /// Beside it lies OUTPUT.html.expected.json, what some of its frames must show.
+    /// Writes an artificial run for the test of the page. Nodes walk at random, join and leave. Each has a link to the next two nodes, and every
+    /// third one has a link back.
+    /// The file OUTPUT.html.expected.json contains the expected content of some frames.
     /// Usage: SampleReplay.exe TEMPLATE OUTPUT.html NODES FRAMES
     /// </summary>
     internal static class SampleReplay

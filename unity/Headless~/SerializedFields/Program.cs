@@ -3,12 +3,12 @@ using System.Collections.Generic;
 using System.Reflection;
 using UnityEngine;
 
-/// Prints the fields that Unity serialises of the components and assets in assemblies, for the validator: one line for each class,
+/// Prints the serialised fields of the components and assets in assemblies, for the validator: one line for each class,
 /// "class FULL.NAME KIND", followed by "  PATH KIND" for its fields, those of nested classes as "outer.inner".
 /// Usage: Collektive.SerializedFields.exe ASSEMBLY...
 static class Program
 {
-    /// Unity's own limit.
+    /// Unity's limit of nested types.
     const int MaxDepth = 10;
 
     static int Main(string[] arguments)
@@ -57,7 +57,7 @@ static class Program
         return fields;
     }
 
-    /// How the value looks in YAML; null: Unity does not serialise such a field.
+    /// The form of the value in YAML; null if Unity does not serialise the field.
     static string KindOf(Type type)
     {
         if (type.IsEnum || type.IsPrimitive) return "number";

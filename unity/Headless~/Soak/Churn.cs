@@ -8,8 +8,8 @@ using Object = UnityEngine.Object;
 namespace Collektive.Headless.Soak
 {
     /// <summary>
-    /// A crowd of nodes, a few of which leave in each tick while others come. Half of those that come fail, in their program or in a sensor, until they
-    /// leave; links come and go with them.
+    /// Nodes of which a few leave in each tick while others join. Half of the new nodes fail, in their program or in a sensor, until they leave. Links
+    /// appear and disappear with them.
     /// </summary>
     internal sealed class Churn
     {
@@ -17,20 +17,20 @@ namespace Collektive.Headless.Soak
         private const int PerTick = 10;
         private const int Kinds = 4;
 
-        /// <summary>Ids are used again after this many: arrays are as long as the largest id.</summary>
+        /// <summary>Number of ids before they are reused, because arrays are as long as the largest id.</summary>
         private const int Ids = 100000;
 
         private const int LimitMs = 30000;
         private static readonly string[] JvmOptions = { "-Xms96m", "-Xmx96m", "-XX:+UseSerialGC", "-XX:+AlwaysPreTouch" };
 
         private readonly SimulationManager manager;
-        private readonly GameObject[] crowd = new GameObject[Nodes];
-        private int made;
+        private readonly GameObject[] holders = new GameObject[Nodes];
+        private int created;
         private int sessions;
 
         internal Churn(string home, string host, string jar)
         {
-            // Thousands of errors a second would be the run's output.
+            // Do not print thousands of errors per second.
             Debug.unityLogger.logEnabled = false;
             Installation.JavaHome = home;
             Installation.HostJar = host;
@@ -43,29 +43,29 @@ namespace Collektive.Headless.Soak
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings.cdsArchive = false;
             settings.jvm.settings.flags.AddRange(JvmOptions);
-            for (var i = 0; i < Nodes; i++) crowd[i] = MakeNode();
+            for (var i = 0; i < Nodes; i++) holders[i] = MakeNode();
         }
 
         internal string Failure => manager.Failure;
 
         internal string Summary =>
-            manager.Tick + " ticks, " + made + " nodes, " + manager.ErrorCount + " errors in " + manager.Errors.Count + " places, " + sessions + " sessions";
+            manager.Tick + " ticks, " + created + " nodes, " + manager.ErrorCount + " errors in " + manager.Errors.Count + " places, " + sessions + " sessions";
 
-        /// <summary>One tick, and before it some leave and as many come.</summary>
+        /// <summary>Replaces some nodes, then runs one tick.</summary>
         internal void Frame()
         {
             for (var i = 0; i < PerTick; i++)
             {
-                var place = made % Nodes;
-                Object.Destroy(crowd[place]);
-                crowd[place] = MakeNode();
+                var place = created % Nodes;
+                Object.Destroy(holders[place]);
+                holders[place] = MakeNode();
                 Link(place, (place + 1) % Nodes);
                 Link(place, (place + Nodes / 2) % Nodes);
             }
             Loop.Frame(manager.Settings.deltaTime);
         }
 
-        /// <summary>Enters and leaves play mode: a session with its own programs.</summary>
+        /// <summary>Opens and closes a session with its own programs, as play mode does.</summary>
         internal void PlaySession()
         {
             var settings = new SessionSettings { Jars = new[] { manager.Settings.jars[0] }, Program = "fault" };
@@ -79,16 +79,16 @@ namespace Collektive.Headless.Soak
             sessions++;
         }
 
-        private void Link(int a, int b) => manager.AddLink(crowd[a].GetComponent<Node>().Id, crowd[b].GetComponent<Node>().Id);
+        private void Link(int a, int b) => manager.AddLink(holders[a].GetComponent<Node>().Id, holders[b].GetComponent<Node>().Id);
 
         private GameObject MakeNode()
         {
-            var kind = made++ % Kinds;
+            var kind = created++ % Kinds;
             var holder = new GameObject("Node");
             holder.SetActive(false);
-            holder.transform.position = new Vector3(made % Nodes, 0, 0);
+            holder.transform.position = new Vector3(created % Nodes, 0, 0);
             var node = holder.AddComponent<Node>();
-            node.RequestedId = made % Ids;
+            node.RequestedId = created % Ids;
             node.Parameters.Add(new NodeParameter("fault", "throw"));
             holder.AddComponent<ProbeSensor>().Value = kind == 0 ? 1 : 0;
             if (kind == 1) holder.AddComponent<BrokenSensor>();

@@ -5,10 +5,10 @@ using System.Xml.Linq;
 
 namespace Collektive.Headless.Soak
 {
-    /// <summary>Samples of a run: none of the measures may be higher in the last third of them than in the first, by more than it is allowed.</summary>
+    /// <summary>Samples of a run. Each measure may grow from the first to the last third of them by at most its allowed amount.</summary>
     internal sealed class Growth
     {
-        /// <summary>Measures and their allowed growth, which is the noise of collectors and compilers.</summary>
+        /// <summary>Measures and their allowed growth, which is noise of collectors and compilers.</summary>
         internal static readonly (string Name, double Allowed)[] Measures =
         {
             ("managed heap, KB", 1024), ("RSS, KB", 16384), ("JVM heap, KB", 2048), ("metaspace, KB", 1024), ("classes", 100), ("threads", 1),
@@ -19,8 +19,8 @@ namespace Collektive.Headless.Soak
 
         internal void Add(double[] sample) => samples.Add(sample);
 
-        /// <summary>Prints a table, and writes the results as JUnit XML to <paramref name="file"/> if there is one.</summary>
-        /// <returns>Whether nothing has grown.</returns>
+        /// <summary>Prints a table, and writes the results as JUnit XML to <paramref name="file"/> unless it is null.</summary>
+        /// <returns>Whether no measure has grown too much.</returns>
         internal bool Report(string file)
         {
             if (samples.Count < 3) throw new InvalidOperationException("too short: " + samples.Count + " samples instead of at least 3; use more seconds");

@@ -40,7 +40,7 @@ namespace Collektive.Headless.Soak
             return failed ? 1 : 0;
         }
 
-        /// <summary>Measurements count from the second minute on, or in a short run from its second third.</summary>
+        /// <summary>Measurements start with the second minute, or with the second third of a short run.</summary>
         private static void Play(Churn scene, Growth growth, double seconds)
         {
             var settled = Math.Min(60, seconds / 3);
@@ -61,7 +61,7 @@ namespace Collektive.Headless.Soak
                     nextSample = now + (seconds - settled) / Samples;
                     growth.Add(Sample.Take());
                 }
-                // Late ticks are not made up for: the load is the same on each machine that keeps pace.
+                // Late ticks are skipped, so that the load is equal on all machines that keep pace.
                 nextTick = Math.Max(nextTick + 1.0 / TicksPerSecond, now);
                 var wait = nextTick - clock.Elapsed.TotalSeconds;
                 if (wait > 0) Thread.Sleep(TimeSpan.FromSeconds(wait));

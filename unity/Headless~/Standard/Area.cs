@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>The bounds of a deployment, and the places in it that obstacles leave free.</summary>
+    /// <summary>The bounds of a deployment, and its free places between obstacles.</summary>
     internal sealed class Area
     {
         private const int Attempts = 10000;
@@ -34,7 +34,7 @@ namespace Collektive.Standard
         /// <summary>Columns of a grid.</summary>
         internal int Columns => deployment.columns > 0 ? deployment.columns : Mathf.CeilToInt(Mathf.Sqrt(deployment.nodes));
 
-        /// <summary>A uniform free place; null if there is hardly any.</summary>
+        /// <summary>Returns a uniform random free place; null if almost none is free.</summary>
         internal Vector3? Uniform(RandomStream random)
         {
             for (var attempt = 0; attempt < Attempts; attempt++)
@@ -105,7 +105,7 @@ namespace Collektive.Standard
             return bounds;
         }
 
-        /// <summary>Whether a line from a place crosses the sides of a polygon an odd number of times.</summary>
+        /// <summary>Whether a place is inside a polygon: a line from it crosses the sides an odd number of times.</summary>
         private static bool IsInside(List<float[]> corners, Vector3 place)
         {
             var isInside = false;

@@ -39,7 +39,7 @@ namespace Collektive.Standard
         protected override Vector3 Read(ActuatorData data) => data.Target.ToUnity();
     }
 
-    /// <summary>Moves a node without a body at random. Its random numbers are the node's own.</summary>
+    /// <summary>Moves a node without a body at random, with the node's random numbers.</summary>
     public sealed class Walker : MonoBehaviour
     {
         private Vector3 target;
@@ -91,7 +91,7 @@ namespace Collektive.Standard
                 {
                     var angle = random.Range(0, 2 * Mathf.PI);
                     direction = new Vector3(Mathf.Cos(angle), 0, Mathf.Sin(angle));
-                    // Inverse of the distribution function of Pareto's law.
+                    // Inverse of the Pareto distribution function.
                     left = movement.shortest * Mathf.Pow((float)(1 - random.NextDouble()), 1 / (1 - movement.exponent));
                 }
                 var step = Mathf.Min(reach, left);

@@ -3,47 +3,47 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>How nodes are placed. A grid begins at the origin. Discs and rectangles are centred there.</summary>
+    /// <summary>Kinds of deployments. A grid begins at the origin. Discs and rectangles are centred on it.</summary>
     public enum DeploymentKind
     {
         /// <summary>Rows and columns, with <see cref="Deployment.disorder"/>.</summary>
         Grid,
 
-        /// <summary>Uniform in a disc.</summary>
+        /// <summary>Uniform random positions in a disc.</summary>
         Disc,
 
-        /// <summary>Uniform in a rectangle or polygon.</summary>
+        /// <summary>Uniform random positions in a rectangle or polygon.</summary>
         Uniform,
 
-        /// <summary>Uniform in a rectangle or polygon, with a smallest distance between nodes.</summary>
+        /// <summary>Uniform random positions in a rectangle or polygon, with a minimum distance between nodes.</summary>
         Poisson,
 
         /// <summary>At the places in a file.</summary>
         File,
     }
 
-    /// <summary>Where nodes start.</summary>
+    /// <summary>The initial positions of nodes.</summary>
     public sealed class Deployment
     {
         public DeploymentKind kind = DeploymentKind.Grid;
         public int nodes = 100;
 
-        /// <summary>Metres between the nodes of a grid, or the smallest distance for Poisson.</summary>
+        /// <summary>Metres between the nodes of a grid, or the minimum distance for Poisson.</summary>
         public float spacing = 3;
 
-        /// <summary>Columns of a grid; 0: as many as rows.</summary>
+        /// <summary>Columns of a grid; 0 for as many as rows.</summary>
         public int columns;
 
-        /// <summary>Metres by which a node of a grid may be off its place, along each axis.</summary>
+        /// <summary>Maximum random offset of the nodes of a grid, in metres along each axis.</summary>
         public float disorder;
 
-        /// <summary>Metres, of a disc.</summary>
+        /// <summary>Radius of a disc in metres.</summary>
         public float radius = 15;
 
-        /// <summary>Metres along x and z, of a rectangle.</summary>
+        /// <summary>Size of a rectangle in metres along x and z.</summary>
         public float[] size = { 30, 30 };
 
-        /// <summary>Corners, [x, z] each; none: a rectangle.</summary>
+        /// <summary>Corners of a polygon as [x, z]; empty for a rectangle.</summary>
         public List<float[]> polygon = new List<float[]>();
 
         /// <summary>A CSV, GeoJSON or GPX file in the scenario's folder of data, of File.</summary>
@@ -60,22 +60,22 @@ namespace Collektive.Standard
         public string file = "";
     }
 
-    /// <summary>A named set of nodes: given ids, and the nodes nearest to a point at the start.</summary>
+    /// <summary>A named set of nodes: given ids, and the nodes that are initially nearest to a point.</summary>
     public sealed class NodeSet
     {
         public string name = "";
         public int[] ids = { };
 
-        /// <summary>[x, z]; none: the ids alone.</summary>
+        /// <summary>The point as [x, z]; empty for the ids alone.</summary>
         public float[] near = { };
 
-        /// <summary>How many nodes nearest to the point.</summary>
+        /// <summary>Number of nodes nearest to the point.</summary>
         public int count = 1;
 
-        /// <summary>Simulated seconds from which nodes are in the set.</summary>
+        /// <summary>Simulated seconds at which nodes enter the set.</summary>
         public double from;
 
-        /// <summary>Simulated seconds from which they no longer are.</summary>
+        /// <summary>Simulated seconds at which nodes leave the set.</summary>
         public double until = 1e9;
     }
 
@@ -85,26 +85,26 @@ namespace Collektive.Standard
         /// <summary>Centre of a box, [x, z].</summary>
         public float[] box = { };
 
-        /// <summary>Metres along x and z, of a box.</summary>
+        /// <summary>Size of a box in metres along x and z.</summary>
         public float[] size = { 1, 1 };
 
-        /// <summary>Corners, [x, z] each.</summary>
+        /// <summary>Corners of a polygon as [x, z].</summary>
         public List<float[]> polygon = new List<float[]>();
 
-        /// <summary>Metres.</summary>
+        /// <summary>Height in metres.</summary>
         public float height = 3;
     }
 
-    /// <summary>The rule that links nodes.</summary>
+    /// <summary>Kinds of neighbourhood rules.</summary>
     public enum NeighbourhoodKind
     {
-        /// <summary>Those within a radius.</summary>
+        /// <summary>Links nodes within a radius.</summary>
         Radius,
 
-        /// <summary>The nearest ones.</summary>
+        /// <summary>Links each node with the nearest ones.</summary>
         Nearest,
 
-        /// <summary>Those within a radius, without an obstacle on the line between them.</summary>
+        /// <summary>Links nodes within a radius without an obstacle between them.</summary>
         LineOfSight,
     }
 
@@ -113,41 +113,41 @@ namespace Collektive.Standard
     {
         public NeighbourhoodKind kind = NeighbourhoodKind.Radius;
 
-        /// <summary>Metres, of Radius and LineOfSight.</summary>
+        /// <summary>Radius of Radius and LineOfSight in metres.</summary>
         public float radius = 4;
 
-        /// <summary>Nodes, of Nearest.</summary>
+        /// <summary>Number of neighbours of Nearest.</summary>
         public int count = 8;
     }
 
-    /// <summary>The way in which nodes move.</summary>
+    /// <summary>Kinds of movement.</summary>
     public enum MovementKind
     {
-        /// <summary>Nothing.</summary>
+        /// <summary>Nodes do not move.</summary>
         None,
 
-        /// <summary>To uniform points of the area, one after the other.</summary>
+        /// <summary>Nodes move to one uniform random point of the area after another.</summary>
         RandomWaypoint,
 
-        /// <summary>Straight ways of power-law lengths in uniform directions, reflected by the area's bounds.</summary>
+        /// <summary>Nodes move on straight lines with power-law lengths in uniform directions, reflected by the area's bounds.</summary>
         LevyWalk,
 
-        /// <summary>The program's velocity, by physics.</summary>
+        /// <summary>The program's answer is a velocity, applied by physics.</summary>
         Velocity,
 
-        /// <summary>The program's target, by physics.</summary>
+        /// <summary>The program's answer is a target, approached by physics.</summary>
         Target,
 
         /// <summary>The times in the deployment's file.</summary>
         Trace,
     }
 
-    /// <summary>How nodes move.</summary>
+    /// <summary>The movement of all nodes.</summary>
     public sealed class Movement
     {
         public MovementKind kind = MovementKind.None;
 
-        /// <summary>Metres per second; the greatest speed of Target.</summary>
+        /// <summary>Metres per second; the maximum speed for Target.</summary>
         public float speed = 1;
 
         /// <summary>Simulated seconds at each waypoint.</summary>
@@ -159,7 +159,7 @@ namespace Collektive.Standard
         /// <summary>Shortest length of a Lévy walk in metres.</summary>
         public float shortest = 1;
 
-        /// <summary>Metres: radius of the nodes' bodies, of Velocity and Target.</summary>
+        /// <summary>Radius of the nodes' bodies in metres, for Velocity and Target.</summary>
         public float bodyRadius = 0.25f;
     }
 
@@ -169,7 +169,7 @@ namespace Collektive.Standard
         /// <summary>Failures per node and simulated second.</summary>
         public float failures;
 
-        /// <summary>New nodes per simulated second, uniform in the area.</summary>
+        /// <summary>New nodes per simulated second, at uniform random positions of the area.</summary>
         public float arrivals;
     }
 }

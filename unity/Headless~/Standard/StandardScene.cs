@@ -54,7 +54,7 @@ namespace Collektive.Standard
         /// <inheritdoc/>
         public override string FindProblem() =>
             ProblemOf(deployment) ?? ProblemOfFiles() ?? ProblemOf(neighbourhood) ?? ProblemOf(movement) ?? ProblemOfSets() ?? ProblemOfObstacles()
-                ?? NotBelow("churn.failures", churn.failures, 0) ?? NotBelow("churn.arrivals", churn.arrivals, 0);
+                ?? ProblemIfBelow("churn.failures", churn.failures, 0) ?? ProblemIfBelow("churn.arrivals", churn.arrivals, 0);
 
         internal uint SetsOf(int id) => members.TryGetValue(id, out var bits) ? bits & active : 0;
 
@@ -86,10 +86,10 @@ namespace Collektive.Standard
 
         private void OnDestroy() => expression?.Dispose();
 
-        private static string NotBelow(string field, float value, float least) =>
+        private static string ProblemIfBelow(string field, float value, float least) =>
             value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be a number of at least " + Text(least);
 
-        private static string NotAbove0(string field, float value) =>
+        private static string ProblemIfNotPositive(string field, float value) =>
             value > 0 && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be a number greater than 0";
 
         private static string Text(float value) => value.ToString(CultureInfo.InvariantCulture);
@@ -102,8 +102,8 @@ namespace Collektive.Standard
                 return "'deployment.nodes' is " + deployment.nodes + "; it must be from 1 to " + MaxNodes;
             if (deployment.columns < 0) return "'deployment.columns' is " + deployment.columns + "; it must be at least 0";
             if (!Area.IsSize(deployment.size)) return "'deployment.size' must be two numbers greater than 0, the metres along x and z";
-            return NotAbove0("deployment.spacing", deployment.spacing) ?? NotBelow("deployment.disorder", deployment.disorder, 0)
-                ?? NotAbove0("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon);
+            return ProblemIfNotPositive("deployment.spacing", deployment.spacing) ?? ProblemIfBelow("deployment.disorder", deployment.disorder, 0)
+                ?? ProblemIfNotPositive("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon);
         }
 
         private static string ProblemOf(string field, List<float[]> polygon)
@@ -114,12 +114,12 @@ namespace Collektive.Standard
 
         private static string ProblemOf(Neighbourhood neighbourhood) =>
             neighbourhood.count < 1 ? "'neighbourhood.count' is " + neighbourhood.count + "; it must be at least 1"
-                : NotBelow("neighbourhood.radius", neighbourhood.radius, 0);
+                : ProblemIfBelow("neighbourhood.radius", neighbourhood.radius, 0);
 
         private static string ProblemOf(Movement movement) =>
             !(movement.exponent > 1) ? "'movement.exponent' is " + Text(movement.exponent) + "; it must be greater than 1"
-                : NotAbove0("movement.speed", movement.speed) ?? NotBelow("movement.pause", movement.pause, 0)
-                    ?? NotAbove0("movement.shortest", movement.shortest) ?? NotAbove0("movement.bodyRadius", movement.bodyRadius);
+                : ProblemIfNotPositive("movement.speed", movement.speed) ?? ProblemIfBelow("movement.pause", movement.pause, 0)
+                    ?? ProblemIfNotPositive("movement.shortest", movement.shortest) ?? ProblemIfNotPositive("movement.bodyRadius", movement.bodyRadius);
 
         private string ProblemOfFiles()
         {
@@ -190,7 +190,7 @@ namespace Collektive.Standard
                 if (obstacle.box.Length > 0 == obstacle.polygon.Count > 0) return "'" + field + "' needs either 'box' or 'polygon'";
                 if (obstacle.box.Length > 0 && !Area.IsPoint(obstacle.box)) return "'" + field + ".box' must be the centre, [x, z]";
                 if (!Area.IsSize(obstacle.size)) return "'" + field + ".size' must be two numbers greater than 0, the metres along x and z";
-                var problem = ProblemOf(field + ".polygon", obstacle.polygon) ?? NotAbove0(field + ".height", obstacle.height);
+                var problem = ProblemOf(field + ".polygon", obstacle.polygon) ?? ProblemIfNotPositive(field + ".height", obstacle.height);
                 if (problem != null) return problem;
             }
             return null;
@@ -267,7 +267,7 @@ namespace Collektive.Standard
             var holder = hasBody ? GameObject.CreatePrimitive(PrimitiveType.Sphere) : new GameObject();
             holder.SetActive(false);
             holder.name = "Node";
-            // Bodies do not stop radio.
+            // Bodies do not block radio links.
             holder.layer = IgnoreRaycastLayer;
             holder.transform.position = hasBody ? place + movement.bodyRadius * Vector3.up : place;
             if (hasBody) AddBody(holder);
@@ -316,14 +316,14 @@ namespace Collektive.Standard
                 // At equal distances the smaller id.
                 found.Sort((a, b) =>
                 {
-                    var difference = Away(a, point).CompareTo(Away(b, point));
+                    var difference = SquaredDistance(a, point).CompareTo(SquaredDistance(b, point));
                     return difference != 0 ? difference : a.Id.CompareTo(b.Id);
                 });
                 for (var k = 0; k < sets[i].count && k < found.Count; k++) Add(found[k].Id, bit);
             }
         }
 
-        private static float Away(Node node, Vector3 point)
+        private static float SquaredDistance(Node node, Vector3 point)
         {
             var way = node.transform.position - point;
             return way.x * way.x + way.z * way.z;
@@ -368,7 +368,7 @@ namespace Collektive.Standard
 
         private void Fail(double probability)
         {
-            // In a list first: nodes that leave change the manager's.
+            // Copy the list first, because nodes that leave change the manager's.
             failing.Clear();
             foreach (var node in manager.Nodes)
             {
@@ -377,7 +377,7 @@ namespace Collektive.Standard
             foreach (var node in failing) Destroy(node.gameObject);
         }
 
-        /// <summary>Exponentially distributed seconds between events of a rate.</summary>
+        /// <summary>Returns the exponentially distributed seconds to the next event of a rate.</summary>
         private double Pause(double rate) => -Math.Log(1 - manager.Random.NextDouble()) / rate;
     }
 }

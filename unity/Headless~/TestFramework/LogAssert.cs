@@ -3,7 +3,7 @@ using System.Text.RegularExpressions;
 
 namespace UnityEngine.TestTools
 {
-    /// A test fails on an error, exception or failed assertion in the log that it did not announce, and on one that it announced and that did not come.
+    /// A test fails if an unexpected error, exception or failed assertion is logged, or if an expected message is missing.
     public static class LogAssert
     {
         struct Expectation
@@ -12,7 +12,7 @@ namespace UnityEngine.TestTools
             internal Regex Message;
             internal string Text;
 
-            internal bool Fits(string message, LogType type) => type == Type && (Message == null ? message == Text : Message.IsMatch(message));
+            internal bool Matches(string message, LogType type) => type == Type && (Message == null ? message == Text : Message.IsMatch(message));
         }
 
         static readonly List<Expectation> Expected = new List<Expectation>();
@@ -28,7 +28,7 @@ namespace UnityEngine.TestTools
             if (Unexpected.Count > 0) throw new LogAssertException("unexpected in the log: " + string.Join("\n", Unexpected));
         }
 
-        /// For the runner: begins a test.
+        /// Begins a test. For the runner.
         public static void Begin()
         {
             Expected.Clear();
@@ -37,7 +37,7 @@ namespace UnityEngine.TestTools
             Application.logMessageReceived += Receive;
         }
 
-        /// For the runner: ends a test.
+        /// Ends a test. For the runner.
         public static void End()
         {
             Application.logMessageReceived -= Receive;
@@ -47,7 +47,7 @@ namespace UnityEngine.TestTools
 
         static void Receive(string message, string stack, LogType type)
         {
-            var index = Expected.FindIndex(expectation => expectation.Fits(message, type));
+            var index = Expected.FindIndex(expectation => expectation.Matches(message, type));
             if (index >= 0) Expected.RemoveAt(index);
             else if (type != LogType.Log && type != LogType.Warning && !ignoreFailingMessages) Unexpected.Add(type + ": " + message);
         }

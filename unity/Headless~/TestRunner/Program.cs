@@ -11,7 +11,7 @@ using UnityEngine.TestTools;
 
 /// Runs the NUnit tests of an assembly one after another on the calling thread, as Unity does, and ends with "N passed, N failed".
 /// Usage: Collektive.TestRunner.exe [--results FILE] [--only CATEGORY] [--without CATEGORY]... ASSEMBLY [PART OF A TEST'S NAME]. Exit code 1 when a test failed
-/// or none ran; tests of a category that are left out are counted. FILE gets the results as JUnit XML at the end; an interrupted run
+/// or none ran. Skipped tests of a category are counted. The results are written to FILE as JUnit XML at the end; an interrupted run
 /// writes no file.
 /// Unsupported NUnit attributes are failures, because the test might run differently.
 /// Assemblies that use Unity's test framework get its features: log assertions, coroutines, and, unless it uses the
@@ -20,7 +20,7 @@ static class Program
 {
     const BindingFlags Members = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.FlattenHierarchy;
 
-    /// Of a frame in play mode.
+    /// Length of a frame in play mode.
     const float FrameSeconds = 0.02f;
 
     static readonly HashSet<Type> known = new HashSet<Type>
@@ -51,17 +51,17 @@ static class Program
         var references = Array.ConvertAll(assembly.GetReferencedAssemblies(), reference => reference.Name);
         isUnity = Array.IndexOf(references, typeof(UnityTestAttribute).Assembly.GetName().Name) >= 0;
         isPlayMode = isUnity && Array.IndexOf(references, "UnityEditor") < 0;
-        // As in Unity, where all assemblies are loaded, used or not.
+        // As in Unity, which loads all assemblies.
         Array.ForEach(assembly.GetReferencedAssemblies(), reference => Assembly.Load(reference));
         var types = assembly.GetExportedTypes();
         Array.Sort(types, (a, b) => string.CompareOrdinal(a.FullName, b.FullName));
         foreach (var type in types)
         {
-            RefuseUnknown(type.FullName, type);
+            ReportUnknownAttributes(type.FullName, type);
             if (type.IsAbstract) continue;
             foreach (var method in type.GetMethods(Members))
             {
-                RefuseUnknown($"{type.FullName}.{method.Name}", method, method.GetParameters());
+                ReportUnknownAttributes($"{type.FullName}.{method.Name}", method, method.GetParameters());
                 var cases = method.GetCustomAttributes(typeof(TestCaseAttribute), true);
                 var isTest = method.IsDefined(typeof(TestAttribute), true) || method.IsDefined(typeof(UnityTestAttribute), true);
                 if (cases.Length == 0 && isTest) Run(type, method, null, filter);
@@ -101,7 +101,7 @@ static class Program
                 if (failure == null) Try(() => Finish(setUp.Invoke(fixture, null)), ref failure);
             if (failure == null)
             {
-                var returned = Try(() => Finish(method.Invoke(fixture, Converted(arguments, method))), ref failure);
+                var returned = Try(() => Finish(method.Invoke(fixture, ConvertArguments(arguments, method))), ref failure);
                 if (failure == null && testCase != null && testCase.HasExpectedResult)
                     Try(() => { Assert.AreEqual(testCase.ExpectedResult, returned); return null; }, ref failure);
             }
@@ -130,8 +130,8 @@ static class Program
         Console.WriteLine($"FAIL {name}\n{failure}");
     }
 
-    /// Fails once for each attribute of NUnit's or of Unity's test framework that is not known.
-    static void RefuseUnknown(string name, MemberInfo member, params ParameterInfo[] parameters)
+    /// Reports a failure for each unknown attribute of NUnit or Unity's test framework.
+    static void ReportUnknownAttributes(string name, MemberInfo member, params ParameterInfo[] parameters)
     {
         var attributes = new List<object>(member.GetCustomAttributes(true));
         foreach (var parameter in parameters) attributes.AddRange(parameter.GetCustomAttributes(true));
@@ -147,7 +147,7 @@ static class Program
     static bool IsIn(string category, MemberInfo member) =>
         Array.Exists(member.GetCustomAttributes(typeof(CategoryAttribute), true), attribute => ((CategoryAttribute)attribute).Name == category);
 
-    /// XML has no place for control characters.
+    /// Removes control characters, which XML cannot represent.
     static string Printable(string text)
     {
         var characters = text.ToCharArray();
@@ -176,7 +176,7 @@ static class Program
         return null;
     }
 
-    /// Runs a coroutine to its end: one frame for each step, the steps of an enumerator that it yields included.
+    /// Runs a coroutine to its end, with one frame for each step, including those of nested enumerators.
     static object Finish(object result)
     {
         if (!isUnity || !(result is IEnumerator coroutine)) return result;
@@ -201,7 +201,7 @@ static class Program
         return methods;
     }
 
-    static object[] Converted(object[] arguments, MethodInfo method)
+    static object[] ConvertArguments(object[] arguments, MethodInfo method)
     {
         if (arguments == null) return null;
         var parameters = method.GetParameters();

@@ -7,8 +7,8 @@ using UnityEditor.Headless;
 namespace Collektive.Headless.TwoEditors
 {
     /// <summary>
-    /// One of several editors of one project, which is the current folder: in each round it waits for the file <c>round-N</c>, copies the package's flatc to
-    /// where it may be executed, and runs it. Argument: the number of rounds. Exit code 1 with the error.
+    /// Acts as one of several editors of the project in the current folder. In each round it waits for the file <c>round-N</c>, copies the package's flatc
+    /// to an executable place, and runs it. Argument: the number of rounds. On an error, prints it and exits with code 1.
     /// </summary>
     internal static class Program
     {

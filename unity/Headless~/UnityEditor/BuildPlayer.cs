@@ -64,7 +64,7 @@ namespace UnityEditor.Build
 
         public BuildPlayerOptions BuildPlayerOptions { get; }
 
-        /// A file, or all of a folder; no two of one name. Unity copies later, here it is done at once.
+        /// Adds a file or a folder with a unique name. Copies immediately; Unity copies later.
         public void AddAdditionalPathToStreamingAssets(string directoryOrFile, string pathInStreamingAssets = null)
         {
             if (File.Exists(directoryOrFile))

@@ -25,7 +25,7 @@ namespace UnityEditor
         public static bool isCompiling { get; internal set; }
         public static double timeSinceStartup => Clock.Elapsed.TotalSeconds;
 
-        /// Calls the entry with that path, without a context. False if it does not exist.
+        /// Executes the menu entry with that path, without a context. Returns false if it does not exist.
         public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath);
 
         /// One round of the editor's loop. Calls that are added in it are for the next one.

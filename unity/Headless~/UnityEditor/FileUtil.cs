@@ -2,7 +2,7 @@ namespace UnityEditor
 {
     public class FileUtil
     {
-        /// Of a path below `Packages` where the package manager keeps it; others stay as they are.
+        /// Resolves a path below `Packages` to the package manager's folder. Returns other paths unchanged.
         public static string GetPhysicalPath(string path) => Headless.Project.PhysicalPath(path);
     }
 }

@@ -62,7 +62,7 @@ namespace UnityEditor
 
     public sealed class PrefabUtility
     {
-        /// Each loading of a prefab creates a new object, which becomes the copy.
+        /// Loading a prefab always creates a new object, which serves as the copy.
         public static Object InstantiatePrefab(Object assetComponentOrGameObject)
         {
             Headless.PrefabFile.Loaded.Remove(assetComponentOrGameObject);

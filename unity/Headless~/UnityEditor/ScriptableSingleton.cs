@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace UnityEditor
 {
-    /// Keeps its public texts and switches in the file of its attribute, one "name: value" a line.
+    /// Stores its public texts and booleans in the file of its attribute, with one "name: value" per line.
     public class ScriptableSingleton<T> : ScriptableObject where T : ScriptableObject
     {
         static T single;

@@ -13,8 +13,8 @@ using Object = UnityEngine.Object;
 namespace Collektive.Headless.WithoutLibrary
 {
     /// <summary>
-    /// Plays 50 frames, with each inspector and window drawn in each of them, and quits. Prints "exceptions N, errors N, manager on|off", and then
-    /// the errors. Argument: editor or player, which ends differently.
+    /// Plays 50 frames, drawing each inspector and window in each of them, and quits. Prints "exceptions N, errors N, manager on|off", and then
+    /// the errors. The argument is editor or player, which end differently.
     /// </summary>
     internal static class Program
     {
@@ -36,12 +36,12 @@ namespace Collektive.Headless.WithoutLibrary
             for (var i = 0; i < Frames; i++)
             {
                 Loop.Frame(0.05f);
-                if (Loop.IsEditor) Guarded(() => Draw(manager));
+                if (Loop.IsEditor) LogExceptions(() => Draw(manager));
             }
             var isOn = manager.enabled;
-            if (Loop.IsEditor) Guarded(() => DiagnosticsWindow.Open().Close());
+            if (Loop.IsEditor) LogExceptions(() => DiagnosticsWindow.Open().Close());
             Loop.Quit();
-            Guarded(() => Jvm.Stop(1000));
+            LogExceptions(() => Jvm.Stop(1000));
             Console.WriteLine("exceptions " + exceptions + ", errors " + errors.Count + ", manager " + (isOn ? "on" : "off"));
             foreach (var error in errors) Console.WriteLine(error);
             return 0;
@@ -68,8 +68,8 @@ namespace Collektive.Headless.WithoutLibrary
             }
         }
 
-        /// <summary>As the editor calls inspectors, windows and handlers.</summary>
-        private static void Guarded(Action action)
+        /// <summary>Calls inspectors, windows and handlers as the editor does, which logs their exceptions.</summary>
+        private static void LogExceptions(Action action)
         {
             try
             {

@@ -9,44 +9,44 @@ namespace Collektive.Unity.Editor.Tests
     public sealed class CreateMenuTests
     {
         [TearDown]
-        public void RemoveWhatWasMade()
+        public void RemoveCreatedObjects()
         {
             foreach (var name in new[] { "Simulation Manager", "Node", "Parent" })
             {
-                for (var made = GameObject.Find(name); made != null; made = GameObject.Find(name)) Object.DestroyImmediate(made);
+                for (var created = GameObject.Find(name); created != null; created = GameObject.Find(name)) Object.DestroyImmediate(created);
             }
             Selection.activeGameObject = null;
         }
 
         [Test]
-        public void The_manager_comes_from_its_prefab_and_is_selected()
+        public void The_menu_creates_a_manager_and_selects_it()
         {
             Assert.That(EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager"), Is.True);
-            var made = GameObject.Find("Simulation Manager");
-            Assert.That(made != null && made.GetComponent<SimulationManager>() != null, Is.True);
-            Assert.That(Selection.activeGameObject, Is.EqualTo(made));
+            var created = GameObject.Find("Simulation Manager");
+            Assert.That(created != null && created.GetComponent<SimulationManager>() != null, Is.True);
+            Assert.That(Selection.activeGameObject, Is.EqualTo(created));
         }
 
         [Test]
-        public void A_second_manager_is_not_made()
+        public void The_menu_does_not_create_a_second_manager()
         {
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager");
             LogAssert.Expect(LogType.Warning, new Regex("already has a Simulation Manager"));
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/Simulation Manager");
-            Assert.That(ManagersRemoved(), Is.EqualTo(1));
+            Assert.That(RemoveManagers(), Is.EqualTo(1));
         }
 
         [Test]
-        public void A_node_has_a_body_and_a_neighbourhood()
+        public void A_created_node_has_a_body_and_a_radius_neighbourhood()
         {
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/Node");
-            var made = GameObject.Find("Node");
-            Assert.That(made.GetComponent<Node>() != null, Is.True);
-            Assert.That(made.GetComponent<RadiusNeighbourhood>() != null, Is.True);
-            Assert.That(made.GetComponent<Rigidbody>() != null, Is.True);
-            Assert.That(made.GetComponent<SphereCollider>() != null, Is.True);
-            Assert.That(made.GetComponentInChildren<MeshRenderer>().GetComponent<SmoothView>() != null, Is.True);
-            Assert.That(made.transform.localScale, Is.EqualTo(new Vector3(0.5f, 0.5f, 0.5f)));
+            var created = GameObject.Find("Node");
+            Assert.That(created.GetComponent<Node>() != null, Is.True);
+            Assert.That(created.GetComponent<RadiusNeighbourhood>() != null, Is.True);
+            Assert.That(created.GetComponent<Rigidbody>() != null, Is.True);
+            Assert.That(created.GetComponent<SphereCollider>() != null, Is.True);
+            Assert.That(created.GetComponentInChildren<MeshRenderer>().GetComponent<SmoothView>() != null, Is.True);
+            Assert.That(created.transform.localScale, Is.EqualTo(new Vector3(0.5f, 0.5f, 0.5f)));
         }
 
         [Test]
@@ -82,20 +82,20 @@ namespace Collektive.Unity.Editor.Tests
         }
 
         [Test]
-        public void Siblings_have_names_of_their_own()
+        public void Created_siblings_have_different_names()
         {
             var parent = new GameObject("Parent");
             for (var i = 0; i < 2; i++) CreateMenu.CreateNode(new MenuCommand(parent));
             Assert.That(parent.transform.GetChild(0).name, Is.Not.EqualTo(parent.transform.GetChild(1).name));
         }
 
-        private static int ManagersRemoved()
+        private static int RemoveManagers()
         {
             var count = 0;
-            for (var made = GameObject.Find("Simulation Manager"); made != null; made = GameObject.Find("Simulation Manager"))
+            for (var created = GameObject.Find("Simulation Manager"); created != null; created = GameObject.Find("Simulation Manager"))
             {
                 count++;
-                Object.DestroyImmediate(made);
+                Object.DestroyImmediate(created);
             }
             return count;
         }

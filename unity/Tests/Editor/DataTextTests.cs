@@ -37,7 +37,7 @@ namespace Collektive.Unity.Editor.Tests
         }
 
         [Test]
-        public void Of_a_long_list_the_beginning_is_shown()
+        public void Long_lists_are_truncated()
         {
             var many = DataText.Of(new Data()).Find(line => line.Key == "Many").Value;
             Assert.That(many, Is.EqualTo("[0] [0] [0] [0] [0] [0] [0] [0] ..."));

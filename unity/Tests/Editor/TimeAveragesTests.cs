@@ -5,13 +5,13 @@ namespace Collektive.Unity.Editor.Tests
     public sealed class TimeAveragesTests
     {
         [Test]
-        public void Nothing_was_measured_at_first()
+        public void Averages_are_zero_before_the_first_tick()
         {
             Assert.That(new TimeAverages().Of(times => times.Step), Is.EqualTo((0.0, 0.0)));
         }
 
         [Test]
-        public void Mean_and_largest_are_those_of_the_last_hundred_ticks()
+        public void Mean_and_maximum_cover_the_last_hundred_ticks()
         {
             var averages = new TimeAverages();
             averages.Add(new TickTimes(1000, 1000, 1000, 1000, 1000), 1000);

@@ -11,7 +11,7 @@ namespace Collektive.Unity.Editor.Tests
         [TestCase("file:///home/ada/Hops.kt:10:21: error: no", "/home/ada/Hops.kt", 10, 21, "no")]
         [TestCase("Library/Collektive/java/SensorData.java:7: error: cannot find symbol", "Library/Collektive/java/SensorData.java", 7, 0,
             "cannot find symbol")]
-        public void Each_tools_errors_are_read_with_file_and_line(string output, string file, int line, int column, string text)
+        public void Errors_of_each_tool_are_parsed_with_file_and_line(string output, string file, int line, int column, string text)
         {
             var messages = ToolMessage.Parse(output);
             Assert.That(messages.Count, Is.EqualTo(1));
@@ -23,7 +23,7 @@ namespace Collektive.Unity.Editor.Tests
         }
 
         [Test]
-        public void An_error_that_flatc_finds_at_the_end_is_shown_where_it_comes_from()
+        public void An_error_that_flatc_reports_at_the_end_has_its_original_line()
         {
             var messages = ToolMessage.Parse("error:\n  /a/bad.fbs:6: 0: error: type referenced but not defined: flaot, originally at: /a/bad.fbs:3\n");
             Assert.That(messages.Count, Is.EqualTo(1));
@@ -32,7 +32,7 @@ namespace Collektive.Unity.Editor.Tests
         }
 
         [Test]
-        public void Warnings_are_no_errors()
+        public void Warnings_are_not_errors()
         {
             var messages = ToolMessage.Parse("/a/Hops.kt:4:5: warning: variable 'x' is never used");
             Assert.That(messages.Count, Is.EqualTo(1));
@@ -45,7 +45,7 @@ namespace Collektive.Unity.Editor.Tests
         public void A_message_shows_the_line_of_the_source(string output, string text) => Assert.That(ToolMessage.Parse(output)[0].Text, Is.EqualTo(text));
 
         [Test]
-        public void Source_lines_carets_and_sums_are_no_messages()
+        public void Source_lines_carets_and_summaries_are_ignored()
         {
             Assert.That(ToolMessage.Parse("    val x = nesting()\n            ^^^^^^^\n1 error\n\r\nwarning: something about the JVM\n"), Is.Empty);
         }

@@ -12,7 +12,7 @@ namespace Collektive.Unity.PublicApi.Tests
         private const BindingFlags Declared =
             BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
-        /// <summary>The types in namespaces that begin with Collektive; generated code is left out.</summary>
+        /// <summary>Lists the types in Collektive's namespaces, which exclude generated code.</summary>
         internal static string Of(Assembly assembly)
         {
             var lines = new List<string>();
@@ -38,7 +38,7 @@ namespace Collektive.Unity.PublicApi.Tests
             return type.BaseType == null || type.IsValueType || type.BaseType == typeof(object) ? kind : kind + ", " + Name(type.BaseType);
         }
 
-        /// <summary>Null for what nobody outside can use.</summary>
+        /// <summary>Returns the member as text, or null if it is not visible to users.</summary>
         private static string Text(MemberInfo member)
         {
             switch (member)
@@ -56,7 +56,7 @@ namespace Collektive.Unity.PublicApi.Tests
                 case ConstructorInfo constructor:
                     return IsVisible(constructor) ? "new" + Parameters(constructor.GetParameters(), "(", ")") : null;
                 case MethodInfo method:
-                    // Those of properties and events belong to these; operators are shown.
+                    // Accessors are part of their property or event. Operators are listed.
                     if (!IsVisible(method) || method.IsSpecialName && !method.Name.StartsWith("op_", StringComparison.Ordinal)) return null;
                     var style = method.IsStatic ? "static " : method.IsAbstract ? "abstract " : method.IsVirtual && !method.IsFinal ? "virtual " : "";
                     return method.Name + Generics(method) + Parameters(method.GetParameters(), "(", ")") + " : " + style + Name(method.ReturnType);

@@ -12,10 +12,10 @@ namespace Collektive.Unity.PublicApi.Tests
         private const string Update = "COLLEKTIVE_API_UPDATE";
 
         [Test]
-        public void The_bridge_has_the_api_that_is_checked_in() => Compare(typeof(Bridge.Jvm).Assembly);
+        public void The_bridge_API_matches_the_checked_in_list() => Compare(typeof(Bridge.Jvm).Assembly);
 
         [Test]
-        public void The_components_have_the_api_that_is_checked_in() => Compare(typeof(SimulationManager).Assembly);
+        public void The_component_API_matches_the_checked_in_list() => Compare(typeof(SimulationManager).Assembly);
 
         private static void Compare(Assembly assembly)
         {
@@ -29,7 +29,7 @@ namespace Collektive.Unity.PublicApi.Tests
                 File.WriteAllText(listed, actual);
                 return;
             }
-            Assert.Fail("the public API of " + assembly.GetName().Name + " changed; if that is meant, run: " + Update + "=1 ./collektive test csharp\n" +
+            Assert.Fail("the public API of " + assembly.GetName().Name + " changed; if this is intended, run: " + Update + "=1 ./collektive test csharp\n" +
                 Difference(expected.Split('\n'), actual.Split('\n')));
         }
 

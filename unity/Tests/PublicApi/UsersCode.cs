@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    // What users write. This assembly sees the package's public members alone: when one that is used here goes or changes, it does not compile.
+    // Typical user code. This assembly sees only public members of the package, so removing or changing one of them breaks its compilation.
 
     internal sealed class UsersSensor : Sensor<float>
     {

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    // What users write around the ready parts: a line each.
+    // User code for the ready-made components, one line each.
 
     internal sealed class UsersPosition : PositionSensor<float>
     {

@@ -6,7 +6,7 @@ using org.collektive.schema;
 
 namespace Collektive.Unity.Tests
 {
-    /// <summary>The installed package with the JVM of this machine: a sample's program runs rounds.</summary>
+    /// <summary>Runs rounds of a sample's program with the installed package and JVM.</summary>
     public sealed class SessionTests
     {
         private const int Nodes = 4;
@@ -14,7 +14,7 @@ namespace Collektive.Unity.Tests
         [Test]
         public void Nodes_in_a_row_elect_the_greatest_id_on_a_real_JVM()
         {
-            // In an editor that has played a scene it runs already.
+            // The JVM already runs if the editor has played a scene.
             if (Jvm.State != JvmState.Running) Jvm.Start(Installation.ToLaunch(new JvmSettings()));
             var settings = new SessionSettings
             {
@@ -38,7 +38,7 @@ namespace Collektive.Unity.Tests
             }
         }
 
-        /// <summary>Each a metre from the next, and linked with it.</summary>
+        /// <summary>Adds nodes in a row, one metre apart, each linked with the next.</summary>
         private static void AddRow(StepRequest request)
         {
             for (var node = 0; node < Nodes; node++)
@@ -63,8 +63,8 @@ namespace Collektive.Unity.Tests
         }
 
         /// <summary>
-        /// What the generator makes of the sample's leader_election.fbs, as far as a test needs it; private, so that a project that has the sample too
-        /// finds one schema of that name.
+        /// The part of the code generated from the sample's leader_election.fbs that the test needs. It is private, because a project with the sample
+        /// contains another schema of that name.
         /// </summary>
         private sealed class ElectionSchema : DataSchema
         {

@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace Collektive.Unity.Tests
 {
-    /// <summary>What happens in a scene that has no programs yet: no JVM is needed.</summary>
+    /// <summary>Managers and nodes in a scene without programs. No JVM is needed.</summary>
     public sealed class SimulationManagerTests
     {
         private GameObject root;
@@ -24,10 +24,10 @@ namespace Collektive.Unity.Tests
         }
 
         [UnityTest]
-        public IEnumerator A_scene_without_its_schema_says_what_to_do_and_stops()
+        public IEnumerator A_missing_schema_stops_the_simulation_with_an_error()
         {
             LogAssert.Expect(LogType.Error, new Regex("Simulation stopped: schema 'nowhere.NoSchema' does not exist.*Select one in the Simulation Manager"));
-            var manager = Make<SimulationManager>("Manager");
+            var manager = Create<SimulationManager>("Manager");
             manager.Settings.jars.Add("programs.jar");
             manager.Settings.schema = "nowhere.NoSchema";
             yield return null;
@@ -40,9 +40,9 @@ namespace Collektive.Unity.Tests
         [Test]
         public void A_second_manager_disables_itself()
         {
-            var first = Make<SimulationManager>("First");
+            var first = Create<SimulationManager>("First");
             LogAssert.Expect(LogType.Error, new Regex("'Second' is a second Simulation Manager; 'First' already runs the simulation"));
-            var second = Make<SimulationManager>("Second");
+            var second = Create<SimulationManager>("Second");
             Assert.That(first.enabled, Is.True);
             Assert.That(second.enabled, Is.False);
             Assert.That(SimulationManager.Current, Is.EqualTo(first));
@@ -51,9 +51,9 @@ namespace Collektive.Unity.Tests
         [Test]
         public void Nodes_join_in_any_order_and_leave_when_they_are_disabled()
         {
-            var early = Make<Node>("Early");
-            var manager = Make<SimulationManager>("Manager");
-            var late = Make<Node>("Late");
+            var early = Create<Node>("Early");
+            var manager = Create<SimulationManager>("Manager");
+            var late = Create<Node>("Late");
             Assert.That(manager.Nodes, Is.EqualTo(new[] { early, late }));
             Assert.That(late.Id, Is.EqualTo(1));
             early.enabled = false;
@@ -64,8 +64,8 @@ namespace Collektive.Unity.Tests
         [Test]
         public void Two_nodes_with_one_id_stop_the_simulation()
         {
-            var manager = Make<SimulationManager>("Manager");
-            Make<Node>("One");
+            var manager = Create<SimulationManager>("Manager");
+            Create<Node>("One");
             var holder = new GameObject("Other");
             holder.transform.SetParent(root.transform);
             holder.SetActive(false);
@@ -79,31 +79,31 @@ namespace Collektive.Unity.Tests
         public void A_sensor_without_a_node_is_disabled()
         {
             LogAssert.Expect(LogType.Error, new Regex("Thermometer on 'Alone' has no Node"));
-            Assert.That(Make<Thermometer>("Alone").enabled, Is.False);
+            Assert.That(Create<Thermometer>("Alone").enabled, Is.False);
         }
 
         [Test]
-        public void A_scene_builder_without_a_manager_says_so()
+        public void A_scene_builder_without_a_manager_logs_an_error()
         {
             LogAssert.Expect(LogType.Error, new Regex("EmptyScene on 'Builder' needs a Simulation Manager"));
-            Make<EmptyScene>("Builder");
+            Create<EmptyScene>("Builder");
         }
 
         [Test]
-        public void Physics_are_the_managers_while_it_is_enabled()
+        public void An_enabled_manager_switches_physics_to_script_mode()
         {
             var before = Physics.simulationMode;
-            var manager = Make<SimulationManager>("Manager");
+            var manager = Create<SimulationManager>("Manager");
             Assert.That(Physics.simulationMode, Is.EqualTo(SimulationMode.Script));
             manager.enabled = false;
             Assert.That(Physics.simulationMode, Is.EqualTo(before));
         }
 
-        private T Make<T>(string name) where T : Component
+        private T Create<T>(string name) where T : Component
         {
-            var made = new GameObject(name);
-            made.transform.SetParent(root.transform);
-            return made.AddComponent<T>();
+            var gameObject = new GameObject(name);
+            gameObject.transform.SetParent(root.transform);
+            return gameObject.AddComponent<T>();
         }
 
         private sealed class Thermometer : Sensor<float>

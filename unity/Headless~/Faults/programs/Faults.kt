@@ -103,7 +103,7 @@ private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
     }
 }
 
-/** A thread that the JVM waits for at its end. */
+/** Starts a thread that the JVM waits for when it ends. */
 private fun staying(work: () -> Unit) {
     Thread(work).apply { isDaemon = false }.start()
 }
@@ -119,7 +119,7 @@ private fun recurse(depth: Int): Int = recurse(depth + 1) + 1
 
 private fun Aggregate<Int>.recurseAligned(): Int = evolve(0) { it } + recurseAligned()
 
-/** All of it, to the last bytes, and for as long as the class lives. */
+/** Fills the whole heap for the lifetime of the class. */
 private fun fillHeap(): Nothing {
     var size = 1 shl 22
     while (true) {

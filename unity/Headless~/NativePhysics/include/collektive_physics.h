@@ -1,15 +1,15 @@
 /*
  * collektive_physics: the physics of the headless player, PhysX behind a C interface.
  *
- * A world holds actors (bodies, or places of static colliders) and their shapes. State crosses in blocks: the caller fills an array of commands,
- * physics_step applies it, moves the world and returns arrays of what moved and what touched. The steady state needs no calls per body.
+ * A world contains actors (bodies and positions of static colliders) and their shapes. State is exchanged in blocks: the caller fills an array of
+  * commands, physics_step applies it, moves the world and returns arrays of motions and touches. In steady state no calls per body are needed.
  *
  * Units are metres, seconds, kilograms and radians; quaternions are x, y, z, w.
- * Threads: one thread at a time may call into a world. physics_step and queries of several rays use worker
- * threads of the world's own inside the call, queries of several spheres between two calls.
+ * Threads: one thread at a time may call into a world. physics_step and queries of several rays use the world's worker threads during the call,
+  * queries of several spheres use them between two calls.
  * Determinism: the same calls give the same bits, for any number of threads, on every start of the same build.
- * Ownership: the caller owns what it passes in; what physics_step returns belongs to the world and is valid until the next step.
- * Handles are small numbers that are reused after their destruction. A handle that is not alive is ignored, or answered with PHYSICS_NONE or 0.
+ * Ownership: the caller owns its arguments. Results of physics_step belong to the world and are valid until the next step.
+ * Handles are small numbers that are reused after their destruction. A call with a dead handle is ignored, or returns PHYSICS_NONE or 0.
  */
 #ifndef COLLEKTIVE_PHYSICS_H
 #define COLLEKTIVE_PHYSICS_H
@@ -46,21 +46,21 @@ typedef struct {
 /* The PHYSICS_VERSION that the library was built with. */
 PHYSICS_API int32_t physics_version(void);
 
-/* The first error since the last call, or an empty string; it belongs to the library and is valid until the next call into it. */
+/* Returns the first error since the last call, or an empty string. It belongs to the library and is valid until the next call into it. */
 PHYSICS_API const char *physics_error(void);
 
 /* ---- Worlds ---- */
 
-/* Makes an empty world. `threads` (1 or more, the calling one among them) work for it together. NULL without memory. */
+/* Creates an empty world that uses `threads` threads (1 or more, including the calling one). NULL without memory. */
 PHYSICS_API physics_world *physics_world_create(int32_t threads);
 
-/* Frees the world and its actors. Meshes stay. */
+/* Frees the world and its actors, but not meshes. */
 PHYSICS_API void physics_world_destroy(physics_world *world);
 
 /* Pairs of layers that pass through each other: bit j of row i for the layers i and j. The matrix is symmetric. */
 PHYSICS_API void physics_ignore_layers(physics_world *world, const uint32_t rows[32]);
 
-/* Whether the shapes with these identities pass through each other. Kept when a shape dies: a later one of the same identity is meant, too. */
+/* Sets whether the shapes with these identities pass through each other. It also applies to later shapes with the same identities. */
 PHYSICS_API void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t ignore);
 
 /* ---- Actors ---- */
@@ -70,13 +70,13 @@ enum { PHYSICS_STATIC = 0, PHYSICS_DYNAMIC = 1 };
 /* Makes an actor. A dynamic one has mass 1, gravity on, linear damping 0, angular damping 0.05, Unity's other defaults, and is awake. */
 PHYSICS_API int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_pose *pose);
 
-/* Removes an actor with its shapes. Its touches end without a report. */
+/* Removes an actor with its shapes. Its touches end without reports. */
 PHYSICS_API void physics_actor_destroy(physics_world *world, int32_t actor);
 
 /* The centre of mass in the actor's frame. */
 PHYSICS_API void physics_mass_center(physics_world *world, int32_t actor, physics_vector *center);
 
-/* The inertia tensor (kg m2) about the centre of mass, as diagonal in a frame turned by `rotation` against the actor's. */
+/* The inertia tensor (kg m2) about the centre of mass, as the diagonal in a frame rotated by `rotation` relative to the actor's. */
 PHYSICS_API void physics_inertia(physics_world *world, int32_t actor, physics_vector *diagonal, physics_quaternion *rotation);
 
 /* ---- Shapes ---- */
@@ -106,7 +106,7 @@ typedef struct {
     uint32_t identity; /* the caller's number: names pairs to ignore, orders reports */
     int32_t layer;     /* 0 to 31 */
     int32_t trigger;   /* solves nothing, reports overlaps */
-    int32_t reports;   /* bits: PHYSICS_OVERLAPS, PHYSICS_CONTACTS; a pair is reported when one of its shapes asks */
+    int32_t reports;   /* bits: PHYSICS_OVERLAPS, PHYSICS_CONTACTS; a pair is reported if one of its shapes has the bit */
     int32_t detection; /* collision detection mode of its body */
 } physics_shape;
 
@@ -120,7 +120,7 @@ PHYSICS_API int32_t physics_shape_change(physics_world *world, int32_t shape, co
 /* Removes a shape. Its touches end without a report. */
 PHYSICS_API void physics_shape_destroy(physics_world *world, int32_t shape);
 
-/* The box around a shape, upright in the world. */
+/* Returns the axis-aligned bounds of a shape in the world. */
 PHYSICS_API void physics_shape_bounds(physics_world *world, int32_t shape, physics_vector *least, physics_vector *most);
 
 /* ---- Meshes ---- */
@@ -130,7 +130,7 @@ PHYSICS_API void physics_shape_bounds(physics_world *world, int32_t shape, physi
 PHYSICS_API physics_mesh *physics_mesh_create(const physics_vector *points, int32_t point_count, const int32_t *indices,
                                               int32_t index_count, int32_t convex);
 
-/* Gives the caller's share of the mesh back. */
+/* Releases the caller's reference to the mesh. */
 PHYSICS_API void physics_mesh_release(physics_mesh *mesh);
 
 /* ---- Joints ---- */
@@ -143,7 +143,7 @@ typedef struct {
     int32_t other;                     /* another actor, or PHYSICS_NONE for the world */
     physics_pose pose, other_pose;     /* of the joint in both actors' frames, or the world's; a hinge turns about their x axes */
     float break_force, break_torque;   /* N, N m; infinite: it never breaks */
-    int32_t collide;                   /* whether the two actors collide with each other */
+    int32_t collide;                   /* whether the two actors collide */
     int32_t use_limits, use_motor;     /* of a hinge */
     float least, most;                 /* angles of a hinge with limits; distances of a spring */
     float motor_velocity, motor_force; /* rad/s; at most so many N m */
@@ -158,10 +158,10 @@ PHYSICS_API void physics_joint_destroy(physics_world *world, int32_t joint);
 
 /* ---- Steps ---- */
 
-/* What commands ask for, in the order of the array. By default `value` contains x, y, z. Commands to static actors other than POSE do nothing. */
+/* Kinds of commands, which are applied in the order of the array. By default `value` contains x, y, z. Static actors accept only POSE. */
 enum {
-    PHYSICS_POSE = 0,   /* position and rotation: there at once */
-    PHYSICS_TARGET = 1, /* position and rotation: a kinematic body gets there with the next step */
+    PHYSICS_POSE = 0,   /* position and rotation, applied immediately */
+    PHYSICS_TARGET = 1, /* position and rotation that a kinematic body reaches in the next step */
     PHYSICS_VELOCITY = 2,
     PHYSICS_SPIN = 3,
     PHYSICS_FORCE = 4,  /* + 0 to 3: force, impulse, velocity change, acceleration */
@@ -174,11 +174,11 @@ enum {
     PHYSICS_LIMITS = 17,      /* x: linear velocity, y: angular velocity, z: velocity out of a penetration */
     PHYSICS_FREEZE = 18,      /* x: bits 0 to 2 freeze positions along x, y, z; bits 3 to 5 rotations about them */
     PHYSICS_MASS = 19,        /* x: mass */
-    PHYSICS_MASS_CENTER = 20, /* in the actor's frame; a fourth value of 0 goes back to that of the shapes */
+    PHYSICS_MASS_CENTER = 20, /* in the actor's frame; a fourth value of 0 restores the computed one */
     PHYSICS_SLEEP_BELOW = 21, /* x: kinetic energy per mass */
     PHYSICS_ITERATIONS = 22,  /* x: for positions, y: for velocities */
     PHYSICS_DETECTION = 23,   /* x: collision detection mode */
-    PHYSICS_INERTIA = 24      /* diagonal, then rotation; diagonal 0 goes back to that of the shapes */
+    PHYSICS_INERTIA = 24      /* diagonal, then rotation; diagonal 0 restores the computed one */
 };
 
 typedef struct {
@@ -186,7 +186,7 @@ typedef struct {
     float value[7];
 } physics_command;
 
-/* Where a body is and how it moves. */
+/* The pose and velocities of a body. */
 typedef struct {
     int32_t step; /* the step in which it last moved or fell asleep */
     int32_t asleep;
@@ -215,7 +215,7 @@ typedef struct {
 typedef struct {
     const physics_touch *touches; /* by identities */
     const physics_contact *contacts;
-    const int32_t *broken; /* joints that broke in this step: they are gone */
+    const int32_t *broken; /* joints that broke in this step and no longer exist */
     int32_t touch_count, contact_count, broken_count;
 } physics_result;
 
@@ -277,8 +277,8 @@ PHYSICS_API void physics_begin_overlaps(physics_world *world, const physics_sphe
 /* Finds what the other threads have not found, and returns when all is done. */
 PHYSICS_API void physics_finish_overlaps(physics_world *world);
 
-/* Moves a geometry along a ray from its pose; shapes that it overlaps at the start are not hit. With a capacity of 1 the nearest hit, else all in no
- * particular order; returns their number. `point` is where they touch. */
+/* Moves a geometry along a ray from its pose. Shapes that it overlaps at the start are not hit. Returns the number of hits: the nearest one with a
+ * capacity of 1, otherwise all in no particular order. `point` is the point of contact. */
 PHYSICS_API int32_t physics_sweep(physics_world *world, const physics_geometry *geometry, const physics_pose *pose,
                                   const physics_vector *direction, float distance, const physics_filter *filter, physics_hit *hits,
                                   int32_t capacity);

@@ -12,7 +12,7 @@ const float STIFF = 1e5f;
 
 float largest(float value) { return std::isfinite(value) ? value : PX_MAX_F32; }
 
-// A hinge turns about the x axes of its frames, all else is held. Its angle is that of the actor as seen from the other.
+// A hinge rotates about the x axes of its frames and fixes all other axes. Its angle is measured on the actor, relative to the other.
 PxJoint *make_hinge(PxRigidActor *actor, const PxTransform &at, PxRigidActor *other, const PxTransform &other_at,
                     const physics_joint &from) {
     PxD6Joint *joint = PxD6JointCreate(physics(), other, other_at, actor, at);
@@ -81,7 +81,7 @@ int32_t physics_joint_create(physics_world *world, const physics_joint *from) {
     }
     world->refresh_mass(*actor);
     if (other) world->refresh_mass(*other);
-    // Without axes set free, six degrees of freedom are a fixed joint.
+    // A D6 joint without free axes is a fixed joint.
     PxJoint *made = from->kind == PHYSICS_HINGE    ? make_hinge(actor->rigid, at, second, other_at, *from)
                     : from->kind == PHYSICS_SPRING ? make_spring(actor->rigid, at, second, other_at, *from)
                                                    : PxD6JointCreate(physics(), actor->rigid, at, second, other_at);

@@ -7,11 +7,11 @@ using namespace collektive;
 
 namespace {
 
-const float FARTHEST = 1e8f; // metres: what PhysX accepts for sweeps
+const float FARTHEST = 1e8f; // metres, the limit of PhysX for sweeps
 const PxHitFlags HIT = PxHitFlag::ePOSITION | PxHitFlag::eNORMAL;
 
-// Leaves out what a ray or sweep starts in, and one actor. With eNO_BLOCK, PhysX keeps what postFilter leaves out: a ray that
-// asks for all hits has `found` say that they touch.
+// Ignores shapes that contain the start of a ray or sweep, and one actor. With eNO_BLOCK, PhysX keeps hits that postFilter ignores, so
+// `found` is a touch for rays that request all hits.
 struct Outside final : PxQueryFilterCallback {
     const PxRigidActor *self = nullptr;
     PxQueryHitType::Enum found = PxQueryHitType::eBLOCK;
@@ -66,7 +66,7 @@ PxQueryFilterData collektive::query_filter(const physics_filter &filter, PxQuery
     PxQueryFilterData data;
     data.data.word0 = filter.layers;
     data.data.word1 = filter.triggers ? filter.layers : 0;
-    // PhysX takes words of 0 for "everything".
+    // PhysX reads words of 0 as "everything".
     data.data.word2 = 1;
     data.flags = flags;
     return data;

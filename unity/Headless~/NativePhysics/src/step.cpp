@@ -1,4 +1,4 @@
-// Commands, steps and what they report.
+// Commands, steps and reports.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ const PxForceMode::Enum FORCE_MODES[] = {PxForceMode::eFORCE, PxForceMode::eIMPU
 // A pair costs about half a kilobyte.
 const uint64_t MAX_PAIRS = 4000000;
 const size_t FEW_PLACED = 512;
-// In a large scene each body is far away in memory. So many bodies later, what was prefetched is there.
+// Bodies of large scenes are not in the cache. They are prefetched this number of bodies ahead.
 const int AHEAD = 8;
 
 bool all_finite(const float *value, int count) {
@@ -23,7 +23,7 @@ bool all_finite(const float *value, int count) {
     return true;
 }
 
-// Of what a body is asked for in a step.
+// Prefetches the part of a body that a step reads.
 void prefetch(const PxRigidActor *body) {
     const size_t line = 64, lines = 5;
     const char *begin = reinterpret_cast<const char *>(body);
@@ -37,7 +37,7 @@ bool spheres_overlap(const PxSphereGeometry &a, const PxVec3 &at_a, const PxSphe
     return (at_a - at_b).magnitudeSquared() <= reach * reach;
 }
 
-// What PhysX submits last in a step.
+// The last task that PhysX submits in a step.
 struct Finish final : PxLightCpuTask {
     Workers &workers;
     std::atomic<bool> over{false};
@@ -159,7 +159,7 @@ void physics_world::apply_all(const physics_command *commands, int32_t count) {
     }
 }
 
-// Whether the boxes of shapes overlap in more pairs than memory has room for. Sweeps the boxes along x, as long as that is not too many pairs.
+// Returns whether more pairs of bounds overlap than fit into memory. Sweeps the bounds along x, up to a limit of tested pairs.
 bool physics_world::crowded() {
     struct Box {
         PxBounds3 bounds;
@@ -179,7 +179,7 @@ bool physics_world::crowded() {
     uint64_t pairs = 0, looked = 0;
     for (size_t index = 0; index < boxes.size(); index++)
         for (size_t next = index + 1; next < boxes.size() && boxes[next].bounds.minimum.x <= boxes[index].bounds.maximum.x; next++) {
-            if (++looked > 400 * MAX_PAIRS) return false; // long in x, but not known to be one heap
+            if (++looked > 400 * MAX_PAIRS) return false; // too many pairs to test, but probably not one heap
             if ((boxes[index].moves || boxes[next].moves) && boxes[index].bounds.intersects(boxes[next].bounds) && ++pairs > MAX_PAIRS)
                 return true;
         }

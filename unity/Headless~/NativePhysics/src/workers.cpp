@@ -10,11 +10,11 @@ namespace collektive {
 
 namespace {
 
-// Waking a thread costs more than a small task: those that find nothing look again for some ten microseconds before they sleep.
+// Waking a thread costs more than a small task, so idle threads poll for some ten microseconds before they sleep.
 const int LOOKS = 1000;
 const int TURNS_AT_ONCE = 64;
 
-// Tells the core that it waits for another one's write.
+// Hints to the core that it waits for a write of another core.
 void pause() {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
@@ -50,7 +50,7 @@ void Workers::submitTask(PxBaseTask &task) {
         task.release();
         return;
     }
-    // One task alone is for the thread that submits it: it is done with its own in a moment.
+    // A single task is left to the submitting thread, which is about to finish its own.
     submit(task, 2);
 }
 
@@ -96,7 +96,7 @@ void Workers::work_until(const std::atomic<bool> &over) {
 }
 
 void Workers::end(std::atomic<bool> &over) {
-    // Notified under the lock: the waiting thread may free what it waited for as soon as it sees it.
+    // Notifies under the lock, because the waiting thread may free the object as soon as it wakes up.
     std::lock_guard<std::mutex> lock(turn);
     over = true;
     changed.notify_all();

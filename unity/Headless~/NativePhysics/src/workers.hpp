@@ -1,4 +1,4 @@
-// The threads of a world: PhysX's tasks, and loops whose turns do not depend on each other.
+// The threads of a world, which run PhysX's tasks and loops with independent iterations.
 #ifndef COLLEKTIVE_WORKERS_HPP
 #define COLLEKTIVE_WORKERS_HPP
 
@@ -13,7 +13,7 @@
 
 namespace collektive {
 
-// The calling thread is one of the threads: it works while it waits. With one thread all is done at once, in the order of submission.
+// The calling thread is one of the threads and works while it waits. With one thread, tasks run immediately in the order of submission.
 class Workers final : public physx::PxCpuDispatcher {
   public:
     explicit Workers(int threads);
@@ -22,19 +22,19 @@ class Workers final : public physx::PxCpuDispatcher {
     void submitTask(physx::PxBaseTask &task) override;
     physx::PxU32 getWorkerCount() const override { return physx::PxU32(workers.size()); }
 
-    // Does tasks until `over`, which a task sets by `end`. For the thread that owns the world.
+    // Runs tasks until `over`, which a task sets with `end`. For the thread that owns the world.
     void work_until(const std::atomic<bool> &over);
     void end(std::atomic<bool> &over);
 
     // Calls part(first, end) for ranges that together are 0 to turns - 1, on all threads; returns when all are done.
     void each(int turns, std::function<void(int first, int end)> part);
 
-    // The same, but the caller can do something else between: the other threads begin, and `finish` does what they have left. One at a time.
+    // The same in the background: the other threads start, and `finish` completes the rest. One at a time.
     void begin(int turns, std::function<void(int first, int end)> part);
     void finish();
 
   private:
-    // Of a loop, for one thread: it takes ranges until none is left.
+    // Runs ranges of a loop on one thread until none is left.
     struct Share final : physx::PxBaseTask {
         Workers *workers = nullptr;
 
@@ -52,9 +52,9 @@ class Workers final : public physx::PxCpuDispatcher {
     std::vector<std::thread> workers;
     std::mutex turn; // guards tasks, asleep, and the change of what threads wait for
     std::condition_variable changed;
-    std::vector<physx::PxBaseTask *> tasks; // the last comes first: its data are still in the cache
+    std::vector<physx::PxBaseTask *> tasks; // last in, first out, because the data is still in the cache
     int asleep = 0;
-    std::atomic<int> waiting{0}; // as many as there are tasks, to look at without the lock
+    std::atomic<int> waiting{0}; // number of tasks, readable without the lock
     std::atomic<bool> quit{false};
     // The loop.
     std::vector<Share> shares;

@@ -10,7 +10,7 @@
 
 namespace collektive {
 
-static std::mutex error_turn; // guards the texts: worker threads report, too
+static std::mutex error_turn; // guards the texts, because worker threads report errors too
 static std::string error_text, error_read;
 
 void fail(const std::string &message) {
@@ -39,7 +39,7 @@ PxFilterFlags filter_pair(PxFilterObjectAttributes attributes0, PxFilterData dat
     if ((static0 || PxFilterObjectIsKinematic(attributes0)) && (static1 || PxFilterObjectIsKinematic(attributes1)))
         return PxFilterFlag::eSUPPRESS;
     flags = PxPairFlag::eCONTACT_DEFAULT;
-    // Continuous bodies are swept against what is static, ContinuousDynamic ones also against continuous bodies.
+    // Continuous bodies are swept against static shapes, ContinuousDynamic ones also against continuous bodies.
     const PxU32 continuous0 = data0.word0 & (CONTINUOUS | CONTINUOUS_DYNAMIC),
                 continuous1 = data1.word0 & (CONTINUOUS | CONTINUOUS_DYNAMIC);
     const bool swept = static0   ? continuous1
@@ -72,7 +72,7 @@ void set_filters(PxShape &target, const physics_shape &from) {
     if (from.detection == PHYSICS_CONTINUOUS_DYNAMIC) data.word0 |= CONTINUOUS_DYNAMIC;
     data.word1 = from.identity;
     target.setSimulationFilterData(data);
-    // Word 0 is tested by all queries, word 1 by those that want triggers.
+    // Word 0 is tested by all queries, word 1 by queries that include triggers.
     PxFilterData query;
     (from.trigger ? query.word1 : query.word0) = 1u << layer;
     target.setQueryFilterData(query);
@@ -134,7 +134,7 @@ physics_world::physics_world(int32_t threads) : workers(threads) {
     description.bounceThresholdVelocity = 2.0f;
     description.flags = PxSceneFlag::eENABLE_PCM | PxSceneFlag::eENABLE_CCD | PxSceneFlag::eENABLE_ACTIVE_ACTORS |
                         PxSceneFlag::eENABLE_ENHANCED_DETERMINISM;
-    // Queries bring their trees in line when they are asked, not every step.
+    // Queries update their trees on demand, not in every step.
     description.sceneQueryUpdateMode = PxSceneQueryUpdateMode::eBUILD_ENABLED_COMMIT_DISABLED;
     scene = physics().createScene(description);
 }
@@ -152,7 +152,7 @@ PxMaterial *physics_world::material(const physics_material &wanted) {
     const std::string key(reinterpret_cast<const char *>(&wanted), sizeof wanted);
     PxMaterial *&known = materials[key];
     if (known) return known;
-    // PhysX numbers materials with 16 bits: those that no shape uses any more make room.
+    // PhysX numbers materials with 16 bits, so unused ones are released.
     if (materials.size() > 10000)
         for (auto entry = materials.begin(); entry != materials.end();) {
             if (entry->second && entry->second->getReferenceCount() == 1) {

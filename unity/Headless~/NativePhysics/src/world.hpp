@@ -1,4 +1,4 @@
-// What the parts of the library share: the world with its actors, shapes and reports.
+// The world with its actors, shapes and reports, shared by all parts of the library.
 #ifndef COLLEKTIVE_WORLD_HPP
 #define COLLEKTIVE_WORLD_HPP
 
@@ -22,7 +22,7 @@ namespace collektive {
 
 using namespace physx;
 
-// The foundation, PhysX and its cooking, made at the first use and kept until the process ends.
+// The foundation, PhysX and its cooking, created on first use and kept until the process ends.
 PxPhysics &physics();
 // Keeps the first of several errors until it is read.
 void fail(const std::string &message);
@@ -48,7 +48,7 @@ struct Actor {
 
 // Of an actor.
 enum Marks : uint8_t {
-    PLACED = 1, // put somewhere since the last step
+    PLACED = 1, // moved by a command since the last step
     MOVED = 2   // in the current step
 };
 
@@ -64,7 +64,7 @@ struct Joint {
     int32_t actor = PHYSICS_NONE, other = PHYSICS_NONE;
 };
 
-// A pair with a trigger whose boxes overlap. PhysX finds it, we test it: PhysX leaves pairs of two triggers out.
+// A pair with a trigger whose bounds overlap. PhysX finds the pair, and the library tests it, because PhysX ignores pairs of two triggers.
 struct Overlap {
     int32_t a = PHYSICS_NONE, b = PHYSICS_NONE; // a has the lower identity
     bool touching = false;
@@ -81,7 +81,7 @@ enum FilterBits : PxU32 {
     CONTINUOUS_DYNAMIC = 1 << 9
 };
 
-// What the filter shader, which worker threads run, reads: it changes only between steps.
+// Data of the filter shader, which runs on worker threads. It changes only between steps.
 struct Ignored {
     uint32_t layers[32] = {};
     std::unordered_set<uint64_t> pairs;
@@ -89,7 +89,7 @@ struct Ignored {
     static uint64_t key(uint32_t a, uint32_t b) { return a < b ? uint64_t(a) << 32 | b : uint64_t(b) << 32 | a; }
 };
 
-// The handle of a slot to fill: the last one that was given back, or a new one.
+// Returns the handle of a free slot: the last released one, or a new one.
 template <typename Slot> int32_t take(std::vector<Slot> &slots, std::vector<int32_t> &free) {
     if (free.empty()) {
         slots.emplace_back();
@@ -117,14 +117,14 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     std::vector<int32_t> free_actors, free_shapes, free_joints;
     std::unordered_map<std::string, physx::PxMaterial *> materials;
     collektive::Ignored ignored;
-    size_t placed = 0;         // shapes made or put somewhere since the last step
+    size_t placed = 0;         // shapes created or moved since the last step
     bool masses_stale = false; // of any actor
-    // By the actor's handle: a step looks through all of them, and through few of the actors.
+    // By the actor's handle. A step iterates over all of them, but only over few actors.
     std::vector<uint8_t> marks;
     std::vector<int32_t> moved; // of collect_motions, kept for its memory
 
     std::vector<collektive::Overlap> overlaps; // by PhysX's number of the pair
-    // Touching pairs whose boxes came apart, or that wait to be found again by a new filtering; by identities.
+    // Touching pairs whose bounds separated, or that wait for a new filtering, by identities.
     std::map<uint64_t, std::pair<int32_t, int32_t>> lost_overlaps;
 
     std::vector<physics_touch> touches;

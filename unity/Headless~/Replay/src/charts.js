@@ -1,4 +1,4 @@
-// Values over time: a small chart for each, with a line for each run and a mark where the clock is.
+// Charts of values over time, with a line for each run and a mark at the current time.
 import './language.js';
 import uPlot from 'uplot';
 import { extent, lastAt, nameOf, short, textOf } from './fields.js';
@@ -7,7 +7,7 @@ import { part } from './legend.js';
 const HEIGHT = 80;
 
 export class Charts {
-  /** Each of `runs` has `times` and `series`, which are fields with `values`, null for none. `onSeek` is called with the time of a click. */
+  /** Each run has `times` and `series`, which are fields with `values` (null if missing). `onSeek` is called with the time of a click. */
   constructor(holder, runs, onSeek, time) {
     this.time = time; // of the clock
     this.axis = 0; // pixels, the same for all charts
@@ -77,16 +77,16 @@ export class Charts {
     }
   }
 
-  /** Draws again, in the colours of the theme and the width of the panel. */
+  /** Redraws in the colours of the theme and the width of the panel. */
   redraw() {
     for (const { plot, figure } of this.charts) {
       plot.setSize({ width: this.widthOf(figure), height: HEIGHT });
-      plot.redraw(false, true); // rebuilding paths before the first picture would forget the scale
+      plot.redraw(false, true); // rebuilding paths before the first picture would reset the scale
     }
   }
 }
 
-/** A value without its unit, which the caption has. */
+/** Formats a value without its unit, which is in the caption. */
 function plain(field, value) {
   return field.kind === 'number' ? short(value) : textOf(field, value);
 }

@@ -14,10 +14,10 @@ const SCALES = {
   'Blue to red': (share) => interpolateRdBu(1 - share),
 };
 const TEN = schemeObservable10.map(packed);
-// By a category's place in the order of appearance.
+// By the order in which categories appear.
 const CATEGORIES = {
   'Ten colours': (place) => TEN[((place % 10) + 10) % 10],
-  // A step of the golden angle: the first ones are far apart, and no two of a few hundred are equal.
+  // Steps by the golden angle, so that the first colours differ strongly and hundreds are distinct.
   Hues: (place) => packed(hsl((place * 137.508) % 360, 0.62, [0.5, 0.66, 0.38][((place % 3) + 3) % 3])),
 };
 
@@ -26,7 +26,7 @@ export const NO_VALUE = 0x9aa3ad;
 
 export const css = (colour) => `#${colour.toString(16).padStart(6, '0')}`;
 
-/** The palettes for a kind of field, the first one is the best for most. */
+/** The palettes for a kind of field. The first one is the default. */
 export function palettesOf({ kind, order }) {
   if (kind === 'colour') return [];
   if (kind === 'number') return Object.keys(SCALES);
@@ -38,7 +38,7 @@ export function gradientOf(palette) {
   return `linear-gradient(to right, ${Array.from({ length: 12 }, (_, i) => SCALES[palette](i / 11)).join(', ')})`;
 }
 
-/** Gives the colour of each value; a number's place on the scale is between `min` and `max`. */
+/** Returns a function from values to colours, with a scale from `min` to `max` for numbers. */
 export function colouring({ kind, order }, palette, min, max) {
   const of = { number: () => onScale(SCALES[palette], min, max), category: () => inOrder(CATEGORIES[palette], order), colour: () => (value) => value }[kind]();
   return (value) => (Number.isNaN(value) ? NO_VALUE : of(value));

@@ -64,7 +64,7 @@ export function nameOf({ name, unit }) {
   return name + (unit ? ` (${unit})` : '');
 }
 
-/** A value in the field's own words. */
+/** Formats a value with the words of its field. */
 export function textOf({ kind, unit, words }, value) {
   if (Number.isNaN(value)) return 'no value';
   if (kind === 'colour') return `#${value.toString(16).padStart(6, '0')}`;
@@ -72,7 +72,7 @@ export function textOf({ kind, unit, words }, value) {
   return short(value) + (unit ? ` ${unit}` : '');
 }
 
-/** Four digits, but all of a whole number: counts must be equal wherever they are shown. */
+/** Formats a number with four digits, but integers with all digits. */
 export function short(value) {
   if (Number.isInteger(value) && Math.abs(value) < 1e9) return value.toLocaleString('en');
   return Number(value.toPrecision(4)).toLocaleString('en', { maximumSignificantDigits: 4 });
@@ -92,7 +92,7 @@ function degrees(frame) {
   return counts;
 }
 
-/** From this frame to the next, or at the end of a segment from the one before. */
+/** Speeds between this frame and the next, or the previous one at the end of a segment. */
 function speeds(recording, frame) {
   const result = new Float32Array(frame.present.length).fill(NaN);
   const { first, count } = frame.segment;

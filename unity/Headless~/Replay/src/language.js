@@ -1,5 +1,5 @@
-// Imported before uPlot, which formats numbers in the browser's language as soon as it is loaded: without a locale of the system Chromium
-// names 'en-US@posix', which no formatter takes.
+// Must be imported before uPlot, which creates number formatters when it is loaded. Without a system locale, Chromium reports the language
+// 'en-US@posix', which formatters reject.
 try {
   new Intl.NumberFormat(navigator.language);
 } catch {

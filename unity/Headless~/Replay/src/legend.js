@@ -7,7 +7,7 @@ const BARS = 24;
 const element = (id) => document.getElementById(id);
 
 export class Legend {
-  /** `onChange` is called with what colours a value after each choice. */
+  /** `onChange` is called with the function that colours a value after each choice. */
   constructor(fields, onChange) {
     this.fields = fields;
     this.onChange = onChange;
@@ -22,7 +22,7 @@ export class Legend {
     element('no-value').querySelector('i').style.background = css(NO_VALUE);
   }
 
-  /** Colours by a field, on the range of the whole run or, if that is unknown, of the frame on show. */
+  /** Colours by a field, on the range of the whole run or, if unknown, of the current frame. */
   choose(index) {
     this.field = this.fields[index];
     element('field').selectedIndex = index;
@@ -37,7 +37,7 @@ export class Legend {
     this.setRange(...this.wholeRange());
   }
 
-  /** Scales and categories hold for the fields of another run too, those of the same name. */
+  /** Shares scales and categories with the fields of another run that have the same names. */
   compare(others) {
     this.otherFields = others;
     this.choose(this.fields.indexOf(this.field));
@@ -116,7 +116,7 @@ export class Legend {
     element('categories').replaceChildren(...rows);
   }
 
-  /** Bars over the scale; like the colours, its ends count the values beyond it. */
+  /** Draws bars over the scale. Like the colours, its ends include the values beyond it. */
   drawHistogram({ slots }, values) {
     const counts = new Array(BARS).fill(0);
     const scale = this.max > this.min ? BARS / (this.max - this.min) : 0;

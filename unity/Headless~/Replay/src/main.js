@@ -10,7 +10,7 @@ import { neighboursOf } from './swarm.js';
 
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
 const MAX_LISTED = 60; // neighbours with a button
-const READABLE_PIXELS = 4; // a node's radius at first sight, in pixels, at least
+const READABLE_PIXELS = 4; // minimum initial radius of a node in pixels
 const element = (id) => document.getElementById(id);
 
 class Player {
@@ -21,7 +21,7 @@ class Player {
     this.speed = 1;
     this.playing = false;
     this.linksVisible = true;
-    this.selected = null; // a node's id
+    this.selected = null; // id of a node
 
     this.view.onFrame = (now) => this.tick(now);
     this.view.onDrawn = () => this.video?.frame();
@@ -33,7 +33,7 @@ class Player {
     const shows = this.charts.charts.length > 0 && window.innerWidth >= 1000 && window.innerHeight >= 600;
     this.showCharts(shows);
     this.setFactor(Math.min(Math.max(Math.ceil((4 * READABLE_PIXELS) / this.view.nodePixels) / 4, 1), 3));
-    this.resize(); // now the panels have their words
+    this.resize(); // the panels now have their texts
   }
 
   get other() {
@@ -52,7 +52,7 @@ class Player {
     return this.runs[0].fields;
   }
 
-  /** The frame of the first run that is on show. */
+  /** The current frame of the first run. */
   get here() {
     return this.runs[0].here;
   }
@@ -67,8 +67,8 @@ class Player {
   }
 
   /**
-   * Shows the moment `time`: nodes between two frames are drawn between their places, everything else is the earlier frame's. The promise
-   * resolves when it, or a later request, is shown.
+   * Shows the time `time`. Node positions are interpolated between two frames, and all other data belongs to the earlier frame. The promise
+    * resolves when this or a later request is shown.
    */
   show(time) {
     this.time = Math.min(Math.max(time, this.recording.times[0]), this.lastTime);
@@ -92,7 +92,7 @@ class Player {
     }
   }
 
-  /** Shows this moment if its frames are there. */
+  /** Shows the current time if its frames are loaded. */
   refresh() {
     const how = { links: this.links, factor: this.factor, trails: element('trails').checked };
     const shown = this.runs.map((run) => run.show(this.time, this.selected, how));
@@ -124,7 +124,7 @@ class Player {
     const { legend } = this;
     for (const run of this.runs) run.colour(legend.field, legend.of);
     this.showHistory();
-    this.resize(); // the legend has another height
+    this.resize(); // the height of the legend has changed
     if (this.here) this.refresh();
   }
 
@@ -175,7 +175,7 @@ class Player {
 
   tick(now) {
     if (!this.playing) return;
-    const passed = Math.min((now - this.lastTick) / 1000, 0.25); // a sleeping tab must not jump
+    const passed = Math.min((now - this.lastTick) / 1000, 0.25); // no jump after a suspended tab
     this.lastTick = now;
     if (this.waits > 0) this.view.request();
     else this.show(this.time + passed * this.speed);
@@ -238,7 +238,7 @@ class Player {
     this.refresh();
   }
 
-  /** Selects the node with the next greater or lesser id of those on show. */
+  /** Selects the visible node with the next greater or lesser id. */
   selectNext(by) {
     const order = Array.from(this.here.slots, (slot) => this.here.ids[slot]).sort((a, b) => a - b);
     if (order.length === 0) return;
@@ -296,7 +296,7 @@ class Player {
   }
 
   drawCharts() {
-    // The counts of a network without losses say nothing.
+    // Skip series of zeros, such as losses of an ideal network.
     const metrics = ({ recording: { metrics: { times, series } } }) => ({
       times, series: series.filter(({ values }) => values.some((value) => value)).map((each) => ({ kind: 'number', ...each })),
     });
@@ -323,7 +323,7 @@ class Player {
     save(await new Promise((resolve) => { canvas.toBlob(resolve); }), `${this.fileName()}-${this.time.toFixed(1)}s.png`);
   }
 
-  /** Records what plays from now on, until the end, a pause or the next call. */
+  /** Records a video until the end, a pause or the next call. */
   async toggleVideo() {
     if (this.video) {
       this.pause();
@@ -357,7 +357,7 @@ class Player {
     charts.style.top = `${summary.bottom + 10}px`;
     charts.style.maxHeight = `${controls.top - summary.bottom - 20}px`;
     document.body.style.setProperty('--controls', `${picture ? 0 : window.innerHeight - controls.top}px`);
-    // In a wide window the panels stand beside the picture, in a narrow one above it.
+    // Panels are beside the picture in a wide window and above it in a narrow one.
     const wide = window.innerWidth >= 1000;
     const legend = element('legend').getBoundingClientRect();
     const left = picture || charts.hidden || !wide ? 0 : charts.getBoundingClientRect().right;
@@ -371,7 +371,7 @@ class Player {
     if (!charts.hidden) this.charts.redraw();
   }
 
-  /** Hides what can be pressed, for pictures. */
+  /** Hides the controls for pictures. */
   setControls(visible) {
     document.body.classList.toggle('picture', !visible);
     this.resize();
@@ -393,7 +393,7 @@ class Player {
     });
     element('deselect').addEventListener('click', () => {
       this.select(null);
-      element('canvas').focus(); // the button is gone
+      element('canvas').focus(); // the focused button was removed
     });
     element('step-back').addEventListener('click', () => this.step(-1));
     element('step-on').addEventListener('click', () => this.step(1));
@@ -439,7 +439,7 @@ class Player {
       down = event.isPrimary && event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
     });
     canvas.addEventListener('pointerup', (event) => {
-      // A click, not the end of a turn.
+      // A click, not the end of a rotation.
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
       this.select(run.here.ids[run.view.pick(event.offsetX, event.offsetY)] ?? null);
     });
@@ -460,7 +460,7 @@ function plural(count, noun) {
   return `${count.toLocaleString('en')} ${noun}${count === 1 ? '' : 's'}`;
 }
 
-/** How many links a frame has, each direction counted, and how many of them are on show if not all. */
+/** The number of links of a frame, each direction counted, and the number of visible links if not all. */
 function linksOf({ linksInAll, links }) {
   return (linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(linksInAll, 'link');
 }
@@ -475,7 +475,7 @@ async function start() {
   const holder = element('replay');
   const recording = await open(holder.textContent.trim());
   await recording.load(0);
-  holder.remove(); // the page needs its text no more
+  holder.remove(); // the page no longer needs its text
   const probe = document.createElement('canvas');
   if (!probe.getContext('webgl2')) {
     throw new Error('This browser cannot show 3D graphics (WebGL 2). Enable hardware acceleration in its settings, or open the page in another browser.');
@@ -503,12 +503,12 @@ const ready = started.then(
       view: (from) => player.view.frame(from),
       /** The id of the node at a point of the page, or null. */
       at: (x, y) => player.here.ids[player.view.pick(x, y)] ?? null,
-      /** Names of what can colour the nodes, and the choice of one. */
+      /** Names of the fields that can colour the nodes, and the selection of one. */
       fields: player.fields.map(({ name }) => name),
       colourBy: (name) => player.legend.choose(player.fields.findIndex((field) => field.name === name)),
       /** Both runs, the other one from its page's HTML; null ends it. */
       compare: (page) => player.compare(page),
-      /** The frame on show, in Unity's axes, as recorded. */
+      /** The current frame as recorded, in Unity's axes. */
       state: () => {
         const { here } = player;
         const { ids } = here;
@@ -527,7 +527,7 @@ const ready = started.then(
           other: player.other?.here ? { frame: player.other.here.index, nodes: player.other.here.slots.length } : null,
         };
       },
-      /** Draws the frame on show now, for a picture right after. */
+      /** Draws the current frame immediately, before a picture is taken. */
       draw: () => {
         for (const { view } of player.runs) view.draw();
         if (player.playing) player.view.request();

@@ -3,11 +3,11 @@
 import { lastAt } from './fields.js';
 
 const VERSION = 5;
-const KEPT_NODES = 1e6; // of all frames that stay in memory, some 30 bytes each
+const KEPT_NODES = 1e6; // in all cached frames, about 30 bytes each
 const PAIR = 2 ** 26; // in a link's key: times the lesser slot
 export const TEXELS = 1024; // nodes in a row of a frame's texture
 
-/** The page's data is missing, damaged or of another version; the message is for the reader of the page. */
+/** Missing, damaged or incompatible data of the page. The message is for the reader of the page. */
 export class ReplayError extends Error {}
 
 export async function open(text) {
@@ -54,8 +54,8 @@ class Recording {
     if (texts.length !== Math.ceil(this.times.length / this.framesPerSegment)) throw new Error('a wrong number of segments');
     this.texts = texts;
     this.kept = Math.max(4, Math.floor(KEPT_NODES / (this.framesPerSegment * Math.max(this.slots, TEXELS))));
-    this.segments = new Map(); // number -> promise of a segment, the one used last at the end
-    this.open = new Map(); // number -> segment, those of `segments` that are there
+    this.segments = new Map(); // number -> promise of a segment, most recently used last
+    this.open = new Map(); // number -> segment, for loaded `segments`
   }
 
   get count() {
@@ -77,13 +77,13 @@ class Recording {
     return lastAt(this.times, time);
   }
 
-  /** The frame if its segment is there, else null: `load` it first. */
+  /** Returns the frame if its segment is loaded, else null: `load` it first. */
   frame(index) {
     const segment = this.open.get(Math.floor(index / this.framesPerSegment));
     return segment ? segment.frame(index % this.framesPerSegment) : null;
   }
 
-  /** Makes a frame available; a damaged segment gives a ReplayError. */
+  /** Loads a frame. A damaged segment throws a ReplayError. */
   load(index) {
     const number = Math.floor(index / this.framesPerSegment);
     let segment = this.segments.get(number);
@@ -100,7 +100,7 @@ class Recording {
     return segment;
   }
 
-  /** A segment for one use: it takes no place among those in memory. */
+  /** Loads a segment for one use, without caching it. */
   read(number) {
     return orDamaged(async () => {
       const first = number * this.framesPerSegment;
@@ -109,7 +109,7 @@ class Recording {
   }
 }
 
-/** Frames that are coded by their differences: each is read after those before it, once. */
+/** Frames encoded as differences, which must be decoded once and in order. */
 class Segment {
   constructor(buffer, recording, first, count) {
     this.bytes = new Uint8Array(buffer);
@@ -248,7 +248,7 @@ class Segment {
   }
 }
 
-/** A sorted set of links without some of it, with others. */
+/** Returns a sorted set of links after removals and additions. */
 function changed(links, removed, added) {
   const result = new Float64Array(links.length - removed.length + added.length);
   let count = 0;

@@ -8,22 +8,22 @@ export class Run {
     this.recording = recording;
     this.fields = fieldsOf(recording);
     this.view = new View(holder, recording);
-    this.here = null; // the frame on show
-    this.trails = null; // the nodes and frames that they show
+    this.here = null; // the current frame
+    this.trails = null; // the nodes and frames of the current trails
   }
 
   get lastTime() {
     return this.recording.times.at(-1);
   }
 
-  /** Makes a moment available. */
+  /** Loads the frames of a time. */
   load(time) {
     const { recording } = this;
     const frame = recording.frameAt(time);
     return Promise.all([recording.load(frame), recording.load(Math.min(frame + 1, recording.count - 1))]);
   }
 
-  /** Shows a moment, and returns whether its frames are there; `id` is the selected node's, the rest as for `View.show`. */
+  /** Shows a time and returns whether its frames are loaded. `id` is the id of the selected node; for the rest see `View.show`. */
   show(time, id, { trails, ...how }) {
     const { recording, view } = this;
     const { times } = recording;
@@ -55,7 +55,7 @@ export class Run {
     });
   }
 
-  /** The value of a field at a node now, in words. */
+  /** The current value of a field at a node, as text. */
   textAt({ name }, id) {
     const field = this.fields.find((each) => each.name === name);
     return field ? textOf(field, field.valuesOf(this.here)[slotOf(this.here, id)] ?? NaN) : 'no value';

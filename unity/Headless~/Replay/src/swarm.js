@@ -1,5 +1,5 @@
-// Nodes and links of the picture. The places of two recorded frames are in textures, one texel for each slot; the vertex shaders look
-// them up and draw each node between them, so that the script's cost per picture does not depend on the number of nodes.
+// Nodes and links of the picture. Textures contain the positions of two recorded frames, with one texel per slot. Vertex shaders
+// interpolate between them, so that the script's cost per picture does not depend on the number of nodes.
 import {
   BufferAttribute, BufferGeometry, CircleGeometry, DataTexture, DynamicDrawUsage, FloatType, FrontSide, InstancedBufferAttribute, InstancedBufferGeometry,
   LineSegments, Mesh, MeshDepthMaterial, MeshLambertMaterial, RGBAFormat, Sphere, SphereGeometry,
@@ -20,11 +20,11 @@ vec4 texelOf(float slot) {
   return vec4(mix(from.xyz, to.xyz, to.w < 0.0 ? 0.0 : share) * vec3(1.0, 1.0, -1.0), from.w);
 }
 `;
-// A shape is a ball, or two half balls apart: an upright capsule. Its z axis points from the node to the eye: half of it is enough.
+// A shape is a ball or an upright capsule. Its z axis points to the eye, so half of it is enough.
 const NODE = /* glsl */`
 attribute float slot;
 varying vec3 tint;
-// A packed sRGB colour, as linear light.
+// Converts a packed sRGB colour to linear light.
 vec3 linear(float packed) {
   vec3 bytes = mod(floor(vec3(packed / 65536.0, packed / 256.0, packed)), 256.0) / 255.0;
   return mix(pow((bytes + 0.055) / 1.055, vec3(2.4)), bytes / 12.92, lessThanEqual(bytes, vec3(0.04045)));
@@ -59,7 +59,7 @@ export class Swarm {
       this.nodes.castShadow = true;
       this.nodes.customDepthMaterial = this.placeNodes(new MeshDepthMaterial());
     }
-    // The selected node is drawn over those that hide it.
+    // The selected node is drawn over nodes in front of it.
     const above = this.placeNodes(new MeshLambertMaterial({ depthTest: false, transparent: true }));
     this.selectedNode = new Mesh(instanced(shape, new InstancedBufferAttribute(new Float32Array(1), 1)), above);
     this.selectedNode.renderOrder = 3;
@@ -94,7 +94,7 @@ export class Swarm {
     this.here = this.next = undefined;
   }
 
-  /** Shows the moment that is `share` of the way from one frame to the next. */
+  /** Shows the time that is `share` of the way from one frame to the next. */
   show(here, next, share) {
     const { uniforms } = this;
     uniforms.share.value = share;
@@ -112,7 +112,7 @@ export class Swarm {
     this.next = next;
   }
 
-  /** Marks a node, with its links of the frame on show; -1: none. */
+  /** Marks a node with its current links; -1 for none. */
   select(slot) {
     const neighbours = slot < 0 ? [] : neighboursOf(this.here, slot);
     for (const mesh of [this.selectedNode, this.selectedHalo]) setSlots(mesh, slot < 0 ? [] : [slot]);
@@ -120,7 +120,7 @@ export class Swarm {
     setLines(this.selectedLinks, neighbours.flatMap((neighbour) => [slot, neighbour.slot]), neighbours.map(({ way }) => way));
   }
 
-  /** Where a slot is drawn, in Unity's axes; written to `place`. */
+  /** Writes the drawn position of a slot in Unity's axes to `place`. */
   placeOf(slot, place) {
     const [from, to] = [this.here.places, this.next.places];
     const share = this.next.present[slot] ? this.uniforms.share.value : 0;
@@ -128,7 +128,7 @@ export class Swarm {
     return place;
   }
 
-  /** The textures of two frames; what the graphics card has already stays there. */
+  /** Updates the textures of two frames. Textures that are already uploaded are reused. */
   load(here, next) {
     const find = (frame) => this.textures.find((texture) => texture.frame === frame);
     const free = (kept) => this.textures.find((texture) => texture !== kept);
@@ -191,7 +191,7 @@ export function neighboursOf({ pairs, ways }, slot) {
   return found;
 }
 
-/** The half of a sphere that the eye sees. */
+/** The visible half of a sphere. */
 function hemisphere() {
   return new SphereGeometry(1, 12, 2, 0, 2 * Math.PI, 0, Math.PI / 2).rotateX(Math.PI / 2);
 }

@@ -7,7 +7,7 @@ const MAX_PIECES = 60000;
 export class Trails {
   constructor(material) {
     this.object = new LineSegments(new BufferGeometry(), material);
-    this.object.geometry.boundingSphere = new Sphere(); // it is never culled
+    this.object.geometry.boundingSphere = new Sphere(); // never culled
     this.object.geometry.setDrawRange(0, 0);
     this.object.renderOrder = 1;
   }
@@ -19,7 +19,7 @@ export class Trails {
     const frames = [];
     for (let i = first; i <= frame.index; i++) frames.push(recording.frame(i));
     if (slots.length > 0 && frames.includes(null)) {
-      // Two segments apart at most.
+      // At most two segments apart.
       Promise.all([recording.load(first), recording.load((first + frame.index) >> 1)]).then(again, () => {}); // reported on the page
     }
     this.draw(frames, slots);

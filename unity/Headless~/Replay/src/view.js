@@ -19,8 +19,8 @@ const THEMES = {
     link: '#a9bacd', linkOpacity: 0.22, shadow: 0.5, trail: '#a9cdf5', accent: '#ff5c8a',
   },
 };
-const RING_PIXELS = 30; // across the mark of the selected node, at least
-const FOLLOWED_PIXELS = 12; // radius of a node that the camera follows, at least
+const RING_PIXELS = 30; // minimum diameter of the mark of the selected node
+const FOLLOWED_PIXELS = 12; // minimum radius of a followed node
 const LINE_GAP = 0.012; // metres between the floor and its lines, against flicker
 
 export class View {
@@ -42,7 +42,7 @@ export class View {
     this.onMoved = () => {};
     this.follows = false;
     this.pending = null;
-    this.framed = 'above'; // the ready view that the camera has, null once the user has moved it
+    this.framed = 'above'; // the predefined view of the camera, null once the user has moved it
 
     // The buffer is kept so that scripts can read the canvas at any time.
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
@@ -200,11 +200,11 @@ export class View {
   /** Shows the whole arena, `from` 'above' at an angle or from the 'top'. */
   frame(from) {
     this.framed = from;
-    this.controls.enableDamping = false; // forgets what is left of the last turn
+    this.controls.enableDamping = false; // stops the remaining rotation
     this.controls.update();
     const { min, max } = this.arena;
     const target = new Vector3((min.x + max.x) / 2, min.y, (min.z + max.z) / 2);
-    // Straight down would leave the turn undefined.
+    // Looking straight down would leave the rotation undefined.
     const direction = from === 'top' ? new Vector3(0, 1, 1e-4) : new Vector3(0, 1.3, 1).normalize();
     const corners = [min.x, max.x].flatMap((x) => [min.y, max.y].flatMap((y) => [min.z, max.z].map((z) => new Vector3(x, y, z))));
     const { top, bottom, left, right } = this.insets;
@@ -261,7 +261,7 @@ export class View {
     return this.radius / (this.pixel * this.camera.position.distanceTo(this.controls.target));
   }
 
-  /** Looks from where another view of the same size does. */
+  /** Copies the camera of another view of the same size. */
   lookAs(other) {
     const [camera, of] = [this.camera, other.camera];
     if (camera.position.equals(of.position) && this.controls.target.equals(other.controls.target)) return;
@@ -272,8 +272,8 @@ export class View {
   }
 
   /**
-   * Shows the moment that is `share` of the way from the frame `here` to `next`; `selected` is a slot or -1, `factor` the nodes' size, `links`
-   * 'all', 'selected' for those of the selected node, or 'none'.
+   * Shows the time that is `share` of the way from the frame `here` to `next`. `selected` is a slot or -1, `factor` scales nodes, and `links` is
+    * 'all', 'none', or 'selected' for links of the selected node.
    */
   show({ here, next, share, links, selected, factor }) {
     const { swarm } = this;
@@ -292,7 +292,7 @@ export class View {
     this.request();
   }
 
-  /** Moves the camera with the selected node from now on, or no longer. */
+  /** Sets whether the camera follows the selected node. */
   setFollows(follows) {
     this.follows = follows;
     if (follows && this.selected >= 0) {
@@ -303,7 +303,7 @@ export class View {
     this.request();
   }
 
-  /** Where a slot is drawn, in the picture's axes. */
+  /** The drawn position of a slot in the picture's axes. */
   pointOf(slot, point) {
     point.fromArray(this.swarm.placeOf(slot, [0, 0, 0]));
     point.z = -point.z;
@@ -330,7 +330,7 @@ export class View {
       if (point.z > 1) continue;
       const distance = Math.hypot(((point.x + 1) / 2) * this.width - x, ((1 - point.y) / 2) * this.height - y);
       const reach = Math.max(uniforms.radius.value / (this.pixel * depth), 9);
-      // Inside a node's disc the one in front wins, else the nearest on the screen.
+      // The front node at the point wins, otherwise the nearest one on the screen.
       const score = distance <= reach ? distance / reach + depth * 1e-3 : Infinity;
       if (score < bestScore) {
         best = slot;
@@ -340,16 +340,16 @@ export class View {
     return best;
   }
 
-  /** Draws soon, once for any number of calls. */
+  /** Requests one redraw for any number of calls. */
   request() {
     this.pending ??= requestAnimationFrame((now) => {
       this.pending = null;
-      this.onFrame(now); // may ask for the next picture
+      this.onFrame(now); // may request the next picture
       this.render();
     });
   }
 
-  /** Draws now, instead of the requested picture. */
+  /** Draws immediately instead of the requested redraw. */
   draw() {
     cancelAnimationFrame(this.pending);
     this.pending = null;

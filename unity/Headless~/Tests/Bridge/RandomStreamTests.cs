@@ -7,18 +7,18 @@ namespace Collektive.Headless.Tests.Bridge
     [TestFixture]
     public sealed class RandomStreamTests
     {
-        // The authors' known answers for philox4x32-10; the Kotlin side is tested with the same.
+        // Published test vectors of philox4x32-10. The Kotlin tests use the same ones.
         [TestCase(0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x0000000000000000ul, 0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u)]
         [TestCase(0xffffffffu, 0xffffffffu, 0xffffffffu, 0xffffffffu, 0xfffffffffffffffful, 0x408f276du, 0x41c83b0eu, 0xa20bc7c6u, 0x6d5451fdu)]
         [TestCase(0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u, 0x299f31d0a4093822ul, 0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u)]
-        public void Philox_gives_the_known_answers(uint c0, uint c1, uint c2, uint c3, ulong key, uint r0, uint r1, uint r2, uint r3)
+        public void Philox_matches_the_published_test_vectors(uint c0, uint c1, uint c2, uint c3, ulong key, uint r0, uint r1, uint r2, uint r3)
         {
             Philox.Block(key, ref c0, ref c1, ref c2, ref c3);
             Assert.That(new[] { c0, c1, c2, c3 }, Is.EqualTo(new[] { r0, r1, r2, r3 }));
         }
 
         [Test]
-        public void A_stream_reads_the_blocks_of_its_counter_in_order()
+        public void A_stream_returns_the_words_of_its_blocks_in_order()
         {
             const ulong seed = 0x0123456789abcdef;
             var stream = new RandomStream(seed, 42, RandomPurpose.Node);
@@ -31,7 +31,7 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
-        public void Doubles_take_two_words_the_first_one_high()
+        public void A_double_uses_two_words_high_word_first()
         {
             var words = new RandomStream(5, 1, RandomPurpose.Scene);
             var doubles = new RandomStream(5, 1, RandomPurpose.Scene);
@@ -43,7 +43,7 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
-        public void Numbers_are_spread_evenly_and_stay_in_range()
+        public void Range_is_uniform_and_invalid_arguments_are_rejected()
         {
             var stream = new RandomStream(1, 0, RandomPurpose.Scene);
             var counts = new int[10];

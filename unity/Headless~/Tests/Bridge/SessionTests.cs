@@ -6,7 +6,7 @@ using probe;
 
 namespace Collektive.Headless.Tests.Bridge
 {
-    /// <summary>The path without Unity: real frames of 500 nodes through the shim into programs and back.</summary>
+    /// <summary>Sessions without Unity: frames of 500 nodes pass through the shim to programs and back.</summary>
     [TestFixture]
     public sealed class SessionTests
     {
@@ -29,7 +29,7 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
-        public void Five_hundred_nodes_on_a_ring_add_up_what_both_sides_sent()
+        public void Each_of_500_nodes_in_a_ring_receives_the_sum_of_both_neighbours()
         {
             session = Open("sum");
             AddRing();
@@ -63,12 +63,12 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
-        public void A_rejected_frame_says_why_and_changes_nothing()
+        public void A_rejected_frame_reports_the_reason_and_changes_nothing()
         {
             var undisturbed = DigestOfRing(() => { });
             var disturbed = DigestOfRing(() =>
             {
-                // All before the last is right by itself.
+                // Only the last change is invalid.
                 session.Request.RemoveNode(0);
                 session.Request.AddNode(Nodes, "", null);
                 session.Request.RemoveLink(new LinkEnds { From = 1, To = 2 });
@@ -85,7 +85,7 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
-        public void A_closed_session_refuses_steps_and_closes_twice_without_harm()
+        public void A_closed_session_rejects_steps_and_can_be_closed_again()
         {
             session = Open("sum");
             session.Dispose();
@@ -94,7 +94,7 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
-        public void Another_schema_is_refused_with_the_type_that_differs()
+        public void A_different_schema_is_rejected_and_the_error_names_the_type()
         {
             var error = Assert.Throws<BridgeException>(() => Session.Open(Settings("sum"), new ChangedSchema()));
             Assert.That(error.Error, Is.EqualTo(BridgeError.Schema));
@@ -102,7 +102,7 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
-        public void Several_sessions_live_side_by_side()
+        public void Two_sessions_run_independently()
         {
             session = Open("double");
             using (var other = Open("double"))
@@ -152,7 +152,7 @@ namespace Collektive.Headless.Tests.Bridge
             }
         }
 
-        /// <summary>What a ring comes to in six ticks, with an act after the third.</summary>
+        /// <summary>Returns the digest and the size of a ring after six ticks, with an action after the third.</summary>
         private (ulong Digest, int Nodes, int Links) DigestOfRing(Action act)
         {
             using (session = Open("sum"))
@@ -184,7 +184,7 @@ namespace Collektive.Headless.Tests.Bridge
             }
         }
 
-        /// <summary>The probe schema as if its actuator data had been generated from another text.</summary>
+        /// <summary>The probe schema with another fingerprint of its actuator data.</summary>
         private sealed class ChangedSchema : DataSchema
         {
             private readonly ProbeSchema probe = new ProbeSchema();

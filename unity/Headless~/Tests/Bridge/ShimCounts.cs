@@ -3,16 +3,16 @@ using Collektive.Bridge;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>What a simulation must give back when it ends.</summary>
+    /// <summary>Counts the resources that a simulation must release when it ends.</summary>
     public static unsafe class ShimCounts
     {
-        /// <summary>Sessions that are open.</summary>
+        /// <summary>Open sessions.</summary>
         public static int Sessions => Read().Sessions;
 
-        /// <summary>Slots that are taken.</summary>
+        /// <summary>Slots in use.</summary>
         public static int Slots => Read().Slots;
 
-        /// <summary>Threads of this process, those of the JVM included.</summary>
+        /// <summary>Threads of this process, including the JVM's.</summary>
         public static int Threads => Directory.GetDirectories("/proc/self/task").Length;
 
         private static Shim.Stats Read()

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>Searches of the second thread give the same results as those of the main thread.</summary>
+    /// <summary>Searches on the second thread return the same results as those on the main thread.</summary>
     [TestFixture]
     public sealed class BackgroundSearchTests
     {
@@ -41,14 +41,14 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void Nodes_have_the_same_neighbours_in_the_same_order_with_and_without_it()
+        public void Results_equal_those_of_a_search_on_the_main_thread()
         {
             using (var alone = new NodeGrid())
             {
                 for (var tick = 0; tick < 60; tick++)
                 {
                     for (var moves = 0; moves < 50; moves++) Move(nodes[(int)random.Range(0f, nodes.Count)]);
-                    // A node that leaves gives its place to the last one.
+                    // The last node takes the index of a removed one.
                     if (tick % 10 == 0)
                     {
                         nodes[tick] = nodes[nodes.Count - 1];
@@ -56,20 +56,20 @@ namespace Collektive.Headless.Tests.Components
                     }
                     var radius = tick % 7 == 0 ? 1.5f : 3;
                     grid.Build(nodes, 3, true);
-                    // Both threads meet at another place in each tick.
+                    // Vary how far the second thread gets in each tick.
                     if (tick % 3 == 0) Thread.Sleep(1);
                     var found = new List<(int, float)>[nodes.Count];
                     for (var i = 0; i < nodes.Count; i++) found[i] = Hits(grid.FindAround(nodes[i], radius));
                     alone.Build(nodes, 3);
                     for (var i = 0; i < nodes.Count; i++)
                         Assert.That(found[i], Is.EqualTo(Hits(alone.Find(nodes[i].Position, radius))), "node " + i + " in tick " + tick);
-                    Assert.That(grid.MeanRadius, Is.EqualTo(radius).Within(1e-5), "a search counts, whoever did it");
+                    Assert.That(grid.MeanRadius, Is.EqualTo(radius).Within(1e-5), "searches of both threads count");
                 }
             }
         }
 
         [Test]
-        public void It_searches_around_each_node_as_far_as_the_node_did_before()
+        public void Each_search_uses_the_last_radius_of_its_node()
         {
             grid.Build(nodes, 3);
             for (var i = 0; i < Count; i++) grid.FindAround(nodes[i], i % 2 == 0 ? 2 : 4);
@@ -90,13 +90,13 @@ namespace Collektive.Headless.Tests.Components
                     }
                     ahead.End();
                 }
-                Assert.That(taken, "it found nothing in ten seconds");
+                Assert.That(taken, "no result within ten seconds");
                 Assert.That(ahead.TryTake(5, out _), Is.False, "after its end");
             }
         }
 
         [Test]
-        public void A_failure_of_its_thread_is_reported_to_the_main_thread_once()
+        public void An_exception_on_the_search_thread_is_rethrown_once_on_the_main_thread()
         {
             grid.Build(nodes, 3);
             using (var ahead = new BackgroundSearch(grid))
@@ -109,7 +109,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void It_ends_at_once_before_during_and_after_a_search_and_begins_again()
+        public void The_grid_can_be_disposed_during_a_search_and_used_again()
         {
             for (var turn = 0; turn < 50; turn++)
             {

@@ -5,7 +5,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>Random holds, releases, departures and flushes against a plain dictionary.</summary>
+    /// <summary>Compares the table with a dictionary under random references, releases, departures and flushes.</summary>
     [TestFixture]
     public sealed class LinkTableTests
     {
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Components
                         var gone = new PagedArray<bool>();
                         gone[from] = true;
                         table.DropLinksOf(gone);
-                        // Holds on dropped links are stale: releasing them must change nothing. The engine drops its own.
+                        // References to dropped links are stale: releasing them must have no effect. The engine drops its links too.
                         holds.ForEach(h => { if (h.From == from || h.To == from) table.Release(h.Handle); });
                         holds.RemoveAll(h => h.From == from || h.To == from);
                         RemoveAll(model, from);
@@ -72,7 +72,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void New_values_are_sent_once()
+        public void Changed_values_are_sent_once()
         {
             var table = new LinkTable();
             var handle = table.AddReference(0, 1, false, 10, 0);
@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void Scripts_hold_each_link_once_however_many_there_are()
+        public void Scripts_hold_one_reference_to_each_of_1000_links()
         {
             var table = new LinkTable();
             for (var turn = 0; turn < 2; turn++)

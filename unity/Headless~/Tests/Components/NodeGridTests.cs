@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>The grid against looking at every node.</summary>
+    /// <summary>Compares the grid with a linear scan.</summary>
     [TestFixture]
     public sealed class NodeGridTests
     {
@@ -32,7 +32,7 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(300, 3f, 1f)]
         [TestCase(300, 1f, 7f)]
         [TestCase(1000, 2.5f, 2.5f)]
-        public void It_finds_exactly_the_nodes_within_the_radius(int count, float cell, float radius)
+        public void Find_returns_exactly_the_nodes_within_the_radius(int count, float cell, float radius)
         {
             var random = new RandomStream(3, 0, RandomPurpose.Scene);
             for (var i = 0; i < count; i++) Make(new Vector3(random.Range(-20f, 20f), random.Range(-2f, 2f), random.Range(-20f, 20f)));
@@ -44,9 +44,9 @@ namespace Collektive.Headless.Tests.Components
             }
         }
 
-        /// <summary>So many rows of cells that some of them go over the last bucket, and some share theirs.</summary>
+        /// <summary>Enough rows of cells that some wrap around after the last bucket, and some share a bucket.</summary>
         [Test]
-        public void It_finds_all_around_every_node_of_a_large_cloud()
+        public void Find_matches_brute_force_around_each_of_2000_nodes()
         {
             const float radius = 1.5f;
             var random = new RandomStream(6, 0, RandomPurpose.Scene);
@@ -78,7 +78,7 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(300, 8, 0.1f)]
         [TestCase(300, 8, 50f)]
         [TestCase(300, 400, 3f)]
-        public void It_finds_the_nearest_nodes_in_order_whatever_the_guess(int count, int wanted, float guess)
+        public void FindNearest_returns_the_nearest_nodes_in_order_for_any_initial_radius(int count, int wanted, float guess)
         {
             var random = new RandomStream(4, 0, RandomPurpose.Scene);
             for (var i = 0; i < count; i++) Make(new Vector3(random.Range(-20f, 20f), 0, random.Range(-20f, 20f)));
@@ -93,7 +93,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void The_nearest_of_nodes_at_one_point_are_those_of_the_smallest_ids()
+        public void FindNearest_prefers_lower_ids_at_equal_distances()
         {
             for (var i = 0; i < 50; i++) Make(Vector3.one, 50 - i);
             grid.Build(nodes, 1);
@@ -102,7 +102,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void Nodes_at_the_end_of_the_world_are_found_and_harm_no_others()
+        public void Nodes_at_extreme_coordinates_are_found()
         {
             var far = new Vector3(1e12f, 0, -1e12f);
             Make(far);
@@ -115,7 +115,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void Its_cells_follow_the_mean_of_what_is_searched_for()
+        public void The_mean_radius_is_the_mean_of_valid_searches()
         {
             Make(Vector3.zero);
             grid.Build(nodes, 5);
@@ -126,28 +126,28 @@ namespace Collektive.Headless.Tests.Components
             Assert.That(grid.MeanRadius, Is.EqualTo(2));
             Assert.That(Found(Vector3.zero, float.NaN), Is.Empty);
             Assert.That(Found(Vector3.zero, -4), Is.Empty);
-            Assert.That(grid.MeanRadius, Is.EqualTo(2), "a radius that is none does not count");
+            Assert.That(grid.MeanRadius, Is.EqualTo(2), "an invalid radius does not count");
         }
 
-        /// <summary>Every node searches once; looking at all nodes takes the same grid, with cells so small that it does so.</summary>
+        /// <summary>For the linear scan, the same grid gets cells so small that a search visits all nodes.</summary>
         [TestCase(500, false, 2)]
         [TestCase(500, true, 2)]
         [TestCase(5000, false, 10)]
         [TestCase(5000, true, 10)]
         [TestCase(20000, false, 20)]
         [TestCase(20000, true, 20)]
-        public void Searching_is_far_faster_than_looking_at_all_nodes(int count, bool nearest, int times)
+        public void A_search_is_several_times_faster_than_a_linear_scan(int count, bool nearest, int times)
         {
             var random = new RandomStream(5, 0, RandomPurpose.Scene);
             var side = (float)Math.Sqrt(count);
             for (var i = 0; i < count; i++) Make(new Vector3(random.Range(0, side), 0, random.Range(0, side)));
             var all = Search(1e-3f, nearest);
             var few = Search(2, nearest);
-            Console.WriteLine("  " + count + " nodes: " + few.ToString("0.00") + " us a search, " + all.ToString("0.00") + " us through all nodes");
+            Console.WriteLine("  " + count + " nodes: " + few.ToString("0.00") + " us per search, " + all.ToString("0.00") + " us for a linear scan");
             Assert.That(few * times, Is.LessThan(all));
         }
 
-        /// <returns>Microseconds of a search, of the fastest of several hundreds.</returns>
+        /// <returns>Microseconds per search, in the fastest of ten batches.</returns>
         private double Search(float cell, bool nearest)
         {
             grid.Build(nodes, cell);

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>What the editor shows of the ready components before anything plays.</summary>
+    /// <summary>Menu entries, tooltips and gizmos of the ready-made components.</summary>
     [TestFixture]
     public sealed class ReadyPartsTests
     {
@@ -24,7 +24,7 @@ namespace Collektive.Headless.Tests.Components
         public void RemoveScene() => Loop.Reset();
 
         [Test]
-        public void Every_component_has_its_place_in_the_menu()
+        public void Every_component_is_in_the_Collektive_menu()
         {
             foreach (var type in typeof(Node).Assembly.GetTypes())
             {
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(typeof(SimulationManager))]
         [TestCase(typeof(Node))]
         [TestCase(typeof(LinkView))]
-        public void A_GameObject_has_one_of_these_at_most(Type type)
+        public void A_GameObject_can_have_only_one_of_each(Type type)
         {
             Assert.That(type.GetCustomAttribute<DisallowMultipleComponent>(), Is.Not.Null);
         }
@@ -61,14 +61,14 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(typeof(LineOfSightNeighbourhood), "sphere (1.00, 2.00, 3.00) 3")]
         [TestCase(typeof(IntensitySource), "sphere (1.00, 2.00, 3.00) 100")]
         [TestCase(typeof(SpeedTests.Near), "sphere (1.00, 2.00, 3.00) 1")]
-        public void A_reach_is_drawn_around_what_is_selected(Type type, string sphere)
+        public void A_selected_component_draws_its_range_as_a_sphere(Type type, string sphere)
         {
             Select(type);
             Assert.That(DrawLog.Gizmos, Is.EqualTo(new[] { sphere }));
         }
 
         [Test]
-        public void Each_ray_of_a_selected_fan_is_drawn()
+        public void A_selected_ray_fan_draws_each_ray()
         {
             Select(typeof(SpeedTests.Far));
             Assert.That(DrawLog.Gizmos.Count, Is.EqualTo(8));
@@ -77,14 +77,14 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void Lines_lead_from_a_selected_node_to_those_that_are_listed_and_still_there()
+        public void A_selected_explicit_rule_draws_lines_to_existing_neighbours()
         {
             var other = new GameObject("Other").AddComponent<Node>();
             Select(typeof(ExplicitNeighbourhood), part => ((ExplicitNeighbourhood)part).Neighbours.AddRange(new List<Node> { other, null }));
             Assert.That(DrawLog.Gizmos, Is.EqualTo(new[] { "line (1.00, 2.00, 3.00) (0.00, 0.00, 0.00)" }));
         }
 
-        /// <summary>Sends the message that the editor sends to what is selected.</summary>
+        /// <summary>Sends a component the message that the editor sends to selected objects.</summary>
         private static void Select(Type type, Action<Component> prepare = null)
         {
             var holder = new GameObject("Selected");

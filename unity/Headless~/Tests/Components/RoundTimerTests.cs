@@ -15,20 +15,20 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(0.05f, 0f, new[] { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 })]
         [TestCase(0.13f, 0f, new[] { 0, 3, 6, 8, 11 })]
         [TestCase(0.2f, 0.3f, new[] { 6, 10 })]
-        public void Rounds_come_at_the_phase_and_then_every_period(float period, float phase, int[] expected)
+        public void Rounds_start_at_the_phase_and_repeat_every_period(float period, float phase, int[] expected)
         {
             Assert.That(DueTicks(Make(period, phase, 0, 1), 12), Is.EqualTo(expected));
         }
 
         [Test]
-        public void A_node_that_joins_later_counts_from_then()
+        public void The_phase_of_a_late_node_starts_when_it_joins()
         {
             var timer = new RoundTimer(new RoundTiming { period = 0.1f, phase = 0.05f }, Stream(1), 5 * Tick);
             Assert.That(DueTicks(timer, 12), Is.EqualTo(new[] { 6, 8, 10 }));
         }
 
         [Test]
-        public void A_negative_phase_is_drawn_for_each_node_below_the_period()
+        public void A_negative_phase_is_random_within_the_period()
         {
             var first = new HashSet<int>();
             for (var node = 0; node < 200; node++) first.Add(DueTicks(Make(0.5f, -1, 0, node), 20)[0]);
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Components
         }
 
         [Test]
-        public void Jitter_delays_each_round_by_its_own_draw_and_adds_up_to_nothing()
+        public void Jitter_delays_each_round_independently_and_does_not_accumulate()
         {
             const int rounds = 400;
             var ticks = DueTicks(Make(0.5f, 0, 0.4f, 3), rounds * 10);
@@ -74,13 +74,13 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(0.1f, 0f, 0.1f, "jitter is 0.1 s")]
         [TestCase(0.1f, 0f, -0.1f, "jitter is -0.1 s")]
         [TestCase(0.1f, 0f, float.NaN, "jitter is NaN s")]
-        public void Values_out_of_range_are_named(float period, float phase, float jitter, string expected)
+        public void Values_out_of_range_are_reported(float period, float phase, float jitter, string expected)
         {
             Assert.That(new RoundTiming { period = period, phase = phase, jitter = jitter }.FindProblem(0.05f), Is.StringStarting(expected));
         }
 
         [Test]
-        public void The_shortest_period_is_the_delta_time()
+        public void The_delta_time_is_a_valid_period()
         {
             Assert.That(new RoundTiming { period = 0.05f }.FindProblem(0.05f), Is.Null);
         }

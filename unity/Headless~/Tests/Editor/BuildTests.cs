@@ -31,10 +31,10 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
 ";
 
         [Test]
-        public void Code_of_each_schema_is_generated_beside_it()
+        public void Code_is_generated_beside_its_schema()
         {
             Write("Assets/Swarm/swarm.fbs", Schema);
-            Write("Assets/Ignored~/other.fbs", "this is no schema");
+            Write("Assets/Ignored~/other.fbs", "this is not a schema");
             var refreshes = Project.Refreshes;
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
             Assert.That(File.Exists("Assets/Swarm/Generated/swarm/SwarmSchema.cs"), Is.True, string.Join("\n", Log));
@@ -43,7 +43,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void A_schemas_error_is_in_the_console_with_file_and_line()
+        public void A_schema_error_is_logged_with_file_and_line()
         {
             Write("Assets/Swarm/swarm.fbs", Schema.Replace("intensity: float", "intensity: flaot"));
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
@@ -53,7 +53,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void An_error_without_a_place_is_in_the_console_as_it_is()
+        public void An_error_without_a_position_is_logged_unchanged()
         {
             Write("Assets/swarm.fbs", "namespace swarm;\ntable SensorData { intensity: float; }\n");
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
@@ -61,14 +61,14 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void Without_schemas_the_menu_says_where_they_belong()
+        public void Without_schemas_the_menu_logs_where_to_put_them()
         {
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
             Assert.That(Logged("no sources were found. Put schemas (*.fbs) below Assets"), Is.StringStarting("Warning: "));
         }
 
         [Test]
-        public void A_missing_Kotlin_compiler_is_an_error_that_says_what_to_get()
+        public void A_missing_Kotlin_compiler_is_reported_with_the_setting_to_change()
         {
             Write("Assets/swarm.fbs", Schema);
             Write("Assets/Programs/Count.kt", Kotlin);
@@ -97,12 +97,12 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void Code_is_generated_by_the_packages_own_JRE()
+        public void Code_is_generated_with_the_bundled_JRE()
         {
             var bundled = Path.Combine(Path.GetFullPath(Project.PackageCache), "unity/Jvm~/linux-x64");
             MakeJre(bundled);
             Write("Assets/Swarm/swarm.fbs", Schema);
-            // Its java notes that it ran.
+            // This java records that it ran.
             File.Move(bundled + "/bin/java", bundled + "/bin/real");
             File.WriteAllText(bundled + "/bin/java", "#!/bin/sh\necho ran >>ran.txt\nexec '" + bundled + "/bin/real' \"$@\"\n");
             ToolRun.Do("/bin/chmod", "755", bundled + "/bin/java");
@@ -121,7 +121,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void Code_is_generated_by_a_JRE_of_the_users()
+        public void A_JRE_in_the_project_settings_is_used_but_is_not_a_JDK()
         {
             MakeJre(Path.GetFullPath("jre"));
             PersonalSettings.instance.jdk = Path.GetFullPath("jre");
@@ -130,7 +130,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void A_shipped_tool_of_another_content_is_copied_anew_whatever_its_time()
+        public void A_changed_tool_is_copied_again_even_if_its_file_time_is_older()
         {
             var first = Toolchain.Flatc();
             Assert.That(Toolchain.Flatc(), Is.EqualTo(first));
@@ -142,7 +142,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test, Category("Slow")]
-        public void Editors_of_one_project_copy_a_tool_at_once()
+        public void Several_editors_can_copy_a_tool_concurrently()
         {
             const int Editors = 3, Rounds = 5;
             var shipped = Project.PackageCache + "/unity/Tools~/linux-x64/flatc";
@@ -162,7 +162,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void An_update_of_the_package_asks_for_a_restart_of_the_editor()
+        public void A_package_update_asks_for_an_editor_restart()
         {
             Menus.Load();
             Assert.That(Log, Is.Empty);
@@ -172,7 +172,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void Code_that_another_version_generated_is_to_be_generated_again()
+        public void Code_generated_by_another_version_must_be_regenerated()
         {
             var schemas = Schemas.FindAll();
             Assert.That(schemas, Is.Not.Empty);
@@ -199,7 +199,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             public override ActuatorBuffer CreateActuators() => throw new NotSupportedException();
         }
 
-        /// <summary>A folder with what a JRE has: a JVM and no compiler.</summary>
+        /// <summary>Creates a folder like a JRE: a JVM without a compiler.</summary>
         private static void MakeJre(string folder)
         {
             var jdk = Environment.GetEnvironmentVariable("COLLEKTIVE_TEST_JAVA_HOME");
@@ -208,7 +208,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void A_JDK_that_is_none_is_named()
+        public void An_invalid_JDK_path_is_reported()
         {
             PersonalSettings.instance.jdk = "/nowhere/jdk";
             Assert.That(Assert.Throws<ToolException>(() => Toolchain.FindJdk()).Message, Is.StringContaining("/nowhere/jdk"));
@@ -225,7 +225,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void The_backend_is_what_the_checkouts_command_packs()
+        public void Rebuild_Backend_runs_the_checkouts_package_command()
         {
             Write("checkout/collektive", "#!/bin/sh\necho packing\necho \"$PWD/out/$1.tgz\"\n");
             ToolRun.Do("/bin/chmod", "755", "checkout/collektive");
@@ -235,7 +235,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
-        public void The_log_is_shown_in_its_folder()
+        public void Open_Log_reveals_the_log_file()
         {
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Open Log");
             Assert.That(Project.Revealed, Is.EqualTo(Application.consoleLogPath));

@@ -8,7 +8,7 @@ namespace Collektive.Headless.Tests.Editor
     {
         [TestCase("Node")]
         [TestCase("Simulation Manager")]
-        public void What_the_menu_makes_can_be_undone(string name)
+        public void Objects_created_from_the_menu_can_be_undone(string name)
         {
             Project.Undoable.Clear();
             EditorApplication.ExecuteMenuItem("GameObject/Collektive/" + name);

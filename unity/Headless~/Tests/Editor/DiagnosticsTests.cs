@@ -12,7 +12,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>The manager's inspector and the diagnostics window, of a simulation that runs.</summary>
+    /// <summary>The manager's inspector and the diagnostics window during a simulation.</summary>
     public sealed class DiagnosticsTests : SimulationFixture
     {
         [SetUp]
@@ -44,7 +44,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void A_nodes_answer_is_shown_by_field()
+        public void Fields_of_a_nodes_answer_are_listed()
         {
             MakeThree();
             var values = new Diagnostics(Manager).Values(1);
@@ -53,7 +53,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void An_answer_is_shown_until_the_next_one_with_its_tick()
+        public void The_last_answer_and_its_tick_are_kept_until_the_next_answer()
         {
             var node = MakeThree()[1].Node;
             node.Sleep(10);
@@ -79,7 +79,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void Errors_of_nodes_that_have_left_are_added_up()
+        public void Errors_of_departed_nodes_are_summed()
         {
             var nodes = MakeThree();
             for (var i = 0; i < 3; i++) nodes[i].Node.gameObject.AddComponent<BrokenSensor>();
@@ -93,13 +93,13 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Manager.ErrorCount, Is.EqualTo(7));
             nodes[0].Node.enabled = true;
             Play(1);
-            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "it came back as another node");
+            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "after rejoining it is another node");
             Manager.enabled = false;
             Assert.That(Manager.Errors.Count, Is.EqualTo(3), "the end of the simulation keeps them");
         }
 
         [Test]
-        public void Durations_and_the_log_are_kept_while_it_is_attached()
+        public void Durations_and_log_lines_are_collected_until_Dispose()
         {
             const string line = "info: [node 0, program trouble] a line from the program";
             const float printing = 20;
@@ -119,7 +119,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_window_shows_nodes_and_on_a_click_their_values()
+        public void Expanding_a_node_in_the_window_shows_its_values()
         {
             MakeThree();
             Draw();
@@ -133,7 +133,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void Of_many_nodes_the_window_draws_those_in_view_and_all_are_reached_by_scrolling()
+        public void The_window_draws_only_visible_rows_and_can_scroll_to_the_last()
         {
             for (var i = 0; i < 1000; i++) MakeNode(0, i * Vector3.right);
             Play(1);
@@ -144,7 +144,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Act("scroll", new Vector2(0, 1e6f));
             Draw();
             Draw();
-            Assert.That(Rows().Count, Is.EqualTo(0), "beyond the end there is nothing");
+            Assert.That(Rows().Count, Is.EqualTo(0), "no rows beyond the end");
             Gui.Act("scroll", new Vector2(0, 20 * 990));
             Draw();
             Draw();
@@ -152,7 +152,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void A_node_that_is_destroyed_between_two_looks_of_the_window_is_drawn_as_such()
+        public void A_destroyed_node_is_marked_until_the_window_updates()
         {
             var nodes = MakeThree();
             Draw();
@@ -173,7 +173,7 @@ namespace Collektive.Headless.Tests.Editor
             var file = Path.Combine(Path.GetTempPath(), "collektive-" + System.Guid.NewGuid().ToString("N") + ".jfr");
             try
             {
-                // The recorder asks the JVM twice a second.
+                // The recorder polls the JVM twice a second.
                 System.Threading.Thread.Sleep(600);
                 Gui.Passes(inspector.OnInspectorGUI, () =>
                 {
@@ -192,7 +192,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_window_has_a_tab_for_each_question()
+        public void The_window_has_tabs_for_errors_times_and_log()
         {
             MakeThree();
             Draw();
@@ -207,7 +207,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void Without_a_manager_the_window_says_what_to_do()
+        public void Without_a_manager_the_window_shows_a_hint()
         {
             Object.DestroyImmediate(Manager.gameObject);
             Draw();
@@ -215,7 +215,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_window_lives_through_the_end_of_play_mode()
+        public void The_window_survives_the_end_of_play_mode()
         {
             MakeThree();
             Draw();
@@ -246,7 +246,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_dashboard_counts_what_the_network_does_to_messages()
+        public void The_dashboard_counts_dropped_and_delayed_messages()
         {
             Configure("double", settings => settings.network = new NetworkModel { loss = 1 });
             MakeThree();
@@ -273,7 +273,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void A_flight_recording_is_started_dumped_stopped_and_found_in_the_inspector()
+        public void A_flight_recording_can_be_started_dumped_stopped_and_shown_from_the_inspector()
         {
             MakeThree();
             var before = Directory.GetCurrentDirectory();
@@ -307,7 +307,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_JVMs_settings_show_what_is_in_effect_and_what_is_wrong()
+        public void The_JVM_settings_show_effective_values_and_errors()
         {
             MakeThree();
             var asset = ScriptableObject.CreateInstance<Unity.JvmSettingsAsset>();
@@ -340,7 +340,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_JVMs_settings_are_edited_in_the_managers_inspector()
+        public void The_JVM_settings_can_be_edited_in_the_managers_inspector()
         {
             MakeThree();
             var inspector = UnityEditor.Editor.CreateEditor(Manager);
@@ -366,7 +366,7 @@ namespace Collektive.Headless.Tests.Editor
             inspector.OnInspectorGUI();
         }
 
-        /// <summary>Draws until a control is there: starting and writing a recording takes a moment.</summary>
+        /// <summary>Redraws until a control appears: starting and writing a recording takes a moment.</summary>
         private static void Inspect(UnityEditor.Editor inspector, string awaited)
         {
             var clock = System.Diagnostics.Stopwatch.StartNew();
@@ -381,10 +381,10 @@ namespace Collektive.Headless.Tests.Editor
                 System.Threading.Thread.Sleep(50);
             }
             while (clock.Elapsed.TotalSeconds < 30);
-            Assert.Fail("there is no '" + awaited + "': " + string.Join("\n", Gui.Lines));
+            Assert.Fail("'" + awaited + "' did not appear: " + string.Join("\n", Gui.Lines));
         }
 
-        /// <summary>0 and 1 exchange messages, 2 receives from 0; one tick is done.</summary>
+        /// <summary>Nodes 0 and 1 exchange messages, and 2 receives from 0. One tick has run.</summary>
         private List<ProbeNode> MakeThree()
         {
             var nodes = new List<ProbeNode> { MakeNode(1), MakeNode(2, Vector3.right), MakeNode(3, 2 * Vector3.right) };

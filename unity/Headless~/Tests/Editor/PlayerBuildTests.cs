@@ -14,7 +14,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>What the build of a player takes along, and that the player finds it; the scenes are files, as Unity writes them.</summary>
+    /// <summary>A player build packages the files of its simulations, and the player finds them. The scenes are written as by Unity.</summary>
     public sealed class PlayerBuildTests : ProjectFixture
     {
         private const string Manager = "de7f1c418113b5c64bd5634bfb1c00c4";
@@ -49,7 +49,7 @@ namespace Collektive.Headless.Tests.Editor
         [TestCase(BuildTarget.StandaloneOSX, "x64ARM64", "mac-arm64 mac-x64")]
         [TestCase(BuildTarget.StandaloneOSX, "ARM64", "mac-arm64")]
         [TestCase(BuildTarget.StandaloneOSX, "x64", "mac-x64")]
-        public void A_player_takes_the_JVMs_of_its_platform_along(BuildTarget target, string architecture, string platforms)
+        public void A_player_contains_the_JVMs_of_its_platform(BuildTarget target, string architecture, string platforms)
         {
             Select(target, architecture);
             Players.Build(target, Assets, Scene());
@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_player_finds_what_was_taken_along()
+        public void The_player_finds_its_packaged_files()
         {
             var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>(Library);
             var content = File.ReadAllBytes(Library);
@@ -75,7 +75,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(File.ReadAllBytes(Installation.HostJar), Is.EqualTo(File.ReadAllBytes(Path.Combine(Root, "jvm-host/host/target/collektive-host.jar"))));
             Assert.That(File.Exists(Installation.LibraryJar), Is.True);
             Assert.That(File.ReadAllText(Installation.Bundled + "/lib/modules"), Is.EqualTo(Installation.Platform));
-            Assert.That(Installation.PathOf("mine.jar"), Is.EqualTo(Path.GetFullPath("mine.jar")), "one that came with nothing is where it is");
+            Assert.That(Installation.PathOf("mine.jar"), Is.EqualTo(Path.GetFullPath("mine.jar")), "a file that was not packaged keeps its path");
         }
 
         [Test]
@@ -115,7 +115,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_jars_of_Collektive_come_along()
+        public void A_player_contains_the_jars_of_Collektive()
         {
             Write("jars/dsl.jar", "dsl");
             Players.Build(BuildTarget.StandaloneLinux64, Assets, Scene("runtime", "Collektive", "runtimeJars", "jars"));
@@ -124,7 +124,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test, Category("Slow"), Category("Mono")]
-        public void Programs_that_changed_are_built_first()
+        public void Changed_programs_are_built_before_the_player()
         {
             UseKotlin();
             Write("Assets/Swarm/swarm.fbs", BuildTests.Schema);
@@ -138,7 +138,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void A_scene_that_could_not_start_fails_the_build()
+        public void A_scene_that_cannot_start_fails_the_build()
         {
             Fails("jar missing.jar does not exist: select a library of programs", "jars.Array.data[0]", "missing.jar", "schema", Schema);
             Fails("delta time is 0 s", "deltaTime", "0");
@@ -155,11 +155,11 @@ namespace Collektive.Headless.Tests.Editor
             var error = Assert.Throws<BuildFailedException>(() => Players.Build(BuildTarget.StandaloneWindows64, Assets, Scene()));
             Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: no JVM package is installed"));
             Assert.That(error.Message, Is.StringContaining("install org.collektive.unity.jvm.win-x64, or set Location in the JVM settings to JAVA_HOME"));
-            Assert.That(Directory.Exists(Assets), Is.False, "nothing is half done");
+            Assert.That(Directory.Exists(Assets), Is.False, "no partial output");
         }
 
         [Test]
-        public void A_JVM_for_one_of_two_kinds_of_Mac_is_enough()
+        public void A_JVM_for_one_Mac_architecture_is_enough()
         {
             Directory.Delete("Packages/org.collektive.unity.jvm.mac-x64", true);
             Players.Build(BuildTarget.StandaloneOSX, Assets, Scene());
@@ -190,7 +190,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void Scenes_without_a_simulation_need_nothing()
+        public void A_player_without_a_simulation_contains_no_JVM()
         {
             Directory.Delete("Packages/org.collektive.unity.jvm.linux-x64", true);
             Write("Assets/Menu.unity", "%YAML 1.1\n");
@@ -199,7 +199,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void A_build_that_names_no_scenes_is_of_the_open_ones()
+        public void A_build_without_listed_scenes_uses_the_open_scenes()
         {
             new GameObject("Manager").AddComponent<SimulationManager>().Settings.jars.Add("missing.jar");
             UnityEngine.Object.FindAnyObjectByType<SimulationManager>().Settings.schema = Schema;
@@ -281,7 +281,7 @@ namespace Collektive.Headless.Tests.Editor
             return "{fileID: " + id + ", guid: " + guid + ", type: 3}";
         }
 
-        /// <summary>Goes on as the player that was built: elsewhere, without the project and the editor's ways.</summary>
+        /// <summary>Continues as the built player: in another folder, without the project and the editor's paths.</summary>
         private static void EnterPlayer()
         {
             Loop.DataPath = Path.GetFullPath("player/Swarm_Data");

@@ -70,7 +70,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_index_of_a_class_that_is_gone_does_not_count()
+        public void The_index_of_a_removed_class_is_ignored()
         {
             Pack(Path, ("swarm.HopsKt", Program("hops")), ("-swarm.GoneKt", Program("gone")));
             Assert.That(Load(Path).Programs.Select(program => program.Name), Is.EqualTo(new[] { "hops" }));

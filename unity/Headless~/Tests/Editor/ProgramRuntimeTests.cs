@@ -11,7 +11,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>
-    /// Tools &gt; Collektive &gt; Rebuild Programs for a scene that runs on Collektive. The package's library and compiler plugin stand in for Collektive's.
+    /// Tools &gt; Collektive &gt; Rebuild Programs for a scene that runs on Collektive. The package's library and compiler plugin replace Collektive's.
     /// </summary>
     [Category("Mono")]
     public sealed class ProgramRuntimeTests : ProjectFixture
@@ -56,7 +56,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void Missing_jars_are_an_error_that_says_what_to_get()
+        public void Missing_jars_are_reported_with_the_artifacts_to_install()
         {
             settings.runtimeJars = "nowhere";
             Rebuild();
@@ -64,7 +64,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test, Category("Slow")]
-        public void A_missing_plugin_is_an_error_that_says_what_to_get()
+        public void A_missing_plugin_is_reported_with_the_setting_to_change()
         {
             settings.runtimePlugin = "";
             Rebuild();
@@ -72,7 +72,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test, Category("Slow")]
-        public void A_jar_that_is_no_plugin_is_refused()
+        public void A_jar_without_a_compiler_plugin_is_rejected()
         {
             settings.runtimePlugin = "collektive/library.jar";
             Rebuild();

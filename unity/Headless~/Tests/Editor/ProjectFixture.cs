@@ -9,13 +9,13 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>A Unity project in a temporary folder, with the package's built tools where its tarball has them.</summary>
+    /// <summary>A Unity project in a temporary folder, with the package's tools at their paths in the tarball.</summary>
     public abstract class ProjectFixture
     {
         private string before;
         private string folder;
 
-        /// <summary>What was logged, as "TYPE: TEXT".</summary>
+        /// <summary>Log messages as "TYPE: TEXT".</summary>
         protected List<string> Log { get; } = new List<string>();
 
         protected static string Root => Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT");
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Editor
             return found;
         }
 
-        /// <summary>A Kotlin compiler as it is downloaded, with the jars that the build uses.</summary>
+        /// <summary>Writes a Kotlin compiler in its distributed layout, with the jars that the build uses.</summary>
         protected static void UseKotlin(string version = "2.4.21-release-1")
         {
             Write("kotlinc/build.txt", version);

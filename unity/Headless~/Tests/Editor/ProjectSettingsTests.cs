@@ -57,7 +57,7 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_page_shows_which_tools_are_used_and_what_is_wrong_with_them()
+        public void The_settings_page_shows_the_tools_and_their_errors()
         {
             PersonalSettings.instance.jdk = "/nowhere/jdk";
             UseKotlin();

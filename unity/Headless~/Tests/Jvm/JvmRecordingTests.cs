@@ -8,7 +8,7 @@ using probe;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Flight recordings while a session runs, read with the JDK's own tool.</summary>
+    /// <summary>Flight recordings during a session, read with the JDK's jfr tool.</summary>
     [TestFixture]
     public sealed class JvmRecordingTests
     {
@@ -43,12 +43,12 @@ namespace Collektive.Headless.Tests
                 Console.WriteLine(
                     "  recording: started in " + start + " ms, written in " + stop + " ms; longest tick " + during.ToString("0.0") +
                     " ms meanwhile, " + usual.ToString("0.0") + " ms before");
-                // The first of a JVM takes some hundred milliseconds, later ones few.
+                // The first recording of a JVM takes some hundred milliseconds to start, later ones a few.
                 if (start >= 200) Assert.That(during, Is.LessThan(start / 2.0));
             }
         }
 
-        /// <summary>The longest tick in milliseconds.</summary>
+        /// <summary>Returns the longest tick in milliseconds.</summary>
         private static double TickUntil(Session session, Func<bool> done, int ticks)
         {
             var longest = 0.0;
@@ -63,7 +63,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void A_recording_between_two_ticks_shows_each_tick_after_it()
+        public void A_recording_started_between_ticks_contains_each_later_tick()
         {
             var file = Path.Combine(folder, "play.jfr");
             using (var session = TestJvm.Open("double"))
@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void What_cannot_be_recorded_says_why()
+        public void Recording_errors_report_the_reason()
         {
             JvmRecording.Start(Path.Combine(folder, "a.jfr"), "fastest");
             Assert.That(WaitFor(RecordingState.Off).RecordingError, Is.StringContaining("unknown settings 'fastest'"));

@@ -21,7 +21,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void Each_field_has_a_label_a_tooltip_and_for_numbers_a_range()
+        public void Each_field_has_a_label_and_tooltip_and_numbers_have_a_range()
         {
             var fields = typeof(JvmSettings).GetFields(BindingFlags.Public | BindingFlags.Instance).Select(field => field.Name);
             Assert.That(JvmSetting.All.Select(setting => setting.Key), Is.EquivalentTo(fields));
@@ -34,31 +34,31 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void Untouched_settings_choose_the_collector_only_and_a_flag_may_choose_another()
+        public void Default_settings_select_only_the_collector_and_a_flag_can_override_it()
         {
-            Assert.That(Words(new JvmSettings { cdsArchive = false }), Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2"));
-            Assert.That(Words(new JvmSettings { cdsArchive = false, flags = { "-XX:+UseZGC" } }), Is.EqualTo("-XX:+UseZGC"));
+            Assert.That(OptionsOf(new JvmSettings { cdsArchive = false }), Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2"));
+            Assert.That(OptionsOf(new JvmSettings { cdsArchive = false, flags = { "-XX:+UseZGC" } }), Is.EqualTo("-XX:+UseZGC"));
             Assert.That(new JvmSettings().FindProblems(), Is.Empty);
         }
 
         [Test]
-        public void Each_setting_becomes_its_words_and_free_flags_come_last()
+        public void Settings_become_JVM_options_and_custom_flags_come_last()
         {
             var settings = new JvmSettings
             {
                 initialHeapMb = 64, maximumHeapMb = 128, collector = JvmCollector.Z, compiler = JvmCompiler.C1, compileThreshold = 50, codeCacheMb = 48,
                 cdsArchive = false, assertions = true, debugPort = 5005, repeatableMaths = true, flags = new List<string> { "-Xss2m" },
             };
-            Assert.That(Words(settings), Is.EqualTo(
+            Assert.That(OptionsOf(settings), Is.EqualTo(
                 "-Xms64m -Xmx128m -XX:+UseZGC -XX:TieredStopAtLevel=1 -XX:CompileThresholdScaling=0.5 -XX:ReservedCodeCacheSize=48m -ea " +
                 "--add-exports=java.base/jdk.internal.vm=ALL-UNNAMED -agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:5005 " +
                 "-XX:+UnlockDiagnosticVMOptions -XX:-UseLibmIntrinsic -Xss2m"));
-            Assert.That(Words(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }),
+            Assert.That(OptionsOf(new JvmSettings { cdsArchive = false, compiler = JvmCompiler.Interpreter }),
                 Is.EqualTo("-XX:+UseSerialGC -XX:MaxTenuringThreshold=2 -Xint"));
         }
 
         [Test]
-        public void The_class_archive_is_one_file_per_jvm_and_host_in_the_cache_of_those_that_can_make_it()
+        public void Each_JVM_and_host_jar_has_its_own_class_archive_in_the_cache()
         {
             var folder = Path.Combine(Path.GetTempPath(), "collektive-cache-test");
             var words = new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options;
@@ -87,7 +87,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void Class_archives_that_no_JVM_would_replace_are_removed()
+        public void Truncated_and_outdated_class_archives_are_removed()
         {
             if (JvmSettings.JavaVersion(TestJvm.Home) < 19) return;
             var folder = Path.Combine(Path.GetTempPath(), "collektive-archives-" + System.Guid.NewGuid().ToString("N"));
@@ -111,7 +111,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void Without_a_folder_for_the_class_archive_the_jvm_starts_without_it_and_says_so()
+        public void Without_a_writable_cache_the_class_archive_is_disabled_with_a_note()
         {
             var launch = new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, "/proc/nobody/Collektive");
             Assert.That(launch.Options, Is.EqualTo(new[] { "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2" }));
@@ -125,7 +125,7 @@ namespace Collektive.Headless.Tests
         [TestCase("compileThreshold", 0)]
         [TestCase("debugPort", 80)]
         [TestCase("debugPort", 70000)]
-        public void A_number_out_of_its_range_is_a_problem_of_its_field(string key, int value)
+        public void A_number_out_of_range_is_reported_for_its_field(string key, int value)
         {
             var settings = new JvmSettings();
             JvmSetting.Find(key).Set(settings, value);
@@ -135,7 +135,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void What_contradicts_itself_is_a_problem()
+        public void Inconsistent_settings_are_reported()
         {
             Assert.That(Problem(new JvmSettings { initialHeapMb = 200, maximumHeapMb = 100 }, "initialHeapMb"), Is.StringContaining("200 MB"));
             Assert.That(Problem(new JvmSettings { location = JvmLocation.Folder }, "home"), Is.StringContaining("choose"));
@@ -149,7 +149,7 @@ namespace Collektive.Headless.Tests
         [TestCase("-XX:-UseSignalChaining", "flags", "signal handlers")]
         [TestCase("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=*:5005", "flags", "address=127.0.0.1")]
         [TestCase("-XX:+UseParallelGC", "collector", "ollectors selected")]
-        public void A_flag_that_the_jvm_or_the_editor_cannot_bear_is_refused_at_its_field_with_the_reason(string flag, string key, string reason)
+        public void An_unsupported_flag_is_reported_for_its_field_with_the_reason(string flag, string key, string reason)
         {
             var settings = TestJvm.Settings;
             settings.flags.Add(flag);
@@ -159,7 +159,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void A_heap_that_the_machine_cannot_give_is_a_problem_of_the_heap()
+        public void A_heap_that_cannot_be_reserved_is_reported_only_for_the_heap_settings()
         {
             var report = JvmReport.Of(new JvmSettings { initialHeapMb = 1 << 20, maximumHeapMb = 1 << 20, cdsArchive = false }, TestJvm.Launch);
             Assert.That(report.IsValid, Is.False);
@@ -168,7 +168,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void A_port_that_is_taken_is_a_problem_of_the_debugger()
+        public void A_debug_port_in_use_is_reported()
         {
             var other = new System.Net.Sockets.TcpListener(System.Net.IPAddress.Loopback, 0);
             other.Start();
@@ -186,7 +186,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void The_jvm_is_looked_for_where_the_settings_say()
+        public void The_JVM_is_searched_at_the_configured_location()
         {
             Installation.HostJar = TestJvm.HostJar;
             Installation.JavaHome = TestJvm.Home;
@@ -198,7 +198,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void Each_setting_shows_its_value_in_effect()
+        public void Each_setting_reports_its_effective_value()
         {
             var report = JvmReport.Of(TestJvm.Settings, TestJvm.Launch);
             Assert.That(report.IsValid, Is.True);
@@ -218,7 +218,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void Changed_settings_say_that_a_restart_is_due_and_what_runs_now()
+        public void Changed_settings_report_the_required_restart_and_the_running_options()
         {
             var settings = TestJvm.Settings;
             settings.maximumHeapMb = 512;
@@ -230,12 +230,12 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void A_new_asset_has_untouched_settings()
+        public void A_new_settings_asset_is_valid()
         {
             Assert.That(ScriptableObject.CreateInstance<JvmSettingsAsset>().settings.FindProblems(), Is.Empty);
         }
 
-        private static string Words(JvmSettings settings) => string.Join(" ", settings.ToLaunch(TestJvm.Home, TestJvm.HostJar, "unused").Options);
+        private static string OptionsOf(JvmSettings settings) => string.Join(" ", settings.ToLaunch(TestJvm.Home, TestJvm.HostJar, "unused").Options);
 
         private static string Problem(JvmSettings settings, string key) => settings.FindProblems().Single(problem => problem.Key == key).Message;
     }

@@ -6,8 +6,8 @@ using NUnit.Framework;
 namespace Collektive.Headless.Tests
 {
     /// <summary>
-    /// A process that has no usable native library plays 50 frames: one error names the platform and says what to do, nothing throws. Processes of
-    /// their own, since this one has the library.
+    /// A process without a usable native library plays 50 frames. One error names the platform and the solution, and nothing throws. The tests start
+    /// separate processes because this one has loaded the library.
     /// </summary>
     [TestFixture]
     public sealed class MissingLibraryTests
@@ -32,18 +32,18 @@ namespace Collektive.Headless.Tests
 
         [TestCase("editor")]
         [TestCase("player")]
-        public void A_missing_library_is_one_error(string where) => CheckOneError(Play(where), "Linux", "X64");
+        public void A_missing_library_logs_one_error(string where) => CheckOneError(Play(where), "Linux", "X64");
 
         [TestCase("editor")]
         [TestCase("player")]
-        public void A_library_of_another_platform_is_one_error(string where)
+        public void A_library_of_another_platform_logs_one_error(string where)
         {
             File.WriteAllText(Path.Combine(folder, Library), "MZ: not for this platform");
             CheckOneError(Play(where), "Linux", "X64");
         }
 
         [Test]
-        public void Another_library_of_that_name_is_one_error()
+        public void An_unrelated_library_of_that_name_logs_one_error()
         {
             File.Copy(Path.Combine(TestJvm.Home, "lib/libjli.so"), Path.Combine(folder, Library));
             CheckOneError(Play("editor"), "clk_version");
@@ -51,7 +51,7 @@ namespace Collektive.Headless.Tests
 
         [TestCase("editor")]
         [TestCase("player")]
-        public void On_a_platform_without_the_library_is_one_error(string where)
+        public void An_unsupported_platform_logs_one_error(string where)
         {
             foreach (var assembly in Directory.GetFiles(Assemblies, "*.dll")) File.Copy(assembly, Path.Combine(folder, Path.GetFileName(assembly)));
             File.Copy(Path.Combine(Assemblies, Program), Path.Combine(folder, Program));
@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests
 
         private string Play(string where) => Play(where, Assemblies);
 
-        /// <summary>What the process prints of its errors; its assemblies are those of a folder.</summary>
+        /// <summary>Runs the process with the assemblies of a folder, and returns its summary of errors.</summary>
         private string Play(string where, string assemblies)
         {
             var arguments = "--debug \"" + Path.Combine(assemblies, Program) + "\" " + where;

@@ -17,7 +17,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void A_killed_JVM_ends_only_the_session()
+        public void A_killed_JVM_ends_the_session_and_can_be_restarted()
         {
             var before = Jvm.Process;
             using (var session = TestJvm.Open("sum"))
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void The_status_names_the_process_and_its_age()
+        public void The_status_contains_the_process_id_and_uptime()
         {
             Thread.Sleep(20);
             var status = Jvm.GetStatus();

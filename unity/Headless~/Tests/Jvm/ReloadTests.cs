@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Each session loads its programs anew; what an ended one loaded goes.</summary>
+    /// <summary>Each session loads its programs again, and closing it unloads them.</summary>
     [TestFixture]
     [Category("Slow")]
     public sealed class ReloadTests
@@ -20,24 +20,24 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void A_hundred_reloads_leave_classes_and_metaspace_as_they_were()
+        public void A_hundred_reloads_do_not_leak_classes_or_metaspace()
         {
             for (var i = 0; i < 10; i++) Play();
-            var before = Settled();
+            var before = StatusAfterCollection();
             var clock = Stopwatch.StartNew();
             for (var i = 0; i < 100; i++) Play();
             Console.WriteLine("  a reload with three ticks: " + (clock.Elapsed.TotalMilliseconds / 100).ToString("0.0") + " ms");
-            var after = Settled();
+            var after = StatusAfterCollection();
             using (TestJvm.Open("sum"))
             {
-                Assert.That(Settled().Classes - after.Classes, Is.GreaterThan(3), "the count sees the classes of one session");
+                Assert.That(StatusAfterCollection().Classes - after.Classes, Is.GreaterThan(3), "the count sees the classes of one session");
             }
             Assert.That(after.Classes - before.Classes, Is.LessThan(100), "classes: " + before.Classes + " -> " + after.Classes);
             Assert.That(after.MetaspaceUsed - before.MetaspaceUsed, Is.LessThan(Mebi), "metaspace: " + before.MetaspaceUsed + " -> " + after.MetaspaceUsed);
         }
 
-        /// <summary>The threads of a session that was closed just now hold its classes for some milliseconds.</summary>
-        private static JvmStatus Settled()
+        /// <summary>Returns the status after garbage collections. The threads of a closed session keep its classes for some milliseconds.</summary>
+        private static JvmStatus StatusAfterCollection()
         {
             for (var i = 0; i < 3; i++)
             {

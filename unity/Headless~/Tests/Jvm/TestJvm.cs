@@ -4,12 +4,12 @@ using probe;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>The one JVM of the tests' process.</summary>
+    /// <summary>The JVM of the test process.</summary>
     internal static class TestJvm
     {
         private const int StopLimitMs = 5000;
 
-        /// It outlives plays, as in an editor, but not the process: its threads would run on without the runtime's signal handlers.
+        // As in an editor, the JVM outlives each play. It must stop before the process does: its threads would lack the runtime's signal handlers.
         static TestJvm()
         {
             UnityEngine.Headless.Loop.IsEditor = true;
@@ -20,31 +20,31 @@ namespace Collektive.Headless.Tests
 
         internal static string HostJar => Variable("COLLEKTIVE_HOST_JAR");
 
-        /// <summary>Its settings; a new object each time.</summary>
+        /// <summary>A new object with the settings of the test JVM.</summary>
         internal static JvmSettings Settings => new JvmSettings
         {
             placement = Placement, maximumHeapMb = 256, collector = JvmCollector.Serial, cdsArchive = false,
         };
 
-        /// <summary>The placement of this run of the tests.</summary>
+        /// <summary>The placement that this test run uses.</summary>
         internal static JvmPlacement Placement { get; } = (JvmPlacement)Enum.Parse(
             typeof(JvmPlacement), Environment.GetEnvironmentVariable("COLLEKTIVE_TEST_PLACEMENT") ?? nameof(JvmPlacement.InProcess));
 
-        /// <summary>When the inspector says that changed settings take effect.</summary>
+        /// <summary>The inspector's text for when changed settings take effect.</summary>
         internal static string WhenChangesTakeEffect => Placement == JvmPlacement.OwnProcess ? "at the next Play" : "after a restart of the editor";
 
-        /// <summary>The state of a running JVM in the dashboard.</summary>
+        /// <summary>The dashboard's text for a running JVM.</summary>
         internal static string Running => Placement == JvmPlacement.OwnProcess ? "running, process " + Jvm.Process : "running";
 
         internal static JvmLaunch Launch(JvmSettings settings) => settings.ToLaunch(Home, HostJar, "unused");
 
         internal static void Start() => Jvm.Start(Launch(Settings));
 
-        /// <summary>A session of the probe programs on it.</summary>
+        /// <summary>Opens a session of the probe programs.</summary>
         internal static Session Open(string program) => Session.Open(
             new SessionSettings { Seed = 1, Program = program, Jars = new[] { Variable("COLLEKTIVE_PROBE_JAR") } }, new ProbeSchema());
 
-        /// <summary>One tick with one node.</summary>
+        /// <summary>Runs one tick with one node.</summary>
         internal static void Tick(Session session)
         {
             var request = session.Request;

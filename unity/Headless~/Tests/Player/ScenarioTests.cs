@@ -8,7 +8,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Player
 {
-    /// <summary>A setting of the inspector is a key of scenario files and manifests, without a word about it here or there.</summary>
+    /// <summary>Settings of the inspector become keys of scenario files and manifests without extra code.</summary>
     [TestFixture]
     public sealed class ScenarioTests
     {
@@ -29,17 +29,17 @@ namespace Collektive.Headless.Tests.Player
         public void RemoveFolder() => Directory.Delete(folder, true);
 
         [Test]
-        public void Each_setting_of_the_inspector_is_a_key_unless_the_scenario_has_other_words_for_it()
+        public void Each_simulation_setting_without_an_equivalent_is_a_scenario_key()
         {
             var root = Minimal();
             var other = new Dictionary<string, JToken>();
             foreach (var field in typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance))
             {
-                if (Array.IndexOf(RenamedKeys, field.Name) < 0) other.Add(field.Name, Other(field.GetValue(new SimulationSettings())));
+                if (Array.IndexOf(RenamedKeys, field.Name) < 0) other.Add(field.Name, Vary(field.GetValue(new SimulationSettings())));
             }
             Assert.That(other.Keys, Has.Member("threads").And.Member("network").And.Member("stepLimitMs"));
             foreach (var setting in other) root[setting.Key] = setting.Value;
-            // Paths, which must be there.
+            // These paths must exist.
             foreach (var key in Paths) other.Remove(key);
             root[Paths[0]] = ".";
             root[Paths[1]] = "user.fbs";
@@ -53,7 +53,7 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
-        public void A_scenario_written_with_its_defaults_is_read_again_as_it_was()
+        public void A_scenario_with_all_defaults_round_trips()
         {
             var once = Read(Minimal()).ToJson(new JObject());
             foreach (var key in new[] { "seed", "deltaTime", "timing", "network", "threads", "stepLimitMs" }) Assert.That(once[key], Is.Not.Null, key);
@@ -81,11 +81,11 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be a number of seconds that is at least 'deltaTime'")]
         [TestCase("outputs", "{\"interval\": 1e9}", "'outputs.interval' is 1E+09: it must be a number of seconds that is at most 1E+08")]
         [TestCase("outputs", "{\"nodes\": {\"field\": []}}", "unknown key 'outputs.nodes.field'; known here: fields, interval")]
-        public void Errors_in_keys_of_experiments_have_their_line(string key, string value, string message) =>
+        public void Errors_in_experiment_keys_name_their_position(string key, string value, string message) =>
             Errors_name_their_position(key, value, message);
 
         [Test]
-        public void Each_key_can_be_set_from_outside()
+        public void Keys_can_be_set_on_the_command_line()
         {
             var root = Minimal();
             root["network"] = JObject.Parse("{\"loss\": 0.5, \"delay\": 2}");
@@ -105,7 +105,7 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("nodes=3", "nodes=3")]
         [TestCase("fields.nodes=3", "nodes=3")]
-        public void A_name_that_is_no_key_is_a_field_of_the_scene(string text, string field)
+        public void Any_other_name_sets_a_field_of_the_scene_builder(string text, string field)
         {
             Assert.That(Assignment.Parse(text, out var found), Is.Null);
             Assert.That(found, Is.EqualTo(field));
@@ -119,12 +119,12 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("seconds.x=1", "'seconds.x' cannot be set: 'seconds' is not an object")]
         [TestCase("threads=many", "'threads' is \"many\"; it must be of type whole number")]
         [TestCase("threads", "--set threads: write it as --set KEY=VALUE")]
-        public void What_is_wrong_from_outside_is_named(string assignment, string message) =>
+        public void Invalid_assignments_are_reported(string assignment, string message) =>
             Assert.That(Assert.Throws<ScenarioException>(() => Read(Minimal(), assignment)).Message, Is.StringContaining(message));
 
         [TestCase(1, null)]
         [TestCase(2, 3.0)]
-        public void A_metric_has_converged_when_it_stayed_in_its_band_for_long_enough(double to, double? expected)
+        public void A_metric_converges_when_it_stays_in_its_band(double to, double? expected)
         {
             var root = Minimal();
             root["converged"] = new JObject(new JProperty("error", new JObject(new JProperty("to", to), new JProperty("seconds", 2))));
@@ -150,7 +150,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("-ea:org.example...")]
         [TestCase("-Dexample.size=3")]
         [TestCase("--add-opens=java.base/java.lang=ALL-UNNAMED")]
-        public void A_flag_that_does_nothing_to_the_machine_is_accepted(string flag) => Assert.That(ReadWith(flag, false).Jvm.flags, Has.Member(flag));
+        public void A_harmless_flag_is_accepted(string flag) => Assert.That(ReadWith(flag, false).Jvm.flags, Has.Member(flag));
 
         [TestCase("-Xlog:gc:file=/home/me/thesis.tex")]
         [TestCase("-Xlog:gc:/home/me/thesis.tex")]
@@ -213,7 +213,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("-010")]
         [TestCase("0x10")]
         [TestCase("1.")]
-        public void Numbers_that_JSON_does_not_have_are_refused_with_their_line(string number)
+        public void Invalid_JSON_numbers_are_rejected_with_their_line(string number)
         {
             var text = Minimal().ToString().Replace("\"seconds\": 1", "\"seconds\": 1, // it's 007\n\"threads\": " + number);
             var line = Array.FindIndex(text.Split('\n'), each => each.Contains("threads")) + 1;
@@ -223,7 +223,7 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("2.5e+3", 2500)]
         [TestCase("-0.5E-1 /* 010 */", -0.05)]
-        public void Numbers_of_JSON_are_read(string text, double number) => Assert.That((double)JsonFile.Parse(text), Is.EqualTo(number));
+        public void Valid_JSON_numbers_are_read(string text, double number) => Assert.That((double)JsonFile.Parse(text), Is.EqualTo(number));
 
         [TestCase(0.01f, 10000)]
         [TestCase(0.02f, 5000)]
@@ -231,7 +231,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase(0.1f, 1000)]
         [TestCase(0.03f, 3334)]
         [TestCase(1 / 3f, 300)]
-        public void A_row_is_due_in_each_interval_however_many_ticks_there_are(float deltaTime, int ticks)
+        public void One_row_is_due_per_interval_for_any_tick_length(float deltaTime, int ticks)
         {
             var rows = new RowSchedule(1, deltaTime);
             var count = 0;
@@ -247,7 +247,7 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("home", "\"jdk\"")]
         [TestCase("debugPort", "5005")]
-        public void A_setting_of_the_jvm_that_opens_ports_or_runs_other_code_needs_trust(string key, string value)
+        public void A_JVM_setting_that_opens_ports_or_selects_another_JVM_needs_trust(string key, string value)
         {
             var root = Minimal();
             root["jvm"] = new JObject(new JProperty(key, JToken.Parse(value)));
@@ -282,8 +282,8 @@ namespace Collektive.Headless.Tests.Player
         private static JObject Minimal() => JObject.Parse(
             "{\"version\": 1, \"scene\": \"Scene\", \"scripts\": \".\", \"schema\": \"user.fbs\", \"programs\": \".\", \"program\": \"p\", \"seconds\": 1}");
 
-        /// <summary>A value that a setting does not have by default.</summary>
-        private static JToken Other(object value)
+        /// <summary>Returns a value that differs from the default.</summary>
+        private static JToken Vary(object value)
         {
             switch (value)
             {
@@ -295,7 +295,7 @@ namespace Collektive.Headless.Tests.Player
                 case Enum _: return Enum.GetNames(value.GetType())[1];
             }
             var parts = new JObject();
-            foreach (var field in value.GetType().GetFields(BindingFlags.Public | BindingFlags.Instance)) parts.Add(field.Name, Other(field.GetValue(value)));
+            foreach (var field in value.GetType().GetFields(BindingFlags.Public | BindingFlags.Instance)) parts.Add(field.Name, Vary(field.GetValue(value)));
             return parts;
         }
 

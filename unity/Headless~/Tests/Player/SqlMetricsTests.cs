@@ -55,7 +55,7 @@ namespace Collektive.Headless.Tests.Player
             "max((select count(*) from nodes a, nodes b, nodes c, nodes d, nodes e, nodes f, nodes g, nodes h, nodes i, nodes j, nodes k, nodes l, nodes m, "
                 + "nodes n, nodes o, nodes p, nodes q, nodes r, nodes s, nodes t, nodes u, nodes v, nodes w, nodes aa, nodes bb, nodes cc, nodes dd))",
             -1, "it takes longer than 'stepLimitMs', 100 ms")]
-        public void Invalid_metrics_have_an_error_with_their_place(string sql, int character, string message)
+        public void Invalid_metrics_are_rejected_with_their_position(string sql, int character, string message)
         {
             var error = Assert.Throws<ScenarioException>(() => Make(sql).Dispose());
             Assert.That(error.Message, Is.StringContaining(message));
@@ -96,7 +96,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("max(x) + max(position_z)", 5)]
         [TestCase("sum((select count(*) from nodes other where other.x < nodes.x))", 6)]
         [TestCase("avg(id) -- a comment", 1.5)]
-        public void Values_are_those_of_SQL_with_NULL_for_NaN_and_missing_answers(string sql, double expected)
+        public void Metrics_follow_SQL_with_NULL_for_NaN_and_missing_answers(string sql, double expected)
         {
             var values = new[] { 2, 0, 0.5f };
             Configure("ratio");
@@ -114,7 +114,7 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
-        public void A_degree_is_the_number_of_nodes_heard()
+        public void The_degree_is_the_number_of_senders()
         {
             var nodes = new[] { MakeNode(1), MakeNode(2), MakeNode(3) };
             Manager.AddLink(nodes[0].Node.Id, nodes[1].Node.Id);
@@ -128,7 +128,7 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("count(maybeNumber) + count(maybe_number) + count(MAYBE_NUMBER)")]
         [TestCase("avg(position_x) + count(mode)")]
-        public void Columns_have_the_names_of_the_schema_and_of_Kotlin(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
+        public void Columns_accept_schema_and_Kotlin_names(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
 
         private double Measure(string sql)
         {

@@ -7,13 +7,13 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Reads a replay page after FORMAT.md alone, with none of the writer's code.</summary>
+    /// <summary>Decodes a replay page as described in FORMAT.md, without code of the writer.</summary>
     internal sealed class ReplayDecoder
     {
         internal struct Node
         {
             public float X, Y, Z, Scalar; // the first field
-            public double[] Values; // of all fields; NaN: none
+            public double[] Values; // of all fields; NaN if missing
         }
 
         internal sealed class Frame
@@ -35,7 +35,7 @@ namespace Collektive.Headless.Tests
         public ReplayDecoder(string html, string before, string after)
         {
             if (!html.StartsWith(before, StringComparison.Ordinal) || !html.EndsWith(after, StringComparison.Ordinal))
-                throw new InvalidDataException("the template is not kept");
+                throw new InvalidDataException("the template was changed");
             var text = html.Substring(before.Length, html.Length - before.Length - after.Length);
             var lines = text.Split('\n');
             Header = JObject.Parse(Encoding.UTF8.GetString(Unpack(lines[0])));
@@ -119,12 +119,12 @@ namespace Collektive.Headless.Tests
             foreach (var pair in ReadPairs(reader))
             {
                 frame.LinksChanged++;
-                if (!links.Remove(pair)) throw new InvalidDataException("removed link that was not there");
+                if (!links.Remove(pair)) throw new InvalidDataException("removed an absent link");
             }
             foreach (var pair in ReadPairs(reader))
             {
                 frame.LinksChanged++;
-                if (!links.Add(pair)) throw new InvalidDataException("added link that was there");
+                if (!links.Add(pair)) throw new InvalidDataException("added an existing link");
             }
             foreach (var (a, b) in links)
             {

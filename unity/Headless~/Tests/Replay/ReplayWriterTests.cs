@@ -12,7 +12,7 @@ namespace Collektive.Headless.Tests
     [TestFixture]
     public sealed class ReplayWriterTests
     {
-        /// <summary>Of the default arena of 20 m.</summary>
+        /// <summary>The position step of the default arena of 20 m.</summary>
         private const double Step = 20.0 / 65535;
 
         private const string Before = "<html><script>", After = "</script> ü </html>";
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests
         public void DeleteFolder() => Directory.Delete(folder, true);
 
         [Test]
-        public void OneFrameWithoutNodes()
+        public void AFrameCanBeEmpty()
         {
             var replay = Record(writer => Frame(writer, 0));
             Assert.AreEqual(1, replay.Frames.Count);
@@ -46,7 +46,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void NodesThatComeAndGoTakeTheirLinksWithThem()
+        public void LinksDisappearWithTheirNodes()
         {
             var replay = Record(writer =>
             {
@@ -74,14 +74,14 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void SlotsOfNodesThatLeftGoToOthersSoThatMemoryStaysFlat()
+        public void SlotsOfDepartedNodesAreReused()
         {
             const int Nodes = 200, Stay = 5;
             long Memory(ReplayWriter writer, ref int next, int segments)
             {
                 for (var i = 0; i < segments * ReplayWriter.FramesPerSegment; i++)
                 {
-                    // A tenth of the nodes leaves in each frame, and others come.
+                    // Replace a tenth of the nodes in each frame.
                     next += Nodes / 10;
                     writer.BeginFrame(next);
                     for (var id = 0; id < Stay; id++) writer.Node(id, 0, 0, 0, id);
@@ -108,7 +108,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void ANodeThatReturnsMayHaveAnotherSlot()
+        public void AReturningNodeCanGetAnotherSlot()
         {
             var replay = Record(writer =>
             {
@@ -129,7 +129,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void LinksKeepTheirDirectionsAndRepeatedOnesAreOne()
+        public void LinksAreDirectedAndDuplicatesAreMerged()
         {
             var replay = Record(writer =>
             {
@@ -150,7 +150,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void LinksThatStayTakeNoSpace()
+        public void UnchangedLinksAreNotStoredAgain()
         {
             var replay = Record(writer =>
             {
@@ -170,7 +170,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void NodeWithoutScalarStaysWithout()
+        public void AMissingScalarIsReadAsNaN()
         {
             var replay = Record(writer =>
             {
@@ -186,7 +186,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void AScalarOfTheGreatestFloatsSurvives()
+        public void ExtremeScalarsRoundTrip()
         {
             var replay = Record(writer =>
             {
@@ -200,7 +200,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void ABodyThatLeavesTheArenaCostsTheOthersNoPrecision()
+        public void ANodeFarOutsideTheArenaDoesNotReduceThePrecisionOfOthers()
         {
             var far = (float)(Step * (1 << 30));
             var replay = Record(writer =>
@@ -216,14 +216,14 @@ namespace Collektive.Headless.Tests
             for (var time = 0; time < 5; time++)
             {
                 Assert.AreEqual(1.2345f, replay.Frames[time].Nodes[1].X, Step / 2 + 1e-6);
-                Assert.AreEqual(time % 2 == 0 ? -far : far, replay.Frames[time].Nodes[2].X, "the farthest that can be told");
+                Assert.AreEqual(time % 2 == 0 ? -far : far, replay.Frames[time].Nodes[2].X, "the farthest position that can be stored");
                 Assert.AreEqual(Math.Max(-1e6f * time, -far), replay.Frames[time].Nodes[2].Y, 1);
             }
         }
 
-        [TestCase(false, "[-1.0,0.0,-2.0]", "[3.0,1.0,2.0]", TestName = "AnArenaStays")]
-        [TestCase(true, "[-1.0,-4.0,-2.5]", "[7.0,1.0,2.0]", TestName = "AnArenaThatGrowsHoldsNodesUpToItsLongestSideAway")]
-        public void ArenaOf(bool grows, string least, string greatest)
+        [TestCase(false, "[-1.0,0.0,-2.0]", "[3.0,1.0,2.0]", TestName = "AFixedArenaIsUnchanged")]
+        [TestCase(true, "[-1.0,-4.0,-2.5]", "[7.0,1.0,2.0]", TestName = "AGrowingArenaExtendsByAtMostItsLongestSide")]
+        public void Arena(bool grows, string least, string greatest)
         {
             var metadata = new ReplayMetadata();
             metadata.SetArena(-1, 0, -2, 3, 1, 2, grows);
@@ -240,7 +240,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void LinksAboveTheBudgetAreASteadyShareOfAll()
+        public void LinksAboveTheBudgetAreSampledConsistently()
         {
             const int Nodes = 400;
             var replay = Record(writer =>
@@ -270,7 +270,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void FewLinksAreAllKept()
+        public void LinksBelowTheBudgetAreAllStored()
         {
             var replay = Record(writer =>
             {
@@ -284,7 +284,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void AMovingNodeTakesFewBytes()
+        public void AMovingNodeTakesUnderFiveBytesPerFrame()
         {
             const int Nodes = 1000, Frames = 100;
             var random = new Random(1);
@@ -315,7 +315,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void OnceTheGreatestFrameWasSeenAFrameAllocatesNothing()
+        public void FramesDoNotAllocateInSteadyState()
         {
             using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
             {
@@ -329,7 +329,7 @@ namespace Collektive.Headless.Tests
                         writer.EndFrame();
                     }
                 }
-                // Frames of one segment: what compresses it is made anew for each.
+                // Measure within one segment, because each segment allocates its compressor.
                 Write(0, 2 * ReplayWriter.FramesPerSegment + 1);
                 var before = GC.GetAllocatedBytesForCurrentThread();
                 Write(2 * ReplayWriter.FramesPerSegment + 1, 3 * ReplayWriter.FramesPerSegment - 1);
@@ -345,7 +345,7 @@ namespace Collektive.Headless.Tests
         [TestCase(6)]
         [TestCase(7)]
         [TestCase(8)]
-        public void RandomRunsComeBackWithinTheQuantisation(int seed)
+        public void RandomRunsRoundTripWithinQuantisationError(int seed)
         {
             var random = new Random(seed);
             var given = new List<ReplayDecoder.Frame>();
@@ -357,7 +357,7 @@ namespace Collektive.Headless.Tests
             Assert.AreEqual(given.Count, replay.Frames.Count);
             for (var i = 0; i < given.Count; i++)
             {
-                // Scalars are told within the range of their segment.
+                // Scalars are quantised over the range of their segment.
                 var segment = given.Skip(i / ReplayWriter.FramesPerSegment * ReplayWriter.FramesPerSegment).Take(ReplayWriter.FramesPerSegment);
                 var scalars = segment.SelectMany(frame => frame.Nodes.Values).Select(node => (double)node.Scalar).Where(value => !double.IsNaN(value)).ToList();
                 var range = scalars.Count == 0 ? 0 : scalars.Max() - scalars.Min();
@@ -403,7 +403,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void FieldsKeepTheirOwnValues()
+        public void ValuesOfEachFieldRoundTrip()
         {
             var fields = new[]
             {
@@ -444,7 +444,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void ACategoryIsAWholeNumber()
+        public void InvalidCategoryValuesAreRejected()
         {
             foreach (var value in new[] { 0.5, 1 << 30, double.NegativeInfinity })
             {
@@ -457,7 +457,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void MetricsAndMoversAreInTheHeader()
+        public void MetricsAndMovingShapesAreInTheHeader()
         {
             var metadata = new ReplayMetadata { Metrics = new ReplayMetrics(new[] { "found", "links" }) };
             var mover = metadata.AddMovingBox(1, 2, 3);
@@ -478,7 +478,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void BadFramesAreRefusedWithTheNodeAndTheFrame()
+        public void InvalidFramesAreRejectedWithNodeAndFrame()
         {
             AssertRefused<ArgumentException>("Node 5 is at (NaN, 0, 0) in frame 0", w => w.Node(5, float.NaN, 0, 0, 0));
             AssertRefused<ArgumentException>("Node 5 has an infinite value in frame 0", w => w.Node(5, 0, 0, 0, float.PositiveInfinity));
@@ -507,7 +507,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void ARunWithoutFramesHasNoPage()
+        public void FinishFailsWithoutFrames()
         {
             using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
                 StringAssert.Contains("the replay has no frames", Assert.Throws<InvalidOperationException>(() => writer.Finish(template, page)).Message);
@@ -515,7 +515,7 @@ namespace Collektive.Headless.Tests
 
         [TestCase("no placeholder")]
         [TestCase("@@REPLAY@@ @@REPLAY@@")]
-        public void AWrongTemplateIsNamed(string text)
+        public void AnInvalidTemplateIsReported(string text)
         {
             File.WriteAllText(template, text);
             using (var writer = new ReplayWriter(scratch, new ReplayMetadata()))
@@ -527,7 +527,7 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
-        public void NumbersOfTheMetadataMustBeFinite()
+        public void InvalidMetadataIsRejected()
         {
             Assert.Throws<ArgumentException>(() => new ReplayMetadata().AddSphere(0, 0, float.NaN, 1));
             Assert.Throws<ArgumentException>(() => new ReplayMetadata().SetArena(0, 0, 0, 0, 0, 0));
@@ -542,7 +542,7 @@ namespace Collektive.Headless.Tests
                 run(writer);
                 writer.Finish(template, page);
             }
-            Assert.IsFalse(File.Exists(scratch), "the scratch file stays");
+            Assert.IsFalse(File.Exists(scratch), "the scratch file was not deleted");
             return new ReplayDecoder(File.ReadAllText(page), Before, After);
         }
 
@@ -603,7 +603,7 @@ namespace Collektive.Headless.Tests
             foreach (var pair in expected.Nodes)
             {
                 var node = actual.Nodes[pair.Key];
-                // A float of that size has no finer steps itself.
+                // Floats of that size have no finer resolution.
                 void AssertNear(float wanted, float found) => Assert.AreEqual(wanted, found, tolerance + Math.Abs(wanted) * 1e-7);
                 AssertNear(pair.Value.X, node.X);
                 AssertNear(pair.Value.Y, node.Y);

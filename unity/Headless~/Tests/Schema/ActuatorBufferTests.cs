@@ -28,7 +28,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void ElementsAreThoseOfTheFrame()
+        public void ElementsMatchTheFrame()
         {
             actuators.Attach(new ByteBuffer(frame), position);
             Assert.That(actuators.Count, Is.EqualTo(3));
@@ -38,14 +38,14 @@ namespace Collektive.Headless.Tests.Schema
 
         [TestCase(-1)]
         [TestCase(3)]
-        public void AnIndexBeyondTheElementsIsRefused(int index)
+        public void AnIndexOutOfRangeThrows(int index)
         {
             actuators.Attach(new ByteBuffer(frame), position);
             Assert.Throws<ArgumentOutOfRangeException>(() => { var _ = actuators[index]; });
         }
 
         [Test]
-        public void AFrameCutShortIsRefusedAndThePreviousOneStays()
+        public void ATruncatedFrameIsRejectedAndThePreviousOneIsKept()
         {
             actuators.Attach(new ByteBuffer(frame), position);
             for (var length = 1; length < frame.Length; length++)
@@ -60,11 +60,11 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void ElementsStayReadableForOneMoreFrameAndThoseKeptForEver()
+        public void PreviousElementsAreReadableForOneFrameAndCopiesIndefinitely()
         {
             actuators.Attach(new ByteBuffer(frame), position);
             AnswerCopy kept = null;
-            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.Previous(0), "there is no former frame");
+            Assert.Throws<ArgumentOutOfRangeException>(() => actuators.Previous(0), "no previous frame");
             NextFrame(10);
             Assert.That(actuators[2].Target.X, Is.EqualTo(12));
             Assert.That(actuators.Previous(2).Target.X, Is.EqualTo(2));
@@ -75,7 +75,7 @@ namespace Collektive.Headless.Tests.Schema
             Assert.Throws<ArgumentOutOfRangeException>(() => actuators.CopyPrevious(3, ref kept));
         }
 
-        /// <summary>In the same memory, as a session's.</summary>
+        /// <summary>Writes the next frame into the same memory, as a session does.</summary>
         private void NextFrame(float first)
         {
             actuators.Retain();
@@ -90,7 +90,7 @@ namespace Collektive.Headless.Tests.Schema
 
         [TestCase(-1)]
         [TestCase(int.MaxValue)]
-        public void APositionOutsideOfTheFrameIsRefused(int outside)
+        public void APositionOutsideTheFrameIsRejected(int outside)
         {
             Assert.Throws<BridgeException>(() => actuators.Attach(new ByteBuffer(frame), outside));
         }

@@ -8,7 +8,7 @@ using Features = test.features;
 
 namespace Collektive.Headless.Tests.Schema
 {
-    /// <summary>No managed memory per tick once capacities are reached. Boehm's counter always says 0, so the control needs mono-sgen.</summary>
+    /// <summary>No managed memory is allocated per tick once capacities are reached. The control needs mono-sgen: Boehm's counter is always 0.</summary>
     [TestFixture]
     public class AllocationTests
     {
@@ -19,9 +19,9 @@ namespace Collektive.Headless.Tests.Schema
         private object kept;
 
         [Test]
-        public void TheCounterSeesWhatIsAllocated()
+        public void TheCounterDetectsAllocations()
         {
-            // The smallest object there is, once a tick; the runtime counts in blocks, so not to the byte.
+            // One object of the smallest size per tick. The limit is lower because the runtime counts whole blocks.
             Assert.That(AllocatedBy(() => kept = new object()), Is.GreaterThan(8L * Ticks));
         }
 
@@ -67,7 +67,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void AnswersAreRetainedAndKeptWithoutAllocation()
+        public void AnswersAreRetainedAndCopiedWithoutAllocation()
         {
             var writer = new TableSensorBuffer<swapped.features.SensorData, swapped.features.SensorData.Row>();
             writer.EnsureCapacity(Nodes);
@@ -76,11 +76,11 @@ namespace Collektive.Headless.Tests.Schema
             var structs = new StructActuatorBuffer<Blocks.SensorData>();
             var blocks = new StructSensorBuffer<Blocks.SensorData>(8);
             blocks.EnsureCapacity(Nodes);
-            Assert.That(AllocationOfKeeping(table, writer), Is.EqualTo(0));
-            Assert.That(AllocationOfKeeping(structs, blocks), Is.EqualTo(0));
+            Assert.That(AllocationOfCopying(table, writer), Is.EqualTo(0));
+            Assert.That(AllocationOfCopying(structs, blocks), Is.EqualTo(0));
         }
 
-        private long AllocationOfKeeping(ActuatorBuffer reader, SensorBuffer writer)
+        private long AllocationOfCopying(ActuatorBuffer reader, SensorBuffer writer)
         {
             builder.Clear();
             var offset = writer.Write(builder, Nodes);

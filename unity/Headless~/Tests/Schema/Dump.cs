@@ -9,8 +9,8 @@ using Google.FlatBuffers;
 namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
-    /// A canonical text of data, independent of its representation: drafts, mirrors, flatc's readers, and flatc's objects in Java. Members by
-    /// name in lower case, sorted; reals as their bits; integers as signed 64 bits; absent lists as empty.
+    /// Canonical text of drafts, mirrors, flatc's readers and flatc's Java objects. Members are sorted by lower-case name. Reals are printed as
+    /// their bits, integers as signed 64 bits, and absent lists as empty lists.
     /// </summary>
     internal static class Dump
     {

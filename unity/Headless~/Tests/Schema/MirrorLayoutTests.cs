@@ -10,7 +10,7 @@ namespace Collektive.Headless.Tests.Schema
     public class MirrorLayoutTests
     {
         [Test]
-        public void AMirrorOfAnotherSizeOrOffsetIsRefused()
+        public void AMirrorOfAnotherSizeOrOffsetIsRejected()
         {
             var mirror = default(Vector3Value);
             MirrorLayout.Size<Vector3Value>(12);
@@ -26,7 +26,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void SchemasHaveANameAndTheFingerprintsOfTheirTypes()
+        public void ASchemaHasItsNameAndTypeFingerprints()
         {
             var schema = new test.globals.GlobalsSchema();
             Assert.That(schema.Name, Is.EqualTo("test.globals.GlobalsSchema"));

@@ -4,7 +4,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Headless.Tests.Schema
 {
-    /// <summary>Fills mirrors and drafts of any schema with random values, the rare ones included.</summary>
+    /// <summary>Fills mirrors and drafts of any schema with random values, including edge cases.</summary>
     internal sealed class RandomData
     {
         private const int MaxNesting = 4;
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Schema
                 {
                     var required = property.Name == "Main";
                     if (!required && (nesting >= MaxNesting || Coin())) continue;
-                    // A property that is named like its class has an underscore behind its name.
+                    // A property with the name of its class ends with an underscore.
                     Fill((Draft)draft.GetType().GetMethod("Make" + property.Name.TrimEnd('_')).Invoke(draft, null), nesting + 1);
                 }
                 else

@@ -23,7 +23,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void ElementsStartWithTheDefaultsOfTheSchemaAndClearGivesThemBack()
+        public void ElementsHaveSchemaDefaultsInitiallyAndAfterClear()
         {
             tables.EnsureCapacity(1);
             var data = tables.Items[0];
@@ -49,7 +49,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void WhatIsWrittenReadsBack()
+        public void WrittenTablesReadBack()
         {
             var random = new RandomData(5);
             for (var i = 0; i < 300; i++)
@@ -84,7 +84,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void NoElementsMakeAnEmptyTable()
+        public void AnEmptyBufferReadsBackEmpty()
         {
             var reader = new StructActuatorBuffer<Blocks.SensorData>();
             Attach(reader, structs.Write(builder, 0));
@@ -104,7 +104,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void TheFirstFieldThatIsNotFiniteIsFoundByItsPath()
+        public void FindNotFiniteReturnsThePathOfTheFirstField()
         {
             structs.EnsureCapacity(1);
             Assert.That(structs.FindNotFinite(0), Is.Null);
@@ -121,7 +121,7 @@ namespace Collektive.Headless.Tests.Schema
         [TestCase("points[2].x")]
         [TestCase("main.scores[0]")]
         [TestCase("tree.children[1].leaf.place.y")]
-        public void PathsLeadThroughListsAndTables(string path)
+        public void FindNotFiniteSearchesListsAndTables(string path)
         {
             tables.EnsureCapacity(1);
             var data = tables.Items[0];
@@ -138,7 +138,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void AFieldWhoseDefaultIsInfiniteMayBeInfinite()
+        public void AFieldWithAnInfiniteDefaultCanBeInfinite()
         {
             tables.EnsureCapacity(1);
             Assert.That(tables.Items[0].Limit, Is.EqualTo(float.PositiveInfinity));
@@ -146,7 +146,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void AMissingRequiredFieldIsRefusedWithItsNameAndPlace()
+        public void AMissingRequiredFieldIsRejectedWithItsNameAndElement()
         {
             tables.EnsureCapacity(2);
             foreach (var data in tables.Items)
@@ -163,7 +163,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void ANullInAListOfStringsIsRefused()
+        public void ANullInAListOfStringsIsRejected()
         {
             tables.EnsureCapacity(1);
             var data = tables.Items[0];
@@ -176,7 +176,7 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
-        public void NestedDraftsAreReusedAndComeBackClean()
+        public void NestedDraftsAreClearedAndReused()
         {
             tables.EnsureCapacity(1);
             var data = tables.Items[0];

@@ -5,12 +5,12 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>What each ready actuator does with an answer; the program doubles the sensed value.</summary>
+    /// <summary>Effects of the ready-made actuators. The program doubles the sensed value.</summary>
     [TestFixture]
     public sealed class ActuatorTests : SimulationFixture
     {
         [Test]
-        public void A_node_without_a_body_goes_to_its_target_no_faster_than_it_may()
+        public void A_node_without_a_body_moves_to_its_target_within_the_speed_limit()
         {
             var node = MakeNode(5).Node;
             var move = node.gameObject.AddComponent<Move>();
@@ -19,7 +19,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Assert.That(node.transform.position.x, Is.EqualTo(0.2f).Within(1e-6f));
             Play(60);
-            Assert.That(node.transform.position.x, Is.EqualTo(10).Within(1e-4f), "it stops there");
+            Assert.That(node.transform.position.x, Is.EqualTo(10).Within(1e-4f), "it stops at its target");
         }
 
         [Test]
@@ -34,7 +34,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_kinematic_body_is_given_no_velocity_and_the_user_reads_of_it_once()
+        public void SetVelocity_warns_once_about_a_kinematic_body()
         {
             var node = MakeNode(3).Node;
             var actuator = node.gameObject.AddComponent<Fly>();
@@ -47,7 +47,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_body_is_driven_towards_its_target_and_falls_by_itself()
+        public void A_body_moves_towards_its_target_while_gravity_acts()
         {
             var node = MakeNode(500).Node;
             var body = node.gameObject.AddComponent<Rigidbody>();
@@ -70,7 +70,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_collider_without_a_body_is_warned_of_once()
+        public void A_moved_collider_without_a_body_is_warned_about_once()
         {
             var warnings = 0;
             Application.logMessageReceived += (text, stack, type) =>
@@ -91,7 +91,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(ForceMode.Acceleration, 6 * 0.05f)]
         [TestCase(ForceMode.Impulse, 6 / 3f)]
         [TestCase(ForceMode.VelocityChange, 6f)]
-        public void A_push_acts_over_the_whole_tick(ForceMode mode, float speedAfterOneTick)
+        public void A_force_acts_over_the_whole_tick(ForceMode mode, float speedAfterOneTick)
         {
             var node = MakeNode(3).Node;
             var push = node.gameObject.AddComponent<Push>();
@@ -104,7 +104,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_velocity_is_set_and_the_fall_kept_if_wanted()
+        public void SetVelocity_replaces_the_velocity_and_can_keep_the_vertical_part()
         {
             var node = MakeNode(3).Node;
             var fly = node.gameObject.AddComponent<Fly>();
@@ -118,7 +118,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_is_coloured_without_a_material_of_its_own()
+        public void A_node_is_coloured_without_copying_its_material()
         {
             var node = MakeNode(0.5f).Node;
             var ball = GameObject.CreatePrimitive(PrimitiveType.Sphere).GetComponent<Renderer>();
@@ -134,7 +134,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nothing_to_colour_is_reported_with_the_object_and_disables_only_the_component()
+        public void A_colour_actuator_without_a_renderer_reports_it_and_disables_itself()
         {
             var node = MakeNode(1);
             node.Node.name = "bare";
@@ -164,7 +164,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_switch_without_a_target_says_so()
+        public void An_enable_actuator_with_an_invalid_target_reports_it()
         {
             var node = MakeNode(0).Node;
             var toggle = node.gameObject.AddComponent<Switch>();
@@ -176,7 +176,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_answer_that_is_not_finite_is_refused_before_physics_see_it()
+        public void A_non_finite_answer_is_rejected_before_it_reaches_physics()
         {
             var node = MakeNode(float.MaxValue).Node;
             node.gameObject.AddComponent<Fly>();

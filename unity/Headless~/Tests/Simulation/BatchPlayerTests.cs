@@ -5,7 +5,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>A built player that was started with -batchmode; the stand-in's player always is.</summary>
+    /// <summary>A built player started with -batchmode, as the stand-in's player always is.</summary>
     [TestFixture]
     public sealed class BatchPlayerTests : SimulationFixture
     {
@@ -13,7 +13,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void ReturnToEditor() => Loop.IsEditor = true;
 
         [Test]
-        public void A_frame_is_a_tick_however_long_it_took_and_the_process_ends_with_the_run()
+        public void Each_frame_runs_one_tick_and_the_process_quits_after_the_run()
         {
             EnterPlayer(1);
             MakeNode(2);
@@ -30,7 +30,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         [TestCase(0.5f)]
         [TestCase(3600f)]
-        public void A_frame_is_a_tick_longer_than_frames_usually_are(float deltaTime)
+        public void Each_frame_runs_one_tick_even_if_ticks_are_long(float deltaTime)
         {
             Loop.IsEditor = false;
             Configure("double", settings =>
@@ -45,7 +45,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void It_ends_with_1_after_errors()
+        public void The_exit_code_is_1_after_errors()
         {
             EnterPlayer(0.1f);
             MakeNode(2);
@@ -56,7 +56,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void It_ends_with_1_when_the_simulation_cannot_start()
+        public void The_exit_code_is_1_if_the_simulation_cannot_start()
         {
             EnterPlayer(1, "no such program");
             MakeNode(2);
@@ -67,7 +67,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_run_without_an_end_goes_with_the_clock()
+        public void A_run_without_an_end_follows_the_clock()
         {
             EnterPlayer(0);
             MakeNode(2);

@@ -11,7 +11,7 @@ namespace Collektive.Headless.Tests.Simulation
     public sealed class ConsoleTests : SimulationFixture
     {
         [Test]
-        public void A_line_of_a_program_carries_its_node_and_program()
+        public void A_line_printed_by_a_program_names_node_and_program()
         {
             Configure("trouble");
             var id = MakeNode(20).Node.Id;
@@ -20,7 +20,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Lines_beyond_the_rate_are_left_out_and_counted()
+        public void Lines_above_the_rate_limit_are_dropped_and_counted()
         {
             Configure("trouble");
             var node = MakeNode(28);
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Simulation
             foreach (var node in nodes) Assert.That(node.Node.LastError, Is.StringContaining("thirteen"));
             nodes[0].Sensor.Value = 19;
             Play(1);
-            Assert.That(Errors[Errors.Count - 1], Is.StringContaining("view"), "another error is another entry");
+            Assert.That(Errors[Errors.Count - 1], Is.StringContaining("view"), "a different error is logged separately");
             Manager.enabled = false;
             Assert.That(Errors[Errors.Count - 1], Is.StringContaining("29 rounds of program 'trouble'").And.StringContaining("node 4"));
         }

@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Same scene, seed and inputs: bit-identical rounds, proved by the chained digest.</summary>
+    /// <summary>The same scene, seed and inputs give bit-identical rounds. The chained digest proves it.</summary>
     [TestFixture]
     public sealed class DeterminismTests : SimulationFixture
     {
@@ -16,7 +16,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]
-        public void Digests_repeat_with_any_number_of_threads(Schedule schedule)
+        public void Digests_are_equal_for_any_number_of_threads(Schedule schedule)
         {
             Action<SimulationSettings> With(int threads) => settings =>
             {
@@ -42,13 +42,13 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Another_seed_gives_other_digests()
+        public void Different_seeds_give_different_digests()
         {
             Assert.That(Digests(settings => settings.seed = 2, 0), Is.Not.EqualTo(Digests(settings => settings.seed = 1, 0)));
         }
 
         [Test]
-        public void One_sensor_bit_flipped_changes_the_digests_from_its_tick_on_and_none_before()
+        public void A_flipped_sensor_bit_changes_the_digests_from_its_tick_on()
         {
             const int flipped = 5;
             var plain = Digests(null, 0);
@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>The digest after each tick of a little swarm that moves at random; the last bit of one sensor flips at a tick.</summary>
+        /// <summary>Returns the digest after each tick of a small swarm that moves at random. At one tick, the last bit of one sensor flips.</summary>
         private List<ulong> Digests(Action<SimulationSettings> change, int flipAt, Predicate<int> isReloaded = null)
         {
             StopPlaying();
@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests.Simulation
             return digests;
         }
 
-        /// <summary>Programs are read when a node joins.</summary>
+        /// <summary>Lets the nodes join again, because programs are read at that time.</summary>
         private static void Rejoin(List<ProbeNode> nodes)
         {
             foreach (var node in nodes)

@@ -10,7 +10,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Bad input and bad programs: one clear error, nothing else lost.</summary>
+    /// <summary>Each invalid input or failing program causes one clear error and no other damage.</summary>
     [TestFixture]
     public sealed class FaultTests : SimulationFixture
     {
@@ -35,7 +35,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(bad.Node.LastError, Is.StringContaining(expected));
             bad.Sensor.Value = 0;
             Play(1);
-            Assert.That(bad.Answer, Is.EqualTo(3), "the failed round left the state as it was");
+            Assert.That(bad.Answer, Is.EqualTo(3), "the failed round did not change the state");
             Assert.That(good.Answer, Is.EqualTo(4));
             Assert.That(Manager.Failure, Is.Empty);
         }
@@ -48,7 +48,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(25, "a probe.SensorData inside a kotlin.Pair is a view", "share", "Probe.kt:")]
         [TestCase(26, "a probe.SensorData inside a java.util.", "share", "Probe.kt:")]
         [TestCase(27, "no value for device 99", "when ", "Probe.kt:")]
-        public void An_error_of_a_program_names_the_node_the_path_and_the_line(int trouble, string what, string path, string line)
+        public void A_program_error_names_node_path_and_line(int trouble, string what, string path, string line)
         {
             Configure("trouble");
             var good = MakeNode(0);
@@ -65,7 +65,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_round_that_never_ends_ends_the_session_and_the_next_one_works()
+        public void An_endless_round_ends_the_session_and_the_next_session_works()
         {
             Configure("trouble", settings => settings.stepLimitMs = 500);
             var node = MakeNode(14);
@@ -81,7 +81,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_number_that_is_not_finite_stops_the_simulation_and_names_node_and_field()
+        public void A_non_finite_sensor_value_stops_the_simulation_with_node_and_field()
         {
             MakeNode(1);
             var id = MakeNode(float.NaN).Node.Id;
@@ -102,7 +102,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_link_with_a_node_that_is_gone_is_warned_of_once_and_the_simulation_goes_on()
+        public void A_link_to_an_absent_node_logs_one_warning_and_is_ignored()
         {
             var node = MakeNode(1);
             var gone = MakeNode(1);
@@ -124,7 +124,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_link_from_a_node_to_itself_is_refused()
+        public void A_link_from_a_node_to_itself_stops_the_simulation()
         {
             var node = MakeNode(1);
             Manager.AddLink(node.Node.Id, node.Node.Id);
@@ -174,7 +174,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_missing_jar_is_named()
+        public void A_missing_jar_is_reported()
         {
             Configure("double", settings => settings.jars[0] = "nowhere/programs.jar");
             MakeNode(1);
@@ -183,7 +183,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_unknown_program_is_named_with_those_that_there_are()
+        public void An_unknown_program_is_reported_with_the_known_programs()
         {
             Configure("nonesuch");
             MakeNode(1);
@@ -192,7 +192,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_unknown_program_of_one_node_is_named_with_the_node()
+        public void An_unknown_program_of_one_node_is_reported_with_the_node()
         {
             var node = new GameObject("odd");
             node.SetActive(false);
@@ -203,7 +203,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_unknown_schema_is_named()
+        public void An_unknown_schema_is_reported()
         {
             Configure("double", settings => settings.schema = "nowhere.NowhereSchema");
             Play(1);
@@ -211,7 +211,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_sensor_that_throws_costs_its_node_the_round_and_is_reported_with_its_name()
+        public void A_throwing_sensor_is_reported_and_its_node_skips_the_round()
         {
             var good = MakeNode(1);
             var bad = MakeNode(1);
@@ -225,7 +225,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_sensor_that_throws_again_and_again_is_disabled_and_its_node_goes_on_without_it()
+        public void A_sensor_that_keeps_throwing_is_disabled_and_its_node_continues()
         {
             var node = MakeNode(1);
             var sensor = node.Node.gameObject.AddComponent<ThrowingSensor>();
@@ -256,7 +256,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_sensor_made_for_another_schema_is_refused_with_both_types()
+        public void A_sensor_for_another_schema_stops_the_simulation_with_both_types()
         {
             var node = MakeNode(1);
             node.Node.gameObject.AddComponent<ForeignSensor>();
@@ -272,7 +272,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Settings_out_of_range_are_refused_before_anything_starts()
+        public void Settings_out_of_range_are_rejected_before_the_start()
         {
             Configure("double", settings => settings.deltaTime = 0);
             MakeNode(1);
@@ -385,7 +385,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_that_outlive_their_manager_join_the_next_one_and_start_afresh()
+        public void Nodes_that_outlive_their_manager_join_the_next_one_without_state()
         {
             Configure("count");
             var node = MakeNode(0);
@@ -404,12 +404,12 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(typeof(SelfDestroyingSensor))]
         [TestCase(typeof(SelfDestroyingActuator))]
         [TestCase(typeof(SelfDestroyingRule))]
-        public void A_part_that_is_destroyed_in_its_own_call_harms_no_other(System.Type type)
+        public void A_component_can_destroy_itself_in_its_own_call(System.Type type)
         {
             Configure("sum");
             var node = MakeNode(3);
             var other = MakeNode(4, Vector3.right);
-            // In front of and behind it stand others of its kind.
+            // Components of the same kind come before and after it.
             node.Node.gameObject.AddComponent(type);
             var second = node.Node.gameObject.AddComponent<ProbeSensor>();
             second.Value = 5;
@@ -417,15 +417,15 @@ namespace Collektive.Headless.Tests.Simulation
             node.Node.gameObject.AddComponent<RadiusNeighbourhood>();
             Play(2);
             Assert.That(node.Node.GetComponent(type) == null, Is.True);
-            Assert.That(other.Answer, Is.EqualTo(5), "the sensor behind was asked");
-            Assert.That(last.Calls, Is.EqualTo(2), "the actuator behind was asked");
+            Assert.That(other.Answer, Is.EqualTo(5), "the sensor after it was called");
+            Assert.That(last.Calls, Is.EqualTo(2), "the actuator after it was called");
             Assert.That(Manager.LinkCount, Is.EqualTo(2));
             Assert.That(Errors, Is.Empty);
         }
 
-        [TestCase(typeof(NodeKillingSensor))]
-        [TestCase(typeof(NodeKillingRule))]
-        public void A_part_that_destroys_its_own_node_ends_that_node_alone(System.Type type)
+        [TestCase(typeof(NodeDestroyingSensor))]
+        [TestCase(typeof(NodeDestroyingRule))]
+        public void A_component_can_destroy_its_own_node(System.Type type)
         {
             var node = MakeNode(3);
             var other = MakeNode(4, Vector3.right);
@@ -440,16 +440,16 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_part_that_switches_itself_off_and_on_is_asked_once_a_tick()
+        public void A_component_that_toggles_itself_is_called_once_per_tick()
         {
             var node = MakeNode(3);
-            var sensor = node.Node.gameObject.AddComponent<RestlessSensor>();
+            var sensor = node.Node.gameObject.AddComponent<TogglingSensor>();
             Play(4);
             Assert.That(sensor.Calls, Is.EqualTo(4));
         }
 
         [Test]
-        public void An_actuator_that_throws_again_and_again_is_disabled_and_the_others_go_on()
+        public void An_actuator_that_keeps_throwing_is_disabled_and_the_others_continue()
         {
             var node = MakeNode(1);
             var bad = node.Node.gameObject.AddComponent<ThrowingActuator>();
@@ -461,7 +461,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_rule_that_throws_again_and_again_is_disabled_and_the_others_go_on()
+        public void A_rule_that_keeps_throwing_is_disabled_and_the_others_continue()
         {
             Configure("sum");
             var node = MakeNode(1);
@@ -475,7 +475,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_at_one_point_are_reported_and_keep_running()
+        public void Nodes_at_the_same_position_are_reported_and_keep_running()
         {
             for (var i = 0; i < 50; i++) MakeNode(i, Vector3.one).Node.gameObject.AddComponent<RadiusNeighbourhood>();
             MakeNode(0, Vector3.one).Node.gameObject.AddComponent<KNearestNeighbourhood>();
@@ -504,7 +504,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_simulation_ends_after_its_time_or_by_its_condition_and_can_go_on()
+        public void A_simulation_stops_after_its_time_or_by_condition_and_can_continue()
         {
             Configure("count", settings => settings.stopAfter = 0.2f);
             var node = MakeNode(0);
@@ -522,7 +522,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_step_of_a_simulation_that_does_not_run_is_reported_and_has_no_effect()
+        public void Step_outside_a_running_simulation_is_reported_and_ignored()
         {
             Manager.Step();
             Assert.That(Errors, Is.EqualTo(new[] { "the simulation has not started: call Step in play mode, from Update or later" }));
@@ -533,7 +533,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_step_within_a_tick_is_refused()
+        public void Step_within_a_tick_is_rejected()
         {
             var node = MakeNode(1);
             node.Node.gameObject.AddComponent<SteppingActuator>();
@@ -544,14 +544,14 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_id_beyond_the_largest_stops_the_simulation_with_the_largest()
+        public void An_id_above_the_maximum_stops_the_simulation()
         {
             MakeNode(1, default, 1 << 24);
             Assert.That(Manager.Failure, Is.EqualTo("node 'Probe' has id 16777216, but the largest id is 16777215: use smaller ids, or -1"));
         }
 
         [Test]
-        public void Removing_a_link_that_no_script_added_is_reported_and_has_no_effect()
+        public void Removing_a_link_that_no_script_added_is_reported_and_ignored()
         {
             var node = MakeNode(1);
             MakeNode(2, Vector3.right).Node.gameObject.AddComponent<RadiusNeighbourhood>();
@@ -564,7 +564,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_part_without_a_node_is_reported_and_works_once_it_has_one()
+        public void A_component_without_a_node_is_reported_and_works_once_it_has_one()
         {
             var holder = new GameObject("stray");
             var sensor = holder.AddComponent<ProbeSensor>();
@@ -618,7 +618,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_click_on_an_error_selects_the_part_that_failed()
+        public void Clicking_an_error_selects_the_failed_component()
         {
             var sensor = MakeNode(1).Node.gameObject.AddComponent<ThrowingSensor>();
             var actuator = MakeNode(1, Vector3.right).Node.gameObject.AddComponent<ThrowingActuator>();
@@ -634,7 +634,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_click_on_a_message_selects_the_node_that_it_is_about()
+        public void Clicking_a_message_selects_its_node()
         {
             Configure("trouble");
             var flat = MakeNode(0, Vector3.one).Node;
@@ -658,7 +658,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_exception_in_a_tick_stops_the_simulation_with_it()
+        public void An_exception_in_a_tick_stops_the_simulation_and_is_logged()
         {
             MakeNode(1);
             Play(2);
@@ -669,17 +669,17 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_exception_at_the_start_stops_the_simulation_with_it()
+        public void An_exception_at_the_start_stops_the_simulation_and_is_logged()
         {
             Configure("double", settings => settings.jars.Add("no\0file"));
             MakeNode(1);
             Play(3);
             Assert.That(Manager.Failure, Is.StringContaining("the start failed"));
-            Assert.That(Errors.Count, Is.EqualTo(2), "the exception and the stop, once");
+            Assert.That(Errors.Count, Is.EqualTo(2), "the exception and the stop");
         }
 
         [Test]
-        public void Times_that_no_run_can_have_are_refused()
+        public void Invalid_delta_times_and_physics_steps_are_rejected()
         {
             var settings = new SimulationSettings { jars = { "a.jar" } };
             Assert.That(settings.FindProblem(), Is.Null);
@@ -694,7 +694,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_click_on_a_refusal_selects_who_is_refused()
+        public void Clicking_a_rejection_selects_the_rejected_object()
         {
             Configure("double", settings => settings.schedule = Schedule.Asynchronous);
             var node = MakeNode(1, default, 5).Node;
@@ -715,10 +715,10 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(new Selection(() => Play(1)).By("nonesuch"), Is.SameAs(Manager));
         }
 
-        /// <summary>What a click on the messages of an act would select.</summary>
+        /// <summary>Records the object that a click on each logged message would select.</summary>
         private sealed class Selection : ILogHandler
         {
-            private readonly List<KeyValuePair<string, Object>> told = new List<KeyValuePair<string, Object>>();
+            private readonly List<KeyValuePair<string, Object>> messages = new List<KeyValuePair<string, Object>>();
             private readonly ILogHandler before = Debug.unityLogger.logHandler;
 
             internal Selection(Action act)
@@ -730,23 +730,23 @@ namespace Collektive.Headless.Tests.Simulation
 
             public void LogFormat(LogType logType, Object context, string format, params object[] args)
             {
-                told.Add(new KeyValuePair<string, Object>(string.Format(format, args), context));
+                messages.Add(new KeyValuePair<string, Object>(string.Format(format, args), context));
                 before.LogFormat(logType, context, format, args);
             }
 
             public void LogException(Exception exception, Object context)
             {
-                told.Add(new KeyValuePair<string, Object>(exception.Message, context));
+                messages.Add(new KeyValuePair<string, Object>(exception.Message, context));
                 before.LogException(exception, context);
             }
 
-            internal Object By(string words)
+            internal Object By(string text)
             {
-                foreach (var message in told)
+                foreach (var message in messages)
                 {
-                    if (message.Key.Contains(words)) return message.Value;
+                    if (message.Key.Contains(text)) return message.Value;
                 }
-                throw new AssertionException("nothing was said of '" + words + "'");
+                throw new AssertionException("no message contains '" + text + "'");
             }
         }
 
@@ -774,12 +774,12 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class NodeKillingSensor : Sensor<probe.SensorData>
+        public sealed class NodeDestroyingSensor : Sensor<probe.SensorData>
         {
             protected override void Sense(ref probe.SensorData data) => Object.DestroyImmediate(Node.gameObject);
         }
 
-        public sealed class NodeKillingRule : NeighbourhoodRule
+        public sealed class NodeDestroyingRule : NeighbourhoodRule
         {
             protected override void FindNeighbours(NeighbourCollector neighbours)
             {
@@ -788,7 +788,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        public sealed class RestlessSensor : Sensor<probe.SensorData>
+        public sealed class TogglingSensor : Sensor<probe.SensorData>
         {
             public int Calls { get; private set; }
 

@@ -11,7 +11,7 @@ namespace Collektive.Headless.Tests.Simulation
     public sealed class ManagerTests : SimulationFixture
     {
         [Test]
-        public void A_nodes_position_is_that_of_the_beginning_of_the_tick()
+        public void Node_positions_are_sampled_at_the_start_of_the_tick()
         {
             var node = MakeNode(1, Vector3.right).Node;
             Assert.That(node.Position, Is.EqualTo(Vector3.right), "before the first tick");
@@ -23,7 +23,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_round_sees_its_sensors_and_drives_its_actuators()
+        public void A_round_reads_sensors_and_drives_actuators()
         {
             var node = MakeNode(21);
             Play(1);
@@ -42,7 +42,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_long_frame_makes_a_bounded_number_of_ticks()
+        public void A_long_frame_runs_a_bounded_number_of_ticks()
         {
             MakeNode(0);
             Loop.Frame(10);
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Paused_there_is_no_call_no_physics_and_no_time()
+        public void While_paused_calls_physics_and_time_stop()
         {
             var node = MakeNode(1, new Vector3(0, 10, 0));
             var body = node.Node.gameObject.AddComponent<Rigidbody>();
@@ -117,7 +117,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_come_and_go_while_running_and_start_afresh_when_they_return()
+        public void Nodes_can_leave_and_rejoin_at_run_time_without_their_state()
         {
             Configure("count");
             var a = MakeNode(0);
@@ -142,7 +142,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_id_can_be_used_again_within_one_tick()
+        public void An_id_can_be_reused_within_one_tick()
         {
             Configure("count");
             var a = MakeNode(0, default, 7);
@@ -155,7 +155,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Scripts_link_nodes_directed_or_not()
+        public void Scripts_can_add_directed_and_undirected_links()
         {
             Configure("sum");
             var a = MakeNode(1);
@@ -174,7 +174,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_link_wanted_by_a_rule_and_by_a_script_stays_until_neither_wants_it()
+        public void A_link_of_a_rule_and_a_script_exists_until_both_release_it()
         {
             Configure("sum");
             var a = MakeNode(1);
@@ -193,7 +193,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Links_of_a_node_that_left_are_gone_at_once()
+        public void Links_of_a_departed_node_are_removed_immediately()
         {
             var a = MakeNode(1);
             var b = MakeNode(10);
@@ -211,7 +211,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_trigger_zone_makes_neighbours_of_the_bodies_inside()
+        public void Bodies_inside_a_trigger_zone_are_neighbours()
         {
             Configure("sum");
             var zone = MakeNode(1);
@@ -236,7 +236,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Random_numbers_depend_on_seed_and_node_alone()
+        public void Random_numbers_depend_only_on_seed_and_node()
         {
             Configure("random", settings => settings.seed = 7);
             var a = MakeNode(0);
@@ -254,7 +254,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_second_manager_disables_itself_and_the_first_goes_on()
+        public void A_second_manager_disables_itself_and_the_first_continues()
         {
             var second = new GameObject("Second").AddComponent<SimulationManager>();
             Assert.That(second.enabled, Is.False);
@@ -267,7 +267,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_manager_that_is_enabled_again_starts_a_new_simulation()
+        public void A_re_enabled_manager_starts_a_new_simulation()
         {
             Configure("count");
             var a = MakeNode(0);
@@ -277,7 +277,7 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.enabled = false;
             Manager.enabled = true;
             Assert.That(Manager.LinkCount, Is.EqualTo(0));
-            Assert.That((Manager.Network, Manager.HostMicros, Manager.Times.Total), Is.EqualTo((new NetworkCounts(), (0, 0), 0.0)), "what the dashboard shows");
+            Assert.That((Manager.Network, Manager.HostMicros, Manager.Times.Total), Is.EqualTo((new NetworkCounts(), (0, 0), 0.0)), "dashboard values");
             Play(2);
             Assert.That(Errors, Is.Empty);
             Assert.That(a.Answer, Is.EqualTo(2));

@@ -13,26 +13,26 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void The_nearest_nodes_are_neighbours_and_exchange_messages()
         {
-            // On a line at 0, 1, 3 and 7 metres each node's nearest is the one to its left, and that of the first is the second.
+            // On a line at 0, 1, 3 and 7 metres the nearest of each node is the one to its left, except for the first node.
             var line = MakeLine(0, 1, 3, 7);
             foreach (var node in line) node.Node.gameObject.AddComponent<KNearestNeighbourhood>().Count = 1;
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0 1>2 2>1 2>3 3>2"));
             line[3].Node.transform.position = new Vector3(-1, 0, 0);
             Play(1);
-            // 0 lies between 3 and 1 now, both a metre away: the smaller id comes first.
+            // Nodes 1 and 3 are now both one metre from node 0. The smaller id wins.
             Assert.That(Links(), Is.EqualTo("0>1 0>3 1>0 1>2 2>1 3>0"));
         }
 
         [TestCase(1)]
         [TestCase(2)]
         [TestCase(3)]
-        public void Radius_rules_link_those_that_looking_at_every_pair_finds_whatever_happens(int seed)
+        public void Radius_rules_match_brute_force(int seed)
         {
             var random = new RandomStream((ulong)seed, 0, RandomPurpose.Scene);
             var nodes = new List<Node>();
-            var made = 0;
-            while (made < 40) nodes.Add(MakeReaching(random, made++));
+            var nextId = 0;
+            while (nextId < 40) nodes.Add(MakeNodeWithRadius(random, nextId++));
             for (var tick = 0; tick < 150; tick++)
             {
                 foreach (var node in nodes) node.transform.position += 0.1f * Place(random);
@@ -44,7 +44,7 @@ namespace Collektive.Headless.Tests.Simulation
                         break;
                     case 1:
                         one.enabled = !one.enabled;
-                        // Some rejoin with the same id before the next tick.
+                        // Some nodes rejoin with the same id before the next tick.
                         if (random.Range(0, 2) == 0) one.enabled = !one.enabled;
                         break;
                     case 2:
@@ -53,7 +53,7 @@ namespace Collektive.Headless.Tests.Simulation
                         nodes.Remove(one);
                         break;
                     case 3:
-                        nodes.Add(MakeReaching(random, made++));
+                        nodes.Add(MakeNodeWithRadius(random, nextId++));
                         break;
                     case 4:
                         one.GetComponent<RadiusNeighbourhood>().Radius = random.Range(0f, 5f);
@@ -66,14 +66,14 @@ namespace Collektive.Headless.Tests.Simulation
                         break;
                 }
                 Play(1);
-                Assert.That(Links(), Is.EqualTo(LinksOfEveryPair(nodes)), "tick " + tick);
+                Assert.That(Links(), Is.EqualTo(BruteForceLinks(nodes)), "tick " + tick);
                 AssertLengths();
             }
             Assert.That(Errors, Is.Empty);
         }
 
         [Test]
-        public void With_a_directed_rule_only_the_neighbours_receive_messages()
+        public void A_directed_rule_creates_links_in_one_direction()
         {
             var line = MakeLine(0, 1, 3, 7);
             foreach (var node in line)
@@ -87,7 +87,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void More_neighbours_than_there_are_nodes_means_all_of_them()
+        public void K_nearest_links_all_nodes_if_K_exceeds_their_number()
         {
             foreach (var node in MakeLine(0, 1000, 2000000)) node.Node.gameObject.AddComponent<KNearestNeighbourhood>().Count = 5;
             Play(1);
@@ -95,9 +95,9 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_wall_between_two_nodes_prevents_their_link_until_it_is_gone()
+        public void A_wall_blocks_a_line_of_sight_link_until_it_moves_away()
         {
-            foreach (var node in MakeLine(0, 2, 4)) AddSight(node, 3);
+            foreach (var node in MakeLine(0, 2, 4)) AddLineOfSight(node, 3);
             var wall = MakeWall(3);
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
@@ -107,11 +107,11 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Walls_add_to_the_attenuation_of_a_rule_that_does_not_block()
+        public void Walls_add_attenuation_to_links_of_a_non_blocking_rule()
         {
             foreach (var node in MakeLine(0, 10))
             {
-                var rule = AddSight(node, 20);
+                var rule = AddLineOfSight(node, 20);
                 rule.Blocking = false;
                 rule.Attenuation = 2.5f;
             }
@@ -125,12 +125,12 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Bodies_of_the_two_nodes_triggers_and_other_layers_do_not_stand_in_the_way()
+        public void Own_colliders_triggers_and_other_layers_do_not_block_the_line_of_sight()
         {
             var line = MakeLine(0, 10);
             foreach (var node in line)
             {
-                AddSight(node, 20).Layers = 1;
+                AddLineOfSight(node, 20).Layers = 1;
                 node.Node.gameObject.AddComponent<SphereCollider>().radius = 1;
                 var antenna = new GameObject("Antenna");
                 antenna.transform.SetParent(node.Node.transform, false);
@@ -141,14 +141,14 @@ namespace Collektive.Headless.Tests.Simulation
             MakeWall(6).layer = 4;
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
-            // Another node's body does.
+            // The body of another node blocks it.
             MakeNode(0, new Vector3(5, 0, 0)).Node.gameObject.AddComponent<SphereCollider>();
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>2 1>2 2>0 2>1"));
         }
 
         [Test]
-        public void Listed_nodes_are_neighbours_while_they_take_part()
+        public void Listed_nodes_are_neighbours_while_they_are_active()
         {
             var line = MakeLine(0, 100, 200);
             var rule = line[0].Node.gameObject.AddComponent<ExplicitNeighbourhood>();
@@ -170,7 +170,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_listed_node_that_never_was_active_is_passed_over()
+        public void A_listed_node_that_was_never_active_is_ignored()
         {
             var line = MakeLine(0, 100);
             var prefab = new GameObject("Prefab");
@@ -187,10 +187,10 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(float.PositiveInfinity, 0, "length")]
         [TestCase(1, float.NaN, "attenuation")]
         [TestCase(1, -1, "attenuation")]
-        public void A_rule_that_names_impossible_links_fails_and_the_links_stay(float length, float attenuation, string what)
+        public void A_rule_with_invalid_link_values_fails_and_keeps_its_links(float length, float attenuation, string what)
         {
             var line = MakeLine(0, 1, 2);
-            var rule = line[0].Node.gameObject.AddComponent<Named>();
+            var rule = line[0].Node.gameObject.AddComponent<ListRule>();
             rule.Others.Add(line[1].Node);
             Play(1);
             rule.Others.Add(line[2].Node);
@@ -199,7 +199,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
             Assert.That(Errors.Count, Is.EqualTo(1));
-            Assert.That(Errors[0], Is.StringContaining("Named of node 0").And.StringContaining("a link's " + what + " must be finite and 0 or greater"));
+            Assert.That(Errors[0], Is.StringContaining("ListRule of node 0").And.StringContaining("a link's " + what + " must be finite and 0 or greater"));
             rule.Length = 1;
             rule.Attenuation = 0;
             Play(1);
@@ -207,10 +207,10 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Neighbours_are_named_when_the_rule_is_asked_and_at_no_other_time()
+        public void Neighbours_can_be_added_only_within_FindNeighbours()
         {
             var line = MakeLine(0, 1);
-            var rule = line[0].Node.gameObject.AddComponent<Named>();
+            var rule = line[0].Node.gameObject.AddComponent<ListRule>();
             Play(1);
             Assert.That(Assert.Throws<System.InvalidOperationException>(() => rule.Name(line[1].Node)).Message, Is.StringContaining("FindNeighbours"));
             Play(1);
@@ -218,17 +218,17 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_rule_may_make_the_node_that_it_names()
+        public void A_rule_can_create_the_node_that_it_adds()
         {
             var line = MakeLine(0);
-            line[0].Node.gameObject.AddComponent<Named>().MakeAt = 100;
+            line[0].Node.gameObject.AddComponent<ListRule>().MakeAt = 100;
             Play(2);
             Assert.That(Errors, Is.Empty);
             Assert.That(Links(), Is.EqualTo("0>100 100>0"));
         }
 
         [Test]
-        public void A_rule_of_the_users_own_asks_the_manager_for_nodes()
+        public void A_custom_rule_can_query_the_nearest_nodes()
         {
             foreach (var node in MakeLine(0, 1, 2, 3)) node.Node.gameObject.AddComponent<SecondNearest>();
             Play(1);
@@ -236,7 +236,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_trigger_rule_knows_who_came_in_while_it_was_disabled()
+        public void A_re_enabled_trigger_rule_links_nodes_that_are_inside()
         {
             var zone = MakeNode(1);
             var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
@@ -263,7 +263,7 @@ namespace Collektive.Headless.Tests.Simulation
             return line;
         }
 
-        private static LineOfSightNeighbourhood AddSight(ProbeNode node, float radius)
+        private static LineOfSightNeighbourhood AddLineOfSight(ProbeNode node, float radius)
         {
             var rule = node.Node.gameObject.AddComponent<LineOfSightNeighbourhood>();
             rule.Radius = radius;
@@ -272,14 +272,14 @@ namespace Collektive.Headless.Tests.Simulation
 
         private static Vector3 Place(RandomStream random) => new Vector3(random.Range(-5f, 5f), random.Range(-1f, 1f), random.Range(-5f, 5f));
 
-        private static Node MakeReaching(RandomStream random, int id)
+        private static Node MakeNodeWithRadius(RandomStream random, int id)
         {
             var node = MakeNode(1, Place(random), id).Node;
             node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = random.Range(1f, 3f);
             return node;
         }
 
-        private static string LinksOfEveryPair(List<Node> nodes)
+        private static string BruteForceLinks(List<Node> nodes)
         {
             var sorted = nodes.FindAll(node => node.enabled);
             sorted.Sort((a, b) => a.Id.CompareTo(b.Id));
@@ -288,19 +288,19 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 foreach (var to in sorted)
                 {
-                    if (from != to && (Reaches(from, to) || Reaches(to, from))) links.Add(from.Id + ">" + to.Id);
+                    if (from != to && (IsWithinRadius(from, to) || IsWithinRadius(to, from))) links.Add(from.Id + ">" + to.Id);
                 }
             }
             return string.Join(" ", links);
         }
 
-        private static bool Reaches(Node node, Node other)
+        private static bool IsWithinRadius(Node node, Node other)
         {
             var rule = node.GetComponent<RadiusNeighbourhood>();
             return rule.enabled && (other.transform.position - node.transform.position).sqrMagnitude <= rule.Radius * rule.Radius;
         }
 
-        /// <summary>They may be off by the rules' tolerance; twice as much when the rule that gave the length left the link to another.</summary>
+        /// <summary>Lengths may differ by the tolerance of the rules, or by twice as much after a link passed from one rule to another.</summary>
         private void AssertLengths()
         {
             var links = new List<LinkRecord>();
@@ -339,13 +339,13 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         /// <summary>Returns the configured neighbours.</summary>
-        public sealed class Named : NeighbourhoodRule
+        public sealed class ListRule : NeighbourhoodRule
         {
             public float Length { get; set; } = 1;
 
             public float Attenuation { get; set; }
 
-            /// <summary>Id of a node to make when it is asked.</summary>
+            /// <summary>Id of a node that the next call creates, or -1.</summary>
             public int MakeAt { get; set; } = -1;
 
             public List<Node> Others { get; } = new List<Node>();

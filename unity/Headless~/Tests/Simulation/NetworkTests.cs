@@ -5,12 +5,12 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>The network model as a scene has it; ticks are 0.05 s apart.</summary>
+    /// <summary>The network model in a scene with ticks of 0.05 s.</summary>
     [TestFixture]
     public sealed class NetworkTests : SimulationFixture
     {
         [Test]
-        public void An_ideal_network_counts_what_was_sent()
+        public void An_ideal_network_counts_sent_messages()
         {
             Line(new NetworkModel(), out _, out _, out _);
             Play(2);
@@ -27,7 +27,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_message_comes_after_its_delay_and_goes_after_its_retention()
+        public void A_message_arrives_after_its_delay_and_expires_after_its_retention()
         {
             Line(new NetworkModel { delay = 0.1, retention = 0.15 }, out var left, out var middle, out _);
             Play(1);
@@ -62,7 +62,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(0, -1, 0, "network delay is -1 s")]
         [TestCase(0, 0, 0.01, "network retention is 0.01 s")]
         [TestCase(0, 0, -2, "network retention is -2 s")]
-        public void A_value_out_of_range_is_refused_before_anything_starts(double loss, double delay, double retention, string expected)
+        public void A_value_out_of_range_is_rejected_before_the_start(double loss, double delay, double retention, string expected)
         {
             Configure("sum", settings => settings.network = new NetworkModel { loss = loss, delay = delay, retention = retention });
             MakeNode(1);
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Tick, Is.EqualTo(0));
         }
 
-        /// <summary>Three nodes in a row that hear their neighbours.</summary>
+        /// <summary>Creates three nodes in a row, each linked with its neighbours.</summary>
         private void Line(NetworkModel network, out ProbeNode left, out ProbeNode middle, out ProbeNode right)
         {
             Configure("sum", settings => settings.network = network);

@@ -12,20 +12,20 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Entering and leaving play mode leaves nothing behind, whatever was going on.</summary>
+    /// <summary>Leaving play mode releases all resources in any situation.</summary>
     [TestFixture]
     public sealed class PlayModeTests : SimulationFixture
     {
         private const int Times = 50;
 
-        // The JVM's own answers keep one from the first question on.
+        // Status answers of the JVM keep one slot after the first query.
         private int slotsBefore;
 
         [SetUp]
         public void CountSlots() => slotsBefore = ShimCounts.Slots;
 
         [Test]
-        public void Fifty_plays_leave_no_session_slot_thread_or_object_behind()
+        public void Fifty_plays_do_not_leak_sessions_slots_threads_or_objects()
         {
             var managers = new List<WeakReference>();
             var threads = 0;
@@ -34,9 +34,9 @@ namespace Collektive.Headless.Tests.Simulation
                 PlayOnce(managers);
                 Assert.That(ShimCounts.Sessions, Is.EqualTo(0), "play " + i);
                 Assert.That(ShimCounts.Slots, Is.EqualTo(slotsBefore), "play " + i);
-                if (i == 10) threads = Settled();
+                if (i == 10) threads = CountThreadsAfterDelay();
             }
-            Assert.That(Settled(), Is.LessThanOrEqualTo(threads + 2));
+            Assert.That(CountThreadsAfterDelay(), Is.LessThanOrEqualTo(threads + 2));
             GC.Collect();
             GC.WaitForPendingFinalizers();
             GC.Collect();
@@ -46,7 +46,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Leaving_resets_all_statics()
+        public void Leaving_play_mode_resets_all_static_fields()
         {
             StopPlaying();
             var before = Statics();
@@ -63,7 +63,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase("own")]
         [TestCase("other")]
         [TestCase("all")]
-        public void A_scene_may_be_destroyed_from_within_a_tick(string victim)
+        public void A_scene_can_be_destroyed_during_a_tick(string victim)
         {
             foreach (var place in new[] { "sensor", "actuator", "ticked" })
             {
@@ -88,7 +88,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_scene_may_be_destroyed_in_any_order()
+        public void A_scene_can_be_destroyed_in_any_order()
         {
             var random = new System.Random(1);
             for (var round = 0; round < 20; round++)
@@ -165,8 +165,8 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Threads of rounds end a moment after their session.</summary>
-        private static int Settled()
+        /// <summary>Counts threads after a delay, because threads of rounds end shortly after their session.</summary>
+        private static int CountThreadsAfterDelay()
         {
             Thread.Sleep(200);
             return ShimCounts.Threads;
@@ -184,7 +184,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>What the package's classes keep from one play to the next, but for what users set.</summary>
+        /// <summary>Returns the values of the package's static fields, except those that users set.</summary>
         private static Dictionary<string, string> Statics()
         {
             var values = new Dictionary<string, string>();

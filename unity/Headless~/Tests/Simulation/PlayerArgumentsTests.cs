@@ -4,14 +4,14 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>What a built player takes from its command line.</summary>
+    /// <summary>Command-line options of a built player.</summary>
     [TestFixture]
     public sealed class PlayerArgumentsTests
     {
         private readonly SimulationSettings settings = new SimulationSettings();
 
         [Test]
-        public void Settings_are_named_as_in_scenario_files_among_Unitys_own_options()
+        public void Settings_are_parsed_between_Unitys_own_options()
         {
             var problem = PlayerArguments.Apply(settings, new[]
             {
@@ -40,11 +40,11 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase("-collektive-threads 3000000000", "it must be a whole number")]
         [TestCase("-collektive-deltaTime fast", "it must be a number")]
         [TestCase("-collektive-schedule 1", "it must be one of Lockstep, Sequential, Asynchronous")]
-        public void What_is_wrong_is_named_with_what_would_be_right(string line, string problem) =>
+        public void Invalid_options_are_reported_with_the_valid_form(string line, string problem) =>
             Assert.That(PlayerArguments.Apply(settings, line.Split(' ')), Is.StringContaining(problem));
 
         [Test]
-        public void A_wrong_option_is_a_problem_of_the_settings_and_so_stops_the_simulation_at_its_start()
+        public void An_invalid_option_is_a_problem_of_the_settings()
         {
             settings.ArgumentProblem = "no";
             Assert.That(settings.FindProblem(), Is.EqualTo("no"));

@@ -3,7 +3,7 @@ using probe;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Gives the program a number and the place of the node.</summary>
+    /// <summary>Senses a number and the position of the node.</summary>
     public sealed class ProbeSensor : Sensor<SensorData>
     {
         public float Value;

@@ -7,7 +7,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Ready sensors and the line of sight ask physics in batches, and get what each would get alone.</summary>
+    /// <summary>Sensors and line-of-sight rules query physics in batches. The results equal those of single queries.</summary>
     public sealed class QueryBatchTests : SimulationFixture
     {
         private readonly List<Node> nodes = new List<Node>();
@@ -17,7 +17,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void CountArrays() => arrays = NativeArrays.Count;
 
         [Test]
-        public void Rays_and_spheres_of_all_nodes_are_one_batch_each()
+        public void All_nodes_share_one_batch_per_kind_of_query()
         {
             MakeSwarm(30);
             Play(1);
@@ -47,20 +47,20 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void What_a_batch_finds_is_what_a_sensor_finds_alone()
+        public void Batch_results_equal_single_queries()
         {
             MakeSwarm(30);
             for (var tick = 0; tick < 5; tick++)
             {
                 Play(1);
-                foreach (var node in nodes) AssertAsAlone(node);
+                foreach (var node in nodes) AssertEqualsSingleQueries(node);
                 for (var i = 0; i < nodes.Count; i += 2) nodes[i].transform.Rotate(0, 10, 0);
             }
             Assert.That(Errors, Is.Empty);
         }
 
         [Test]
-        public void More_colliders_than_a_batch_keeps_are_all_found()
+        public void Colliders_beyond_the_batch_capacity_are_found()
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<SensorTests.Obstacles>();
             sensor.Reach = 5;
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void More_walls_than_a_batch_keeps_are_all_counted()
+        public void Walls_beyond_the_batch_capacity_are_counted()
         {
             var left = MakeNode(0).Node;
             var right = MakeNode(0).Node;
@@ -92,10 +92,10 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_fan_that_another_sensor_changes_is_cast_anew()
+        public void A_ray_fan_changed_by_another_sensor_is_cast_again()
         {
             var node = MakeNode(0).Node;
-            node.gameObject.AddComponent<Changing>();
+            node.gameObject.AddComponent<RayCountChanger>();
             var fan = node.gameObject.AddComponent<SensorTests.Rays>();
             for (var tick = 1; tick <= 4; tick++)
             {
@@ -105,7 +105,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Sensors_that_come_and_go_are_asked_as_long_as_they_are_there()
+        public void Batches_follow_added_and_removed_sensors()
         {
             MakeSwarm(4);
             Play(2);
@@ -113,25 +113,25 @@ namespace Collektive.Headless.Tests.Simulation
             nodes[2].GetComponent<SensorTests.Rays>().enabled = false;
             nodes[3].Sleep(0.12);
             nodes.RemoveAt(1);
-            var added = MakeSensing(new Vector3(2, 0, 2));
+            var added = MakeNodeWithSensors(new Vector3(2, 0, 2));
             Play(1);
-            AssertAsAlone(nodes[0]);
-            AssertAsAlone(added);
+            AssertEqualsSingleQueries(nodes[0]);
+            AssertEqualsSingleQueries(added);
             nodes[1].GetComponent<SensorTests.Rays>().enabled = true;
             Play(4);
-            foreach (var node in nodes) AssertAsAlone(node);
+            foreach (var node in nodes) AssertEqualsSingleQueries(node);
             Assert.That(Errors, Is.Empty);
         }
 
         [Test]
-        public void The_next_simulation_asks_for_the_same_sensors()
+        public void The_next_simulation_batches_the_same_sensors()
         {
             MakeSwarm(4);
             Play(3);
             Manager.enabled = false;
             Manager.enabled = true;
             Play(3);
-            foreach (var node in nodes) AssertAsAlone(node);
+            foreach (var node in nodes) AssertEqualsSingleQueries(node);
             var before = QueryLog.Batches;
             Manager.Step();
             Assert.That(QueryLog.Batches - before, Is.EqualTo(3));
@@ -148,21 +148,21 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Queries_are_over_before_a_users_rule_can_change_what_they_ask_for()
+        public void Queries_complete_before_custom_rules_run()
         {
             MakeSwarm(4);
-            var rule = nodes[2].gameObject.AddComponent<Ramming>();
+            var rule = nodes[2].gameObject.AddComponent<ColliderMovingRule>();
             Play(2);
             rule.Ball = new GameObject("Ball") { transform = { position = nodes[1].transform.position } }.AddComponent<SphereCollider>();
             Play(1);
             Assert.That(rule.Calls, Is.EqualTo(3));
             Assert.That(rule.SawQueries, Is.False);
             var seen = nodes[1].GetComponent<SensorTests.Obstacles>().Values;
-            Assert.That(seen.Exists(obstacle => ReferenceEquals(obstacle.Collider, rule.Ball)), Is.True, "as it was before the rules");
+            Assert.That(seen.Exists(obstacle => ReferenceEquals(obstacle.Collider, rule.Ball)), Is.True, "the position before the rules ran");
             Assert.That(Errors, Is.Empty);
         }
 
-        private sealed class Ramming : NeighbourhoodRule
+        private sealed class ColliderMovingRule : NeighbourhoodRule
         {
             internal Collider Ball { get; set; }
 
@@ -184,16 +184,16 @@ namespace Collektive.Headless.Tests.Simulation
         {
             nodes.Clear();
             var random = new RandomStream(3, 0, RandomPurpose.Scene);
-            for (var i = 0; i < count; i++) nodes.Add(MakeSensing(new Vector3(random.Range(0f, 8f), 0, random.Range(0f, 8f))));
+            for (var i = 0; i < count; i++) nodes.Add(MakeNodeWithSensors(new Vector3(random.Range(0f, 8f), 0, random.Range(0f, 8f))));
             for (var i = 0; i < count; i++) MakeBall(new Vector3(random.Range(0f, 8f), 0, random.Range(0f, 8f)));
         }
 
-        private Node MakeSensing(Vector3 place)
+        private Node MakeNodeWithSensors(Vector3 place)
         {
             var node = MakeNode(0).Node;
             node.transform.position = place;
             node.gameObject.AddComponent<SphereCollider>().radius = 0.3f;
-            // A wing of its own, which rays have to pass.
+            // A child collider that the node's own rays must ignore.
             var wing = new GameObject("Wing");
             wing.transform.SetParent(node.transform, false);
             wing.transform.localPosition = new Vector3(1, 0, 0);
@@ -213,8 +213,8 @@ namespace Collektive.Headless.Tests.Simulation
             ball.AddComponent<SphereCollider>().radius = 0.1f;
         }
 
-        /// <summary>Compares what a node's sensors wrote with physics asked now: nothing has moved since.</summary>
-        private static void AssertAsAlone(Node node)
+        /// <summary>Compares a node's sensor data with single queries. Nothing has moved since.</summary>
+        private static void AssertEqualsSingleQueries(Node node)
         {
             var rays = node.GetComponent<SensorTests.Rays>();
             if (rays.enabled)
@@ -241,7 +241,7 @@ namespace Collektive.Headless.Tests.Simulation
             return new List<RaycastHit>(hits).GetRange(0, count);
         }
 
-        public sealed class Changing : Sensor<probe.SensorData>
+        public sealed class RayCountChanger : Sensor<probe.SensorData>
         {
             protected override void Sense(ref probe.SensorData data) => GetComponent<SensorTests.Rays>().Rays = (int)SimulationManager.Current.Tick + 1;
         }

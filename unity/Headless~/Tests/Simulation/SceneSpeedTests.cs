@@ -13,8 +13,8 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>
-    /// What single parts of the package cost in a dense scene: 1,000 nodes on a plane, in processor time of the main thread on Mono. The limits are
-    /// what a frame can bear.
+    /// Processor time of single parts of the package on the main thread, in a dense scene of 1,000 nodes on a plane. The limits are for Mono and
+    /// small enough for one frame.
     /// </summary>
     [TestFixture]
     [Category("Slow")]
@@ -33,7 +33,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void Trigger_rules_of_95_neighbours_take_less_than_10_milliseconds_a_tick()
         {
-            // On a plane of side 10, within 1.8 m of a node are some 95 others.
+            // On a plane of 10 m by 10 m, each node has about 95 others within 1.8 m.
             Scatter(Count, 10, node =>
             {
                 node.AddComponent<SphereCollider>().radius = 0.05f;
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Simulation
             Print("grid of 10,000 nodes, " + found + " near ones", milliseconds);
             Print("rules of 10,000 nodes, " + Manager.LinkCount + " links", ShortestRuleUpdate());
             Assert.That(found, Is.EqualTo(nodes.Count + Manager.LinkCount));
-            // 3 on a machine that does nothing else.
+            // 3 ms on an idle machine.
             Assert.That(milliseconds, Is.LessThan(2 * 3));
         }
 
@@ -122,7 +122,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Sensors_of_1_000_nodes_with_8_rays_and_their_obstacles()
+        public void Sensors_of_1_000_nodes_with_8_rays_and_obstacles_are_timed()
         {
             Scatter(Count, 40, node =>
             {
@@ -142,7 +142,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void The_diagnostics_window_takes_half_a_millisecond_of_an_event()
+        public void The_diagnostics_window_takes_less_than_half_a_millisecond_per_event()
         {
             EditorApplication.isPlaying = true;
             ScatterInRadius(Count, 10, 1.75f);
@@ -162,12 +162,12 @@ namespace Collektive.Headless.Tests.Simulation
             });
             Print("diagnostics window, the first event after a tenth of a second", first);
             Assert.That(milliseconds, Is.LessThan(0.5));
-            // It reads the list anew.
+            // The first event reads the list again.
             Assert.That(first, Is.LessThan(1));
         }
 
         [Test]
-        public void Nodes_that_leave_together_cost_no_search_each()
+        public void Leaving_and_joining_of_10_000_nodes_is_timed()
         {
             const int count = 10 * Count;
             var nodes = new Node[count];
@@ -214,7 +214,7 @@ namespace Collektive.Headless.Tests.Simulation
             return pairs;
         }
 
-        /// <summary>Milliseconds of asking all rules once, as a tick does.</summary>
+        /// <summary>Returns the milliseconds of running all rules once, as in a tick.</summary>
         private double ShortestRuleUpdate()
         {
             var best = double.MaxValue;
@@ -231,7 +231,7 @@ namespace Collektive.Headless.Tests.Simulation
             return best;
         }
 
-        /// <summary>Milliseconds of the view's frame after each of several ticks, that is with all links new.</summary>
+        /// <summary>Returns the milliseconds of the view's LateUpdate after a tick, in which all links are new.</summary>
         private double LeastOfView(LinkView view)
         {
             var frame = (Action)typeof(LinkView).GetMethod("LateUpdate", BindingFlags.Instance | BindingFlags.NonPublic).CreateDelegate(typeof(Action), view);

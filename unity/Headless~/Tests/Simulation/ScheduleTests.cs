@@ -8,12 +8,12 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Who runs in which tick, and what comes and goes meanwhile; ticks are 0.05 s apart.</summary>
+    /// <summary>Schedules, sleeping nodes, previous answers and global data. Ticks are 0.05 s apart.</summary>
     [TestFixture]
     public sealed class ScheduleTests : SimulationFixture
     {
         [Test]
-        public void Under_the_asynchronous_schedule_each_node_runs_at_its_own_period()
+        public void Asynchronous_nodes_run_at_their_own_period()
         {
             Configure("count", Asynchronous(0.1f));
             var usual = MakeNode(0);
@@ -27,12 +27,12 @@ namespace Collektive.Headless.Tests.Simulation
             Play(18);
             Assert.That(usual.Answer, Is.EqualTo(10));
             Assert.That(own.Answer, Is.EqualTo(4));
-            Assert.That(usual.Actuator.Calls, Is.EqualTo(10), "actuators act after their node's rounds only");
+            Assert.That(usual.Actuator.Calls, Is.EqualTo(10), "actuators run only after rounds of their node");
             Assert.That(Errors, Is.Empty);
         }
 
         [Test]
-        public void Programs_know_the_time_since_their_own_last_round()
+        public void Programs_read_the_time_since_their_last_round()
         {
             Configure("clock", Asynchronous(0.15f));
             var node = MakeNode(0);
@@ -44,7 +44,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(0f)]
         [TestCase(float.NaN)]
         [TestCase(0.04f)]
-        public void A_period_that_cannot_be_is_refused_before_anything_starts(float period)
+        public void An_invalid_period_is_rejected_before_the_start(float period)
         {
             Configure("count", Asynchronous(period));
             MakeNode(0);
@@ -54,7 +54,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_period_of_one_node_that_cannot_be_is_refused_with_the_node()
+        public void An_invalid_period_of_one_node_is_rejected_with_the_node()
         {
             Configure("count", Asynchronous(0.1f));
             MakeNode(0);
@@ -65,7 +65,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_timing_that_no_schedule_uses_is_not_looked_at()
+        public void Timing_is_not_validated_if_the_schedule_ignores_it()
         {
             Configure("count", settings => settings.timing.period = float.NaN);
             var node = MakeTimedNode(new RoundTiming { period = 0 });
@@ -76,7 +76,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]
-        public void A_node_that_sleeps_keeps_its_state_and_what_it_sent(Schedule schedule)
+        public void A_sleeping_node_keeps_its_state(Schedule schedule)
         {
             Configure("sum", Asynchronous(0.05f) + (settings => settings.schedule = schedule));
             var a = MakeNode(1);
@@ -103,7 +103,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]
-        public void A_nodes_last_answer_stays_until_its_next_one(Schedule schedule)
+        public void The_last_answer_is_kept_until_the_next_answer(Schedule schedule)
         {
             Configure("count", Asynchronous(0.05f) + (settings => settings.schedule = schedule));
             var node = MakeNode(0);
@@ -123,7 +123,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Under_the_asynchronous_schedule_every_node_has_its_last_answer_in_every_tick()
+        public void Asynchronous_nodes_keep_their_last_answer_in_every_tick()
         {
             Configure("count", settings =>
             {
@@ -135,17 +135,17 @@ namespace Collektive.Headless.Tests.Simulation
             for (var tick = 1; tick <= 60; tick++)
             {
                 Play(1);
-                // What actuators got is what there is to ask for.
+                // TryGetAnswer returns the last data of the actuator.
                 foreach (var node in nodes.FindAll(node => node.Actuator.Calls > 0)) Expect(node, node.Actuator.Last.Value, node.Node.AnswerTick);
                 if (tick >= 10) Assert.That(nodes.FindAll(node => node.Actuator.Calls == 0), Is.Empty);
             }
-            Assert.That(nodes.FindAll(node => node.Node.AnswerTick == Manager.Tick).Count, Is.InRange(0, 15), "few of them were due");
+            Assert.That(nodes.FindAll(node => node.Node.AnswerTick == Manager.Tick).Count, Is.InRange(0, 15), "only few nodes were due");
         }
 
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]
-        public void A_failed_round_leaves_the_last_good_answer(Schedule schedule)
+        public void A_failed_round_keeps_the_last_good_answer(Schedule schedule)
         {
             Configure("trouble", Asynchronous(0.05f) + (settings => settings.schedule = schedule));
             var node = MakeNode(0);
@@ -164,7 +164,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_that_rejoins_has_no_previous_answer_even_in_its_own_actuator()
+        public void A_node_that_rejoins_during_the_actuator_phase_has_no_answer()
         {
             Configure("count");
             var node = MakeNode(0);
@@ -179,7 +179,7 @@ namespace Collektive.Headless.Tests.Simulation
             var rejoiner = node.Node.gameObject.AddComponent<Rejoiner>();
             rejoiner.Of = other;
             Play(1);
-            Assert.That(other.Node.TryGetAnswer(out ActuatorData _), Is.False, "the answer was for the one that left");
+            Assert.That(other.Node.TryGetAnswer(out ActuatorData _), Is.False, "the answer belonged to the departed node");
             Assert.That(other.Actuator.Calls, Is.EqualTo(2));
             rejoiner.Of = null;
             Play(1);
@@ -188,7 +188,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_restarted_simulation_knows_no_answers_of_the_former()
+        public void A_restarted_simulation_has_no_previous_answers()
         {
             Configure("count", Asynchronous(0.2f));
             var node = MakeNode(0);
@@ -203,20 +203,20 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void While_a_tick_acts_later_nodes_have_their_previous_answer()
+        public void During_the_actuator_phase_later_nodes_have_their_previous_answer()
         {
             Configure("count");
             var first = MakeNode(0);
             var second = MakeNode(0);
-            var asker = first.Node.gameObject.AddComponent<Asker>();
-            asker.Of = second.Node;
+            var reader = first.Node.gameObject.AddComponent<AnswerReader>();
+            reader.Of = second.Node;
             Play(1);
-            Assert.That(asker.Heard, Is.EqualTo(-1));
+            Assert.That(reader.Heard, Is.EqualTo(-1));
             Play(1);
-            Assert.That(asker.Heard, Is.EqualTo(1));
+            Assert.That(reader.Heard, Is.EqualTo(1));
             second.Node.Sleep(0.1);
             Play(2);
-            Assert.That(asker.Heard, Is.EqualTo(2));
+            Assert.That(reader.Heard, Is.EqualTo(2));
         }
 
         [Test]
@@ -234,7 +234,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Sleeping_is_refused_for_less_than_no_time_and_outside_a_simulation()
+        public void Sleep_rejects_invalid_times_and_nodes_outside_a_simulation()
         {
             var node = MakeNode(0);
             Assert.Throws<ArgumentOutOfRangeException>(() => node.Node.Sleep(-1));
@@ -244,7 +244,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_that_failed_comes_back_without_state_messages_or_links_of_scripts()
+        public void A_disabled_node_rejoins_without_state_messages_or_script_links()
         {
             Configure("count");
             var listener = MakeNode(0);
@@ -265,7 +265,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void An_id_can_go_to_another_node_in_the_same_tick_and_nothing_of_the_former_reaches_it()
+        public void Messages_in_flight_do_not_reach_a_new_node_with_the_same_id()
         {
             Configure("sum", settings => settings.network.delay = 0.12);
             var sender = MakeNode(5);
@@ -283,13 +283,13 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Global_data_reach_programs_from_the_next_tick_on()
+        public void Global_data_reaches_programs_at_the_next_tick()
         {
             Manager.SetGlobals<probe.GlobalData>(data => data.Wind = 1);
             Configure("windy");
             var node = MakeNode(0);
             Play(1);
-            Assert.That(node.Answer, Is.EqualTo(-1), "what was set for an earlier simulation is gone");
+            Assert.That(node.Answer, Is.EqualTo(-1), "global data of an earlier simulation was discarded");
             Manager.SetGlobals<probe.GlobalData>(data => data.Wind = 3);
             Manager.SetGlobals<probe.GlobalData>(data => data.Wind = data.Wind + 1);
             Play(1);
@@ -316,7 +316,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Global_data_of_another_type_or_that_are_not_finite_stop_the_simulation()
+        public void Global_data_of_another_type_or_with_non_finite_values_stops_the_simulation()
         {
             Configure("windy");
             MakeNode(0);
@@ -345,16 +345,16 @@ namespace Collektive.Headless.Tests.Simulation
 
         private static ProbeNode MakeTimedNode(RoundTiming timing)
         {
-            var made = MakeNode(0);
-            made.Node.OwnTiming = true;
-            made.Node.Timing.period = timing.period;
-            made.Node.Timing.phase = timing.phase;
-            made.Node.Timing.jitter = timing.jitter;
-            Rejoin(made);
-            return made;
+            var timed = MakeNode(0);
+            timed.Node.OwnTiming = true;
+            timed.Node.Timing.period = timing.period;
+            timed.Node.Timing.phase = timing.phase;
+            timed.Node.Timing.jitter = timing.jitter;
+            Rejoin(timed);
+            return timed;
         }
 
-        /// <summary>What a node is joins with it.</summary>
+        /// <summary>Lets a node join again, because its settings are read at that time.</summary>
         private static void Rejoin(ProbeNode node)
         {
             node.Node.RequestedId = node.Node.Id;
@@ -362,7 +362,7 @@ namespace Collektive.Headless.Tests.Simulation
             node.Node.enabled = true;
         }
 
-        /// <summary>Makes another node leave and come back while the tick acts.</summary>
+        /// <summary>Lets another node rejoin during the actuator phase.</summary>
         public sealed class Rejoiner : Actuator<ActuatorData>
         {
             public ProbeNode Of;
@@ -373,8 +373,8 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Asks another node for its answer.</summary>
-        public sealed class Asker : Actuator<ActuatorData>
+        /// <summary>Reads the answer of another node.</summary>
+        public sealed class AnswerReader : Actuator<ActuatorData>
         {
             public Node Of;
             public float Heard;

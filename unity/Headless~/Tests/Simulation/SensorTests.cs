@@ -13,7 +13,7 @@ namespace Collektive.Headless.Tests.Simulation
     public sealed class SensorTests : SimulationFixture
     {
         [Test]
-        public void Position_is_where_the_node_is_also_for_a_sensor_on_a_child()
+        public void A_position_sensor_on_a_child_reads_the_position_of_the_node()
         {
             var node = MakeNode(0, new Vector3(1, 2, 3)).Node;
             var child = new GameObject("Child");
@@ -25,7 +25,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Velocity_of_a_node_without_a_body_is_its_way_over_the_time_between_rounds()
+        public void Velocity_without_a_body_is_displacement_over_the_time_between_rounds()
         {
             var node = MakeNode(0).Node;
             var sensor = node.gameObject.AddComponent<Velocity>();
@@ -39,10 +39,10 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Velocity_of_a_body_is_the_bodys_own()
+        public void Velocity_with_a_body_is_the_velocity_of_the_body()
         {
             var node = MakeNode(0).Node;
-            var body = Weightless(node);
+            var body = AddWeightlessBody(node);
             body.linearVelocity = new Vector3(0, 0, 3);
             var sensor = node.gameObject.AddComponent<Velocity>();
             Play(1);
@@ -50,7 +50,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_rigidbody_sensor_brings_its_body_and_shows_it()
+        public void A_rigidbody_sensor_adds_a_body_and_reads_it()
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Body>();
             sensor.GetComponent<Rigidbody>().mass = 7;
@@ -59,7 +59,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Obstacles_are_the_other_colliders_within_reach_the_nearest_first()
+        public void Obstacles_are_other_colliders_within_reach_sorted_by_distance()
         {
             var node = MakeNode(0).Node;
             node.gameObject.AddComponent<SphereCollider>();
@@ -67,7 +67,7 @@ namespace Collektive.Headless.Tests.Simulation
             sensor.Reach = 3;
             var wall = MakeBox(new Vector3(2.5f, 0, 0));
             var near = MakeBox(new Vector3(0, 0, -2));
-            Weightless(near);
+            AddWeightlessBody(near);
             MakeBox(new Vector3(0, 4, 0));
             MakeBox(Vector3.forward).GetComponent<Collider>().isTrigger = true;
             MakeBox(Vector3.back).layer = 2;
@@ -82,7 +82,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Of_meshes_that_are_not_convex_the_bounds_count_and_the_user_reads_of_it_once()
+        public void Non_convex_meshes_use_their_bounds_and_log_one_message()
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
             sensor.Reach = 3;
@@ -107,7 +107,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void More_obstacles_than_there_was_room_for_are_all_found()
+        public void Obstacles_beyond_the_initial_capacity_are_found()
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
             sensor.Reach = 100;
@@ -118,7 +118,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Rays_all_around_begin_straight_ahead_and_turn_with_the_node()
+        public void A_full_ray_fan_starts_ahead_and_rotates_with_the_node()
         {
             var node = MakeNode(0).Node;
             node.gameObject.AddComponent<SphereCollider>();
@@ -137,7 +137,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_narrow_fan_goes_from_left_to_right_and_passes_through_the_nodes_own_colliders()
+        public void A_partial_ray_fan_goes_left_to_right_and_ignores_own_colliders()
         {
             var node = MakeNode(0).Node;
             var sensor = node.gameObject.AddComponent<Rays>();
@@ -157,11 +157,11 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_contact_has_its_place_and_the_push_against_the_fall()
+        public void A_contact_reports_point_normal_and_impulse()
         {
             MakeBox(new Vector3(0, -0.5f, 0));
             var ball = MakeBall(new Vector3(0, 0.49f, 0));
-            ball.sleepThreshold = 0; // a sleeping body's contacts push nothing
+            ball.sleepThreshold = 0; // contacts of a sleeping body have no impulse
             var sensor = ball.gameObject.AddComponent<Contacts>();
             Play(1);
             Assert.That(sensor.Values, Is.Empty, "nothing touched before the first physics step");
@@ -170,7 +170,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Values[0].Body == null, Is.True);
             Assert.That(sensor.Values[0].Point.y, Is.EqualTo(0).Within(0.05f));
             Assert.That(sensor.Values[0].Normal.y, Is.EqualTo(1).Within(1e-3f));
-            // 2 kg lie on the box for 0.05 s between two rounds.
+            // 2 kg rest on the box for 0.05 s between two rounds.
             Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * 9.81f * 0.05f).Within(0.2f));
             ball.linearVelocity = 10 * Vector3.up;
             Play(3);
@@ -197,7 +197,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_body_that_vanishes_is_no_contact_any_more()
+        public void A_destroyed_body_is_no_longer_a_contact()
         {
             var box = MakeBox(new Vector3(0, -0.5f, 0));
             var sensor = MakeBall(new Vector3(0, 0.49f, 0)).gameObject.AddComponent<Contacts>();
@@ -210,7 +210,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Zones_are_entered_stayed_in_and_left()
+        public void Zones_report_entering_staying_and_leaving()
         {
             var zone = MakeBox(new Vector3(5, 0, 0)).GetComponent<Collider>();
             zone.isTrigger = true;
@@ -229,7 +229,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_zone_that_is_switched_off_is_left_and_a_nodes_trigger_is_no_zone()
+        public void A_disabled_zone_is_left_and_triggers_of_nodes_are_not_zones()
         {
             var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
             zone.isTrigger = true;
@@ -245,7 +245,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Intensity_falls_with_the_distance_and_adds_up_over_all_sources()
+        public void Intensity_decreases_with_distance_and_is_summed_over_sources()
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
             var first = MakeSource(new Vector3(10, 0, 0));
@@ -262,7 +262,7 @@ namespace Collektive.Headless.Tests.Simulation
             sensor.Source = second;
             second.Falloff = 10;
             Play(1);
-            Assert.That(sensor.Value, Is.EqualTo(0), "never below");
+            Assert.That(sensor.Value, Is.EqualTo(0), "never negative");
         }
 
         private static string Distances(Rays sensor) =>
@@ -275,16 +275,16 @@ namespace Collektive.Headless.Tests.Simulation
             return box;
         }
 
-        private static Rigidbody Weightless(Component part) => Weightless(part.gameObject);
+        private static Rigidbody AddWeightlessBody(Component part) => AddWeightlessBody(part.gameObject);
 
-        private static Rigidbody Weightless(GameObject holder)
+        private static Rigidbody AddWeightlessBody(GameObject holder)
         {
             var body = holder.AddComponent<Rigidbody>();
             body.useGravity = false;
             return body;
         }
 
-        /// <summary>A node of 2 kg and half a metre radius.</summary>
+        /// <summary>Creates a node of 2 kg with a radius of half a metre.</summary>
         private static Rigidbody MakeBall(Vector3 place)
         {
             var node = MakeNode(0, place).Node;

@@ -7,7 +7,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>A scene of probe nodes on a real JVM, made anew for each test.</summary>
+    /// <summary>A new scene of probe nodes for each test, on a real JVM.</summary>
     public abstract class SimulationFixture
     {
         private readonly List<string> errors = new List<string>();
@@ -47,7 +47,7 @@ namespace Collektive.Headless.Tests.Simulation
             return manager;
         }
 
-        /// <summary>Gives the manager other settings before the first frame.</summary>
+        /// <summary>Changes the manager's settings before the first frame.</summary>
         protected void Configure(string program, Action<SimulationSettings> change = null) => Configure(Manager, program, change);
 
         private static void Configure(SimulationManager manager, string program, Action<SimulationSettings> change)
@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Simulation
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings = TestJvm.Settings;
             change?.Invoke(settings);
-            // A changed seed counts from the next enabling on.
+            // A changed seed takes effect when the manager is enabled.
             manager.enabled = false;
             manager.enabled = true;
         }
@@ -92,7 +92,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
     }
 
-    /// <summary>A node of the tests with its parts.</summary>
+    /// <summary>A test node with its components.</summary>
     public sealed class ProbeNode
     {
         public ProbeNode(Node node, ProbeSensor sensor, ProbeActuator actuator)

@@ -9,7 +9,7 @@ using Core = Collektive.Unity.Simulation;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>A simulation by itself: no manager, no play mode, no frames.</summary>
+    /// <summary>A simulation without a manager, play mode or frames.</summary>
     [TestFixture]
     public sealed class SimulationTests
     {
@@ -18,7 +18,7 @@ namespace Collektive.Headless.Tests.Simulation
         private static Action call;
         private Core simulation;
 
-        /// <summary>What the parts of nodes did, in order.</summary>
+        /// <summary>Calls of the nodes' components, in order.</summary>
         private static List<string> Steps { get; } = new List<string>();
 
         [SetUp]
@@ -65,7 +65,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_tick_asks_all_rules_then_all_sensors_then_all_actuators_and_then_advances_physics()
+        public void A_tick_runs_rules_sensors_actuators_and_physics_in_this_order()
         {
             var falling = Join(1).gameObject.AddComponent<Rigidbody>();
             Join(2);
@@ -80,7 +80,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase("rule")]
         [TestCase("sensor")]
         [TestCase("actuator")]
-        public void A_part_that_ends_the_simulation_leaves_out_the_rest_of_the_tick(string kind)
+        public void A_component_that_ends_the_simulation_skips_the_rest_of_the_tick(string kind)
         {
             var node = Join(1);
             Join(2);
@@ -96,7 +96,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Once_ended_it_has_no_nodes_links_or_time_and_keeps_its_digest()
+        public void An_ended_simulation_has_no_nodes_links_or_time_but_keeps_its_digest()
         {
             Join(1);
             Join(2);
@@ -113,7 +113,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Settings_that_are_wrong_are_said_when_it_opens()
+        public void Invalid_settings_are_reported_when_the_simulation_opens()
         {
             simulation.Settings.physicsStep = 1;
             Assert.That(simulation.TryOpen(), Is.False);

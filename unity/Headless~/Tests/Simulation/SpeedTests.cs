@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>What a tick costs in Unity's process with the ready parts.</summary>
+    /// <summary>Cost of a tick in Unity's process with the ready-made components.</summary>
     [TestFixture]
     [Category("Slow")]
     public sealed class SpeedTests : SimulationFixture
@@ -16,7 +16,7 @@ namespace Collektive.Headless.Tests.Simulation
         private const int Warm = 100;
         private const int Ticks = 200;
 
-        /// <summary>Metres of the plane.</summary>
+        /// <summary>Side of the plane in metres.</summary>
         private const float Side = 100;
 
         /// <summary>Keeps the control's allocation from being optimised away.</summary>
@@ -24,7 +24,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Asynchronous)]
-        public void A_tick_of_ready_parts_allocates_no_managed_memory(Schedule schedule)
+        public void A_tick_of_ready_made_components_allocates_no_managed_memory(Schedule schedule)
         {
             Configure("double", settings => settings.schedule = schedule);
             Physics.gravity = Vector3.zero;
@@ -44,15 +44,15 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         /// <summary>
-        /// 10,000 nodes move on a plane, each at 2 m/s, about 12 within 2 m of each: all around its middle, or each its own way. Counted is the processor
-        /// time of the main thread, rounds on the JVM's threads not, against that of <see cref="Yardstick"/>: a slow or busy machine is slow with both.
-        /// Windows of both come in turn, always as many; the best of each counts. Those that go their own ways make, lose or change the length of every
-        /// fourth link in each tick. CoreCLR runs the plain loop five times as fast as Mono, and the tick no faster.
+        /// 10,000 nodes move on a plane at 2 m/s, with about 12 others within 2 m of each. They circle around its centre or move independently. The test
+        /// compares the processor time of the main thread, without rounds on the JVM's threads, with that of <see cref="Yardstick"/>, which is slow on
+        /// slow and busy machines too. Windows of both alternate, and the best of each counts. Nodes that move independently add, remove or change every
+        /// fourth link in each tick. CoreCLR runs the plain loop five times as fast as Mono, but the tick no faster.
         /// </summary>
         [Category("Mono")]
         [TestCase(typeof(Orbit), 5)]
         [TestCase(typeof(Wander), 8)]
-        public void Ten_thousand_nodes_sense_and_act_in_the_time_of_few_plain_loops(Type walk, int loops)
+        public void A_tick_of_10_000_nodes_takes_at_most_a_few_plain_loops(Type walk, int loops)
         {
             const int count = 10000;
             const int windows = 15;
@@ -86,7 +86,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(tick / loop, Is.LessThan(loops));
         }
 
-        /// <summary>Processor time that an act takes of this thread.</summary>
+        /// <summary>Returns the processor time of an action on this thread.</summary>
         private static double Milliseconds(Action act)
         {
             var start = ThreadClock.Milliseconds;
@@ -94,7 +94,7 @@ namespace Collektive.Headless.Tests.Simulation
             return ThreadClock.Milliseconds - start;
         }
 
-        /// <summary>A loop over points and the distances to others all over the memory: what a tick does too.</summary>
+        /// <summary>Computes distances between random points, with memory accesses like those of a tick.</summary>
         private sealed class Yardstick
         {
             private readonly Vector3[] points;
@@ -199,7 +199,7 @@ namespace Collektive.Headless.Tests.Simulation
             protected override void Write(ref SensorData data, float intensity) => data.Value += intensity;
         }
 
-        /// <summary>Sways about a place of its own, so that what is near changes and never grows.</summary>
+        /// <summary>Moves back and forth around its initial position, so that the number of nearby objects changes but does not grow.</summary>
         public sealed class Sway : MoveActuator<ActuatorData>
         {
             private Vector3 home;
@@ -213,7 +213,7 @@ namespace Collektive.Headless.Tests.Simulation
             protected override Vector3 Read(ActuatorData data) => home + new Vector3(SimulationManager.Current.Tick % 2 == 0 ? 0.2f : -0.2f, 0, 0);
         }
 
-        /// <summary>Goes around the middle of the plane.</summary>
+        /// <summary>Circles around the centre of the plane.</summary>
         public sealed class Orbit : MoveActuator<ActuatorData>
         {
             protected override Vector3 Read(ActuatorData data)
@@ -223,7 +223,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Goes straight on in a direction of its own, and back from the end of the plane.</summary>
+        /// <summary>Moves straight in a random direction and turns back at the edge of the plane.</summary>
         public sealed class Wander : MoveActuator<ActuatorData>
         {
             private Vector3 way;

@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Processor time of the calling thread: what others do on the machine counts little.</summary>
+    /// <summary>Processor time of the calling thread, which other load on the machine hardly affects.</summary>
     internal static class ThreadClock
     {
         private const int ThisThread = 3;
@@ -17,7 +17,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Milliseconds of an action, the least of several tries after a first one that warms it up.</summary>
+        /// <summary>Returns the least milliseconds of an action over several tries, after a warm-up.</summary>
         internal static double Least(int tries, Action action)
         {
             action();

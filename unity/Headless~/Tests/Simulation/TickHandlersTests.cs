@@ -4,11 +4,11 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>An exception in what users have called after a tick costs neither the tick nor the simulation.</summary>
+    /// <summary>Exceptions of handlers affect neither the tick nor the simulation.</summary>
     public sealed class TickHandlersTests : SimulationFixture
     {
         [Test]
-        public void A_handler_that_throws_is_an_error_with_its_name_and_the_others_go_on()
+        public void A_throwing_handler_is_reported_by_name_and_the_others_continue()
         {
             var calls = 0;
             MakeNode(1);
@@ -23,7 +23,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_handler_that_throws_again_and_again_is_removed()
+        public void A_handler_that_keeps_throwing_is_removed()
         {
             MakeNode(1);
             Manager.Ticked += manager =>
@@ -31,17 +31,17 @@ namespace Collektive.Headless.Tests.Simulation
                 if (manager.Tick != 2) throw new InvalidOperationException("broken on purpose");
             };
             Play(11);
-            Assert.That(Errors, Has.None.Contains("in a row"), "tick 2 was good");
+            Assert.That(Errors, Has.None.Contains("in a row"), "tick 2 succeeded");
             Play(5);
             Assert.That(Errors[Errors.Count - 1], Is.EqualTo(
-                "TickHandlersTests.A_handler_that_throws_again_and_again_is_removed (lambda) failed 10 times in a row and was removed from Ticked: "
+                "TickHandlersTests.A_handler_that_keeps_throwing_is_removed (lambda) failed 10 times in a row and was removed from Ticked: "
                 + "fix it, then add it again"));
             Assert.That(Manager.ErrorCount, Is.EqualTo(11));
             Assert.That(Manager.Tick, Is.EqualTo(16));
         }
 
         [Test]
-        public void A_handler_may_leave_from_within_its_call()
+        public void A_handler_can_remove_itself()
         {
             var calls = 0;
             MakeNode(1);
@@ -56,14 +56,14 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_stop_condition_that_throws_is_an_error_and_stops_nothing()
+        public void A_throwing_stop_condition_is_reported_and_does_not_stop_the_run()
         {
             MakeNode(1);
             Manager.StopCondition = manager => throw new InvalidOperationException("broken on purpose");
             Play(2);
             Assert.That(Manager.ErrorCount, Is.EqualTo(2));
             Assert.That(Errors[0], Is.StringContaining(
-                "TickHandlersTests.A_stop_condition_that_throws_is_an_error_and_stops_nothing (lambda) failed after tick 1"));
+                "TickHandlersTests.A_throwing_stop_condition_is_reported_and_does_not_stop_the_run (lambda) failed after tick 1"));
             Assert.That(Manager.Finished, Is.False);
         }
 

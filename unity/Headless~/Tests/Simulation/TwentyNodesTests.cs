@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Twenty nodes a metre apart on a line, each hearing those within 1.5 m; all values are worked out by hand.</summary>
+    /// <summary>Twenty nodes on a line, one metre apart, linked within 1.5 m. Expected values are calculated by hand.</summary>
     [TestFixture]
     public sealed class TwentyNodesTests : SimulationFixture
     {
@@ -14,7 +14,7 @@ namespace Collektive.Headless.Tests.Simulation
         private readonly ProbeNode[] line = new ProbeNode[Count];
 
         [Test]
-        public void In_lockstep_hops_travel_one_node_a_tick()
+        public void In_lockstep_hops_travel_one_node_per_tick()
         {
             Configure("hops");
             MakeLine();
@@ -39,7 +39,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_receives_what_its_neighbours_sensed_one_tick_before()
+        public void A_node_receives_its_neighbours_values_of_the_previous_tick()
         {
             Configure("sum");
             MakeLine();
@@ -57,7 +57,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void The_standard_library_is_at_hand_and_settles_on_the_hop_distance()
+        public void Standard_library_distances_converge_to_hop_distances()
         {
             Configure("far");
             MakeLine();
@@ -69,11 +69,11 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_in_different_arms_do_not_exchange_messages()
+        public void Nodes_in_different_branches_do_not_exchange_messages()
         {
             Configure("arms");
             MakeLine();
-            // The first ten nodes take one arm, the others the other: only the two at the border lose a neighbour.
+            // The first ten nodes take one branch and the others take the other. Only the two nodes at the border lose a neighbour.
             for (var i = 0; i < 10; i++) line[i].Sensor.Value = -1;
             Play(2);
             for (var i = 0; i < Count; i++)
@@ -85,7 +85,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void There_is_one_call_a_tick_and_every_link_is_known_on_both_sides()
+        public void Each_tick_is_one_call_and_links_exist_in_both_directions()
         {
             var before = Collektive.Bridge.Jvm.StepCalls;
             MakeLine();
@@ -97,7 +97,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_that_moves_away_is_no_longer_heard()
+        public void A_node_that_moves_out_of_range_is_no_longer_received()
         {
             Configure("sum");
             MakeLine();

@@ -9,12 +9,12 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>What the views hand to Unity's Graphics and renderers.</summary>
+    /// <summary>Data that the views pass to Unity's Graphics and renderers.</summary>
     [TestFixture]
     public sealed class ViewTests : SimulationFixture
     {
         [Test]
-        public void Each_directed_link_is_a_bar_from_its_sender()
+        public void Each_directed_link_is_drawn_as_a_bar_from_its_sender()
         {
             var view = AddLinkView();
             view.Width = 0.1f;
@@ -28,7 +28,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(bars[0].To, Is.EqualTo(new Vector3(1, 2, 7)));
             var draw = DrawLog.Draws[0];
             Assert.That(draw.Properties.GetFloat("_LinkWidth"), Is.EqualTo(0.1f));
-            Assert.That((draw.Bounds.min - new Vector3(0.95f, 1.95f, 2.95f)).magnitude, Is.LessThan(1e-5f), "bars are in it");
+            Assert.That((draw.Bounds.min - new Vector3(0.95f, 1.95f, 2.95f)).magnitude, Is.LessThan(1e-5f), "the bounds contain the bars");
             Assert.That((draw.Bounds.max - new Vector3(1.05f, 2.05f, 7.05f)).magnitude, Is.LessThan(1e-5f));
             Manager.AddLink(1, 0, directed: true);
             Play(1);
@@ -36,7 +36,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Links_in_one_direction_have_their_own_colour()
+        public void One_way_links_have_a_different_colour()
         {
             var view = AddLinkView();
             view.Scale.low = Color.red;
@@ -54,7 +54,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         [TestCase(LinkColouring.Length)]
         [TestCase(LinkColouring.Value)]
-        public void Links_are_coloured_by_a_number(LinkColouring colouring)
+        public void Links_are_coloured_by_length_or_value(LinkColouring colouring)
         {
             var view = AddLinkView();
             view.Colouring = colouring;
@@ -64,14 +64,14 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(0, Vector3.zero);
             for (var i = 1; i <= 3; i++) Manager.AddLink(0, MakeNode(0, i * i * Vector3.right).Node.Id, true);
             Play(1);
-            // 1, 4 and 9: the middle one lies 3/8 of the way, in the seventh of sixteen steps.
+            // 1, 4 and 9: the middle value is at 3/8 of the range, in the seventh of sixteen steps.
             var shades = Bars().ConvertAll(bar => (float)Math.Round(bar.Color.r, 3));
             shades.Sort();
             Assert.That(shades, Is.EqualTo(new[] { 0, 0.4f, 1 }));
         }
 
         [Test]
-        public void All_links_are_one_draw_of_48_corners_for_each_pair()
+        public void All_links_are_drawn_at_once_with_48_vertices_per_pair()
         {
             AddLinkView();
             for (var i = 0; i < 60; i++) MakeNode(0, new Vector3(i, i * i % 7, 0));
@@ -86,7 +86,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void More_links_than_the_limit_are_not_drawn_and_the_view_says_so_once()
+        public void Above_its_limit_the_view_draws_nothing_and_logs_one_message()
         {
             var view = AddLinkView();
             view.Limit = 3;
@@ -102,7 +102,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_that_leave_and_come_in_any_order_keep_their_own_ends()
+        public void Link_ends_stay_correct_when_another_node_leaves()
         {
             AddLinkView();
             var nodes = new List<ProbeNode>();
@@ -115,7 +115,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_view_that_is_disabled_or_whose_manager_is_gone_draws_nothing()
+        public void A_disabled_view_or_one_without_a_manager_draws_nothing()
         {
             var view = AddLinkView();
             MakeNode(0);
@@ -136,7 +136,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_view_draws_with_its_material_and_leaves_nothing_behind()
+        public void A_view_draws_with_its_material_and_releases_its_resources()
         {
             var before = DrawLog.Buffers;
             var view = AddLinkView();
@@ -283,7 +283,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Nodes_are_coloured_by_a_number_of_their_answers()
+        public void Nodes_are_coloured_by_a_value_of_their_answers()
         {
             var view = new GameObject("View").AddComponent<DoubleView>();
             view.Title = "double";
@@ -294,7 +294,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(ColorOf(nodes[0]), Is.EqualTo(Color.black));
             Assert.That(ColorOf(nodes[1]).r, Is.EqualTo(8 / 15f).Within(1e-3f));
             Assert.That(ColorOf(nodes[2]), Is.EqualTo(Color.white));
-            Assert.That(view.useGUILayout, Is.False, "a layout would allocate with each event");
+            Assert.That(view.useGUILayout, Is.False, "GUI layout would allocate in each event");
             Assert.That(view.Legend, Is.StringContaining("double  2 ").And.StringContaining("<color=#000000>").And.StringEnding(" 6"));
             nodes[2].Sensor.Value = 101;
             Play(1);
@@ -303,7 +303,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_title_and_colours_that_are_changed_during_play_are_shown()
+        public void Title_and_colours_can_change_during_play()
         {
             var view = new GameObject("View").AddComponent<DoubleView>();
             var nodes = new[] { MakeBall(1), MakeBall(2) };
@@ -319,7 +319,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_fixed_scale_stays_and_a_node_without_a_new_answer_keeps_its_colour()
+        public void A_fixed_scale_does_not_adapt_and_a_failed_round_keeps_the_colour()
         {
             Configure("trouble");
             var view = new GameObject("View").AddComponent<DoubleView>();
@@ -332,7 +332,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 13;
             Play(1);
-            Assert.That(node.Node.TryGetAnswer(out ActuatorData last), Is.True, "the last good one");
+            Assert.That(node.Node.TryGetAnswer(out ActuatorData last), Is.True, "the last good answer");
             Assert.That(last.Value, Is.EqualTo(3));
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 0;
@@ -341,7 +341,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_node_shows_its_last_answer_in_the_type_of_the_schema_only()
+        public void TryGetAnswer_returns_the_last_answer_only_as_the_schema_type()
         {
             var node = MakeNode(4).Node;
             Assert.That(node.TryGetAnswer(out ActuatorData _), Is.False, "before the first tick");
@@ -359,7 +359,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]
-        public void A_field_view_shows_every_node_in_every_tick_and_its_scale_holds_all_of_them(Schedule schedule)
+        public void A_field_view_includes_all_nodes_in_colours_and_scale(Schedule schedule)
         {
             Configure("double", settings =>
             {
@@ -396,7 +396,7 @@ namespace Collektive.Headless.Tests.Simulation
             return block.GetColor("_BaseColor");
         }
 
-        /// <summary>All bars of this frame's draws, as the shader makes them: it draws each from its beginning half of the way.</summary>
+        /// <summary>Returns the bars of this frame's draws as the shader computes them. It draws each bar from its start to the middle.</summary>
         private static List<(Vector3 From, Vector3 To, Color Color)> Bars()
         {
             var bars = new List<(Vector3, Vector3, Color)>();

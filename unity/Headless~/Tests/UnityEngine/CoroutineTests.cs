@@ -64,7 +64,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Null_waits_for_the_next_frame_between_Update_and_LateUpdate()
+        public void Yield_null_resumes_in_the_next_frame_between_Update_and_LateUpdate()
         {
             var runner = Add<Runner>();
             runner.StartCoroutine(runner.Frames());
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Seconds_are_those_of_the_game()
+        public void WaitForSeconds_uses_game_time()
         {
             var runner = Add<Runner>();
             runner.StartCoroutine(runner.Seconds(0.1f));
@@ -84,7 +84,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Nested_routines_and_coroutines_are_waited_for()
+        public void Nested_coroutines_are_awaited()
         {
             var runner = Add<Runner>();
             runner.StartCoroutine(runner.Nested());
@@ -94,7 +94,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Fixed_update_end_of_frame_and_conditions_have_their_places()
+        public void Other_yield_instructions_resume_in_their_phases()
         {
             var runner = Add<Runner>();
             runner.StartCoroutine(runner.Phases());
@@ -119,7 +119,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Start_may_be_a_coroutine()
+        public void Start_can_be_a_coroutine()
         {
             Add<StartsAsCoroutine>();
             Frames(2);

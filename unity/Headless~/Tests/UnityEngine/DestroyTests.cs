@@ -24,7 +24,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_destroyed_object_equals_null_but_not_for_CSharp()
+        public void A_destroyed_object_equals_null_but_is_not_null()
         {
             var holder = new GameObject("a");
             var part = holder.AddComponent<Part>();
@@ -40,7 +40,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Children_go_with_their_parent_and_all_are_disabled_before_any_is_destroyed()
+        public void Children_are_destroyed_with_their_parent_after_all_are_disabled()
         {
             var parent = Add<Part>("p");
             var child = Add<Part>("c");
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_delayed_destruction_waits_for_its_time()
+        public void Destroy_with_a_delay_waits_for_that_time()
         {
             var holder = new GameObject();
             Object.Destroy(holder, 0.05f);

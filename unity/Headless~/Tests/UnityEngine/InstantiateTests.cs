@@ -27,7 +27,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_copy_has_the_serialised_values_of_its_own_before_Awake()
+        public void A_copy_has_its_own_serialised_values_before_Awake()
         {
             var holder = new GameObject("template");
             holder.SetActive(false);
@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_copy_under_a_parent_keeps_its_local_place()
+        public void A_copy_under_a_parent_keeps_its_local_position()
         {
             var parent = new GameObject().transform;
             parent.position = new Vector3(10f, 0f, 0f);

@@ -91,7 +91,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_spring_carries_a_weight_where_forces_are_equal()
+        public void A_spring_holds_a_weight_at_equilibrium()
         {
             var ball = Ball(new Vector3(0f, 5f, 0f));
             var joint = ball.gameObject.AddComponent<SpringJoint>();
@@ -102,7 +102,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_joint_breaks_beyond_its_force_and_says_so()
+        public void A_joint_breaks_above_its_break_force_and_sends_OnJointBreak()
         {
             var ball = Ball(new Vector3(0f, 5f, 0f));
             ball.gameObject.AddComponent<Breaker>();
@@ -118,7 +118,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_joint_outlives_the_rest_and_the_loss_of_its_bodies()
+        public void A_joint_tolerates_disabled_and_destroyed_bodies()
         {
             var a = Ball(new Vector3(0f, 5f, 0f));
             var b = Ball(new Vector3(2f, 5f, 0f));

@@ -21,7 +21,7 @@ namespace Collektive.Headless.Tests.Engine
             void OnApplicationQuit() => Note("OnApplicationQuit");
         }
 
-        public class Heir : Witness { }
+        public class DerivedWitness : Witness { }
 
         public class Quiet : MonoBehaviour
         {
@@ -38,7 +38,7 @@ namespace Collektive.Headless.Tests.Engine
             void Update() => throw new InvalidOperationException("update failed");
         }
 
-        public class FailsToAwake : MonoBehaviour
+        public class ThrowsInAwake : MonoBehaviour
         {
             void Awake() => throw new InvalidOperationException("awake failed");
             void OnEnable() => Notes.Add("enabled");
@@ -52,12 +52,12 @@ namespace Collektive.Headless.Tests.Engine
             }
         }
 
-        [RequireComponent(typeof(Rigidbody), typeof(SphereCollider))] public class Needy : MonoBehaviour { }
+        [RequireComponent(typeof(Rigidbody), typeof(SphereCollider))] public class RequiresComponents : MonoBehaviour { }
         [DisallowMultipleComponent] public class Single : MonoBehaviour { }
-        public class SingleHeir : Single { }
+        public class DerivedSingle : Single { }
 
         [Test]
-        public void A_script_lives_in_the_order_of_the_manual()
+        public void Messages_are_sent_in_the_documented_order()
         {
             var witness = Add<Witness>("a");
             Assert.That(Events(), Is.EqualTo("a.Awake a.OnEnable"));
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void Private_messages_of_base_classes_are_found()
         {
-            Add<Heir>("h");
+            Add<DerivedWitness>("h");
             Loop.Frame(0.001f);
             Assert.That(Events(), Is.EqualTo("h.Awake h.OnEnable h.Start h.Update h.LateUpdate"));
         }
@@ -87,7 +87,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Execution_order_rules_updates()
+        public void Execution_order_determines_the_order_of_Update()
         {
             Add<Late>();
             Add<Middle>();
@@ -98,7 +98,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Execution_order_rules_the_Awake_of_a_batch()
+        public void Execution_order_determines_the_order_of_Awake()
         {
             var root = new GameObject("root");
             root.SetActive(false);
@@ -117,7 +117,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void An_inactive_object_wakes_when_activated_and_not_before()
+        public void An_inactive_object_receives_Awake_when_activated()
         {
             var holder = new GameObject("a");
             holder.SetActive(false);
@@ -133,7 +133,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void An_object_that_never_woke_is_destroyed_in_silence()
+        public void An_object_without_Awake_receives_no_OnDestroy()
         {
             var holder = new GameObject("a");
             holder.SetActive(false);
@@ -143,7 +143,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_disabled_component_wakes_but_does_not_start()
+        public void A_disabled_component_receives_Awake_but_not_Start()
         {
             var holder = new GameObject("a");
             holder.SetActive(false);
@@ -158,7 +158,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_child_follows_the_activity_of_its_parent()
+        public void A_child_is_active_only_with_its_parent()
         {
             var parent = new GameObject("parent");
             var child = Add<Witness>("c");
@@ -184,15 +184,15 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_script_whose_Awake_throws_is_off()
+        public void A_script_whose_Awake_throws_is_disabled()
         {
-            var script = Add<FailsToAwake>();
+            var script = Add<ThrowsInAwake>();
             Assert.That(script.enabled, Is.False);
             Assert.That(Events(), Is.Empty);
         }
 
         [Test]
-        public void What_Update_spawns_starts_before_LateUpdate_and_updates_in_the_next_frame()
+        public void An_object_created_in_Update_starts_before_LateUpdate_and_updates_in_the_next_frame()
         {
             Add<Spawner>();
             Loop.Frame(0.001f);
@@ -205,7 +205,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(0.02f, 1)]
         [TestCase(0.1f, 5)]
         [TestCase(0.05f, 2)]
-        public void Fixed_updates_keep_up_with_the_frame(float deltaTime, int expected)
+        public void FixedUpdate_runs_once_per_fixed_step_within_the_frame(float deltaTime, int expected)
         {
             Add<Witness>("a");
             Loop.Frame(deltaTime);
@@ -225,20 +225,20 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Required_components_come_along()
+        public void Required_components_are_added()
         {
-            var holder = Add<Needy>().gameObject;
+            var holder = Add<RequiresComponents>().gameObject;
             Assert.That(holder.GetComponents<Component>().Length, Is.EqualTo(4));
             Assert.That(holder.GetComponent<Rigidbody>(), Is.Not.Null);
             Assert.That(holder.GetComponent<Collider>(), Is.InstanceOf<SphereCollider>());
         }
 
         [Test]
-        public void A_single_component_and_its_heirs_are_refused_twice()
+        public void DisallowMultipleComponent_applies_to_the_type_and_its_subclasses()
         {
             var holder = Add<Single>().gameObject;
             Assert.That(holder.AddComponent<Single>() == null, Is.True);
-            Assert.That(holder.AddComponent<SingleHeir>() == null, Is.True);
+            Assert.That(holder.AddComponent<DerivedSingle>() == null, Is.True);
             Assert.That(Errors.Count, Is.EqualTo(2));
         }
     }

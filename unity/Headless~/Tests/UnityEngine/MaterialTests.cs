@@ -6,8 +6,8 @@ namespace Collektive.Headless.Tests.Engine
     /// Friction and bounce of PhysicsMaterial.
     public sealed class MaterialTests : PhysicsFixture
     {
-        /// How far a resting box slides in two seconds while its floor tilts for one (here gravity does), m.
-        static float SlideOn(float degrees, PhysicsMaterial floor, PhysicsMaterial box)
+        /// Returns the distance in metres that a resting box slides in two seconds, while gravity tilts during the first one.
+        static float SlideDistance(float degrees, PhysicsMaterial floor, PhysicsMaterial box)
         {
             Floor(floor);
             var body = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, box).gameObject.AddComponent<Rigidbody>();
@@ -23,23 +23,23 @@ namespace Collektive.Headless.Tests.Engine
             return (body.position - start).magnitude;
         }
 
-        static PhysicsMaterial Rough(float friction, PhysicsMaterialCombine combine = PhysicsMaterialCombine.Average) =>
+        static PhysicsMaterial WithFriction(float friction, PhysicsMaterialCombine combine = PhysicsMaterialCombine.Average) =>
             new PhysicsMaterial { staticFriction = friction, dynamicFriction = friction, frictionCombine = combine };
 
         [TestCase(26f, false)] // tan 26 = 0.49
         [TestCase(36f, true)] // tan 36 = 0.73
         public void A_box_slides_on_a_slope_above_its_friction_angle_and_rests_below(float degrees, bool slides)
         {
-            var way = SlideOn(degrees, null, null); // 0.6 both
+            var way = SlideDistance(degrees, null, null); // 0.6 both
             if (slides) Assert.That(way, Is.GreaterThan(0.5f));
             else Assert.That(way, Is.LessThan(0.01f));
         }
 
         [Test]
-        public void Static_friction_holds_what_dynamic_friction_would_not()
+        public void Static_friction_holds_a_box_that_dynamic_friction_would_not()
         {
             var material = new PhysicsMaterial { staticFriction = 0.9f, dynamicFriction = 0.1f };
-            Assert.That(SlideOn(35f, material, material), Is.LessThan(0.01f)); // tan 35 = 0.70
+            Assert.That(SlideDistance(35f, material, material), Is.LessThan(0.01f)); // tan 35 = 0.70
         }
 
         [Test]
@@ -58,10 +58,10 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(PhysicsMaterialCombine.Minimum, PhysicsMaterialCombine.Average, 0.2f)]
         [TestCase(PhysicsMaterialCombine.Multiply, PhysicsMaterialCombine.Minimum, 0.16f)]
         [TestCase(PhysicsMaterialCombine.Multiply, PhysicsMaterialCombine.Maximum, 0.8f)]
-        public void Two_materials_are_combined_as_the_stronger_mode_says(PhysicsMaterialCombine floor, PhysicsMaterialCombine box, float friction)
+        public void Friction_is_combined_by_the_mode_of_higher_priority(PhysicsMaterialCombine floor, PhysicsMaterialCombine box, float friction)
         {
-            Floor(Rough(0.2f, floor));
-            var body = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, Rough(0.8f, box)).gameObject.AddComponent<Rigidbody>();
+            Floor(WithFriction(0.2f, floor));
+            var body = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, WithFriction(0.8f, box)).gameObject.AddComponent<Rigidbody>();
             Run(0.2f);
             body.linearVelocity = new Vector3(9f, 0f, 0f);
             Run(0.5f);
@@ -70,7 +70,7 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(0.5f)]
         [TestCase(0.9f)]
-        public void A_ball_bounces_to_its_bounciness_squared_of_its_height(float bounciness)
+        public void Bounce_height_is_drop_height_times_bounciness_squared(float bounciness)
         {
             var material = new PhysicsMaterial { bounciness = bounciness };
             Floor(material);
@@ -87,7 +87,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Below_the_bounce_threshold_of_2_metres_a_second_nothing_bounces()
+        public void A_ball_below_the_bounce_threshold_of_2_metres_per_second_does_not_bounce()
         {
             var material = new PhysicsMaterial { bounciness = 1f };
             Floor(material);
@@ -97,9 +97,9 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_changed_material_counts_from_the_next_step()
+        public void A_changed_material_takes_effect_at_the_next_step()
         {
-            var material = Rough(0.8f);
+            var material = WithFriction(0.8f);
             Floor(material);
             var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one, material).gameObject.AddComponent<Rigidbody>();
             Run(0.2f);

@@ -5,22 +5,22 @@ namespace Collektive.Headless.Tests.Engine
 {
     public sealed class MathsTests
     {
-        static void Same(Vector3 actual, Vector3 expected) => Assert.That((actual - expected).magnitude, Is.LessThan(1e-4f), $"{actual} is not {expected}");
+        static void Near(Vector3 actual, Vector3 expected) => Assert.That((actual - expected).magnitude, Is.LessThan(1e-4f), $"{actual} is not {expected}");
 
         [Test]
-        public void Turns_are_left_handed()
+        public void Rotations_are_left_handed()
         {
-            Same(Quaternion.Euler(0f, 90f, 0f) * Vector3.forward, Vector3.right);
-            Same(Quaternion.Euler(90f, 0f, 0f) * Vector3.forward, Vector3.down);
-            Same(Quaternion.Euler(0f, 0f, 90f) * Vector3.right, Vector3.up);
-            Same(Vector3.Cross(Vector3.right, Vector3.up), Vector3.forward);
+            Near(Quaternion.Euler(0f, 90f, 0f) * Vector3.forward, Vector3.right);
+            Near(Quaternion.Euler(90f, 0f, 0f) * Vector3.forward, Vector3.down);
+            Near(Quaternion.Euler(0f, 0f, 90f) * Vector3.right, Vector3.up);
+            Near(Vector3.Cross(Vector3.right, Vector3.up), Vector3.forward);
         }
 
         [Test]
-        public void Euler_turns_about_z_then_x_then_y()
+        public void Euler_rotates_about_z_then_x_then_y()
         {
             // (1, 0, 0) by 90 about z is up, by 90 about x is forward, by 90 about y is right.
-            Same(Quaternion.Euler(90f, 90f, 90f) * Vector3.right, Vector3.right);
+            Near(Quaternion.Euler(90f, 90f, 90f) * Vector3.right, Vector3.right);
             var half = Mathf.Sqrt(0.5f);
             var q = Quaternion.Euler(0f, 90f, 0f);
             Assert.That(q.y, Is.EqualTo(half).Within(1e-6f));
@@ -28,7 +28,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Euler_angles_come_back()
+        public void Euler_angles_round_trip()
         {
             var random = new System.Random(7);
             for (var trial = 0; trial < 500; trial++)
@@ -36,25 +36,25 @@ namespace Collektive.Headless.Tests.Engine
                 var q = Quaternion.Euler(random.Next(-180, 180), random.Next(-180, 180), random.Next(-180, 180));
                 Assert.That(Quaternion.Angle(Quaternion.Euler(q.eulerAngles), q), Is.LessThan(0.2f));
             }
-            Same(Quaternion.Euler(10f, 20f, 30f).eulerAngles, new Vector3(10f, 20f, 30f));
-            Same(Quaternion.Euler(-10f, 0f, 0f).eulerAngles, new Vector3(350f, 0f, 0f));
+            Near(Quaternion.Euler(10f, 20f, 30f).eulerAngles, new Vector3(10f, 20f, 30f));
+            Near(Quaternion.Euler(-10f, 0f, 0f).eulerAngles, new Vector3(350f, 0f, 0f));
         }
 
         [Test]
-        public void Look_slerp_and_inverse()
+        public void LookRotation_Slerp_and_Inverse_match_known_values()
         {
-            Same(Quaternion.LookRotation(Vector3.right) * Vector3.forward, Vector3.right);
-            Same(Quaternion.LookRotation(new Vector3(1f, 1f, 0f)) * Vector3.forward, new Vector3(1f, 1f, 0f).normalized);
+            Near(Quaternion.LookRotation(Vector3.right) * Vector3.forward, Vector3.right);
+            Near(Quaternion.LookRotation(new Vector3(1f, 1f, 0f)) * Vector3.forward, new Vector3(1f, 1f, 0f).normalized);
             Assert.That(Quaternion.Slerp(Quaternion.identity, Quaternion.Euler(0f, 90f, 0f), 0.5f) == Quaternion.Euler(0f, 45f, 0f), Is.True);
             Assert.That(Quaternion.Angle(Quaternion.identity, Quaternion.Euler(0f, 30f, 0f)), Is.EqualTo(30f).Within(1e-2f));
             var turn = Quaternion.Euler(13f, 57f, 101f);
             Assert.That(turn * Quaternion.Inverse(turn) == Quaternion.identity, Is.True);
-            Same(Quaternion.FromToRotation(Vector3.up, Vector3.right) * Vector3.up, Vector3.right);
-            Same(Quaternion.FromToRotation(Vector3.up, Vector3.down) * Vector3.up, Vector3.down);
+            Near(Quaternion.FromToRotation(Vector3.up, Vector3.right) * Vector3.up, Vector3.right);
+            Near(Quaternion.FromToRotation(Vector3.up, Vector3.down) * Vector3.up, Vector3.down);
         }
 
         [Test]
-        public void Comparison_has_a_tolerance_and_Equals_has_none()
+        public void The_equality_operator_has_a_tolerance_and_Equals_has_none()
         {
             Vector3 a = new Vector3(1f, 0f, 0f), b = new Vector3(1.000001f, 0f, 0f);
             Assert.That(a == b, Is.True);
@@ -63,13 +63,13 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Vectors_by_hand()
+        public void Vector_functions_match_known_values()
         {
             Assert.That(new Vector3(3f, 4f, 0f).magnitude, Is.EqualTo(5f));
-            Same(new Vector3(3f, 4f, 0f).normalized, new Vector3(0.6f, 0.8f, 0f));
-            Same(Vector3.zero.normalized, Vector3.zero);
-            Same(Vector3.ClampMagnitude(new Vector3(6f, 8f, 0f), 5f), new Vector3(3f, 4f, 0f));
-            Same(Vector3.MoveTowards(Vector3.zero, Vector3.right * 3f, 1f), Vector3.right);
+            Near(new Vector3(3f, 4f, 0f).normalized, new Vector3(0.6f, 0.8f, 0f));
+            Near(Vector3.zero.normalized, Vector3.zero);
+            Near(Vector3.ClampMagnitude(new Vector3(6f, 8f, 0f), 5f), new Vector3(3f, 4f, 0f));
+            Near(Vector3.MoveTowards(Vector3.zero, Vector3.right * 3f, 1f), Vector3.right);
             Assert.That(Vector3.Angle(Vector3.right, Vector3.up), Is.EqualTo(90f).Within(1e-4f));
             Assert.That(Vector3.SignedAngle(Vector3.forward, Vector3.right, Vector3.up), Is.EqualTo(90f).Within(1e-4f));
             Assert.That(new Vector3(1f, 2f, 3f).ToString(), Is.EqualTo("(1.00, 2.00, 3.00)"));
@@ -79,13 +79,13 @@ namespace Collektive.Headless.Tests.Engine
         public void Matrices_multiply_and_invert()
         {
             var matrix = Matrix4x4.TRS(new Vector3(1f, 2f, 3f), Quaternion.Euler(10f, 20f, 30f), new Vector3(1f, 2f, 3f));
-            Same((matrix * matrix.inverse).MultiplyPoint(new Vector3(4f, 5f, 6f)), new Vector3(4f, 5f, 6f));
-            Same(matrix.lossyScale, new Vector3(1f, 2f, 3f));
+            Near((matrix * matrix.inverse).MultiplyPoint(new Vector3(4f, 5f, 6f)), new Vector3(4f, 5f, 6f));
+            Near(matrix.lossyScale, new Vector3(1f, 2f, 3f));
             Assert.That(matrix.rotation == Quaternion.Euler(10f, 20f, 30f), Is.True);
         }
 
         [Test]
-        public void Random_repeats_with_its_seed_and_keeps_its_range()
+        public void Random_is_repeatable_and_within_its_range()
         {
             UnityEngine.Random.InitState(5);
             var first = UnityEngine.Random.value;
@@ -100,7 +100,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Hues_come_back()
+        public void HSV_conversions_match_known_values()
         {
             Assert.That(Color.HSVToRGB(1f / 3f, 1f, 1f) == Color.green, Is.True);
             Color.RGBToHSV(Color.blue, out var hue, out var saturation, out var value);

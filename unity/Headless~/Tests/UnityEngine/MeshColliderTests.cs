@@ -25,7 +25,7 @@ namespace Collektive.Headless.Tests.Engine
             return mesh;
         }
 
-        static MeshCollider Meshed(Mesh mesh, bool convex)
+        static MeshCollider AddMeshCollider(Mesh mesh, bool convex)
         {
             var collider = new GameObject(mesh.name).AddComponent<MeshCollider>();
             collider.convex = convex;
@@ -34,9 +34,9 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_mesh_is_hit_on_its_triangles_and_from_their_front()
+        public void Rays_hit_only_the_front_of_mesh_triangles()
         {
-            Meshed(Ramp(), false);
+            AddMeshCollider(Ramp(), false);
             Physics.SyncTransforms();
             Assert.That(Physics.Raycast(new Vector3(3f, 20f, 0f), Vector3.down, out var hit), Is.True);
             Assert.That(hit.point.y, Is.EqualTo(3f).Within(1e-3f));
@@ -48,7 +48,7 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void A_ball_rolls_down_a_mesh()
         {
-            Meshed(Ramp(), false);
+            AddMeshCollider(Ramp(), false);
             var ball = Ball(new Vector3(5f, 5.8f, 0f));
             Run(1f);
             Assert.That(ball.position.x, Is.LessThan(3.5f));
@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(1f, 3f, -2f)]
         public void A_scaled_or_mirrored_mesh_keeps_its_front(float x, float y, float z)
         {
-            Meshed(Ramp(), false).transform.localScale = new Vector3(x, y, z);
+            AddMeshCollider(Ramp(), false).transform.localScale = new Vector3(x, y, z);
             Physics.SyncTransforms();
             Assert.That(Physics.Raycast(new Vector3(2f, 90f, 0f), Vector3.down, out var hit), Is.True);
             Assert.That(hit.point.y, Is.EqualTo(2f * y / x).Within(1e-2f));
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Engine
         public void A_convex_body_stands_on_its_base(float mirror)
         {
             Floor();
-            var pyramid = Meshed(Pyramid(), true);
+            var pyramid = AddMeshCollider(Pyramid(), true);
             pyramid.transform.localScale = new Vector3(mirror, 1f, 1f);
             pyramid.transform.position = new Vector3(0f, 0.5f, 0f);
             var body = pyramid.gameObject.AddComponent<Rigidbody>();
@@ -82,9 +82,9 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_concave_mesh_is_refused_for_a_body_that_is_not_kinematic()
+        public void A_concave_mesh_is_rejected_for_a_non_kinematic_body()
         {
-            var collider = Meshed(Ramp(), false);
+            var collider = AddMeshCollider(Ramp(), false);
             var body = collider.gameObject.AddComponent<Rigidbody>();
             Assert.That(Errors.Count, Is.EqualTo(1));
             Assert.That(Errors[0], Is.StringContaining("Non-convex MeshCollider with non-kinematic Rigidbody"));
@@ -98,24 +98,24 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_mesh_that_has_no_hull_is_an_error_that_names_it()
+        public void A_mesh_without_a_convex_hull_is_reported_by_name()
         {
-            Meshed(Ramp(), true);
-            Assert.That(Errors.Count, Is.LessThanOrEqualTo(1)); // a flat mesh: PhysX may give it a thin hull
+            AddMeshCollider(Ramp(), true);
+            Assert.That(Errors.Count, Is.LessThanOrEqualTo(1)); // a flat mesh: PhysX can build a thin hull
             var point = new Mesh { name = "point" };
             point.vertices = new[] { Vector3.zero };
             point.triangles = new[] { 0, 0, 0 };
-            Meshed(point, true);
+            AddMeshCollider(point, true);
             Assert.That(Errors[Errors.Count - 1], Is.StringContaining("point"));
             Physics.Simulate(Step);
         }
 
         [Test]
-        public void The_nearest_point_is_known_of_convex_meshes_only()
+        public void ClosestPoint_supports_only_convex_meshes()
         {
-            var pyramid = Meshed(Pyramid(), true);
+            var pyramid = AddMeshCollider(Pyramid(), true);
             Assert.That((pyramid.ClosestPoint(new Vector3(0f, -5f, 0f)) - Vector3.zero).magnitude, Is.LessThan(1e-3f));
-            var ramp = Meshed(Ramp(), false);
+            var ramp = AddMeshCollider(Ramp(), false);
             Assert.That(ramp.ClosestPoint(new Vector3(0f, -5f, 0f)), Is.EqualTo(new Vector3(0f, -5f, 0f)));
             Assert.That(Errors.Count, Is.EqualTo(1));
         }

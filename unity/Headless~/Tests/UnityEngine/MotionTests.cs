@@ -4,10 +4,10 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// What PhysX does by itself: free fall, rest, sleep, fast bodies.
+    /// Behaviour of PhysX itself: free fall, rest, sleep and fast bodies.
     public sealed class MotionTests : PhysicsFixture
     {
-        public class Feeler : MonoBehaviour
+        public class CollisionCounter : MonoBehaviour
         {
             public float Impulse;
             public int Enters, Stays, Exits;
@@ -32,52 +32,52 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(1f)]
         [TestCase(20f)]
-        public void A_body_rests_with_an_impulse_of_weight_times_time(float mass)
+        public void The_contact_impulse_of_a_resting_body_is_weight_times_step(float mass)
         {
             Floor();
             var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
             box.mass = mass;
             box.sleepThreshold = 0f;
-            var feeler = box.gameObject.AddComponent<Feeler>();
+            var counter = box.gameObject.AddComponent<CollisionCounter>();
             Run(2f);
-            Assert.That(feeler.Impulse, Is.EqualTo(mass * 9.81f * Step).Within(1f).Percent);
-            Assert.That(feeler.Enters, Is.EqualTo(1));
-            Assert.That(feeler.Stays, Is.EqualTo(99), "from the step after Enter on");
+            Assert.That(counter.Impulse, Is.EqualTo(mass * 9.81f * Step).Within(1f).Percent);
+            Assert.That(counter.Enters, Is.EqualTo(1));
+            Assert.That(counter.Stays, Is.EqualTo(99), "one per step after Enter");
         }
 
         [Test]
-        public void A_body_at_rest_falls_asleep_and_its_contact_is_no_longer_reported()
+        public void A_sleeping_body_reports_no_contacts()
         {
             Floor();
             var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
-            var feeler = box.gameObject.AddComponent<Feeler>();
+            var counter = box.gameObject.AddComponent<CollisionCounter>();
             Run(3f);
             Assert.That(box.IsSleeping(), Is.True);
             Assert.That(box.linearVelocity, Is.EqualTo(Vector3.zero));
-            var stays = feeler.Stays;
+            var stays = counter.Stays;
             Run(1f);
-            Assert.That(feeler.Stays, Is.EqualTo(stays));
-            Assert.That(feeler.Exits, Is.EqualTo(0));
+            Assert.That(counter.Stays, Is.EqualTo(stays));
+            Assert.That(counter.Exits, Is.EqualTo(0));
         }
 
         [Test]
-        public void A_body_that_is_hit_wakes_up()
+        public void A_collision_wakes_a_sleeping_body()
         {
-            Floor(Slippery());
-            var sleeper = Ball(new Vector3(0f, 0.5f, 0f), material: Slippery());
+            Floor(Frictionless());
+            var sleeper = Ball(new Vector3(0f, 0.5f, 0f), material: Frictionless());
             Run(3f);
             Assert.That(sleeper.IsSleeping(), Is.True);
-            Ball(new Vector3(-3f, 0.5f, 0f), material: Slippery()).linearVelocity = new Vector3(3f, 0f, 0f);
+            Ball(new Vector3(-3f, 0.5f, 0f), material: Frictionless()).linearVelocity = new Vector3(3f, 0f, 0f);
             Run(1f);
             Assert.That(sleeper.IsSleeping(), Is.False);
             Assert.That(sleeper.position.x, Is.GreaterThan(0.1f));
         }
 
         [Test]
-        public void Two_equal_balls_share_their_momentum()
+        public void A_collision_of_equal_balls_conserves_momentum()
         {
-            var still = Ball(new Vector3(3f, 0f, 0f), material: Slippery());
-            var moving = Ball(new Vector3(0f, 0f, 0f), material: Slippery());
+            var still = Ball(new Vector3(3f, 0f, 0f), material: Frictionless());
+            var moving = Ball(new Vector3(0f, 0f, 0f), material: Frictionless());
             still.useGravity = moving.useGravity = false;
             moving.linearVelocity = new Vector3(4f, 0f, 0f);
             Run(2f);
@@ -85,7 +85,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(still.linearVelocity.x, Is.GreaterThan(1.9f));
         }
 
-        /// A bullet of 300 m/s, 0.2 s later; without a hit it is 49 m behind the origin.
+        /// Returns a bullet of 300 m/s after 0.2 s. Without a hit it is then 49 m past the origin.
         static Rigidbody Shoot(CollisionDetectionMode mode)
         {
             var bullet = Ball(new Vector3(-11f, 0f, 0f), 0.05f);
@@ -110,7 +110,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(CollisionDetectionMode.Continuous, CollisionDetectionMode.Continuous, true)]
         [TestCase(CollisionDetectionMode.ContinuousDynamic, CollisionDetectionMode.Continuous, false)]
         [TestCase(CollisionDetectionMode.ContinuousDynamic, CollisionDetectionMode.Discrete, true)]
-        public void A_bullet_is_swept_against_bodies_only_as_their_modes_say(CollisionDetectionMode mode, CollisionDetectionMode targets, bool passes)
+        public void Continuous_detection_between_bodies_depends_on_both_modes(CollisionDetectionMode mode, CollisionDetectionMode targets, bool passes)
         {
             var target = Box(new Vector3(0f, 0f, 0f), new Vector3(0.05f, 4f, 4f)).gameObject.AddComponent<Rigidbody>();
             target.useGravity = false;
@@ -121,7 +121,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Mass_centre_and_inertia_come_from_the_colliders_unless_set()
+        public void Centre_of_mass_and_inertia_are_computed_from_colliders_unless_set()
         {
             var box = Box(Vector3.zero, new Vector3(1f, 2f, 3f)).gameObject.AddComponent<Rigidbody>();
             box.mass = 12f;
@@ -139,7 +139,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Deep_overlaps_come_apart_no_faster_than_the_depenetration_velocity()
+        public void Bodies_separate_no_faster_than_the_depenetration_velocity()
         {
             Ball(Vector3.zero).useGravity = false;
             var ball = Ball(new Vector3(0.1f, 0f, 0f));

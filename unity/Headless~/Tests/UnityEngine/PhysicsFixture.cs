@@ -3,13 +3,13 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Physics stepped by hand: `Run(seconds)` in steps of 0.02 s.
+    /// Physics in script mode. `Run(seconds)` simulates in steps of 0.02 s.
     public abstract class PhysicsFixture : PlayerFixture
     {
         protected const float Step = 0.02f;
 
         [SetUp]
-        public void StepByHand() => Physics.simulationMode = SimulationMode.Script;
+        public void UseScriptMode() => Physics.simulationMode = SimulationMode.Script;
 
         protected static void Run(float seconds)
         {
@@ -38,7 +38,7 @@ namespace Collektive.Headless.Tests.Engine
 
         protected static BoxCollider Floor(PhysicsMaterial material = null) => Box(new Vector3(0f, -0.5f, 0f), new Vector3(100f, 1f, 60f), material);
 
-        protected static PhysicsMaterial Slippery() => new PhysicsMaterial
+        protected static PhysicsMaterial Frictionless() => new PhysicsMaterial
         {
             dynamicFriction = 0f, staticFriction = 0f, frictionCombine = PhysicsMaterialCombine.Minimum,
         };

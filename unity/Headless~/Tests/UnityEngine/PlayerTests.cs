@@ -20,7 +20,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Start_runs_the_initialisers_around_the_scene()
+        public void Start_runs_initialisers_in_order_around_the_scene()
         {
             Loop.Reset();
             Notes.Clear();
@@ -29,7 +29,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_player_starts_once_and_runs_only_when_started()
+        public void A_player_rejects_a_second_start_and_frames_after_quitting()
         {
             Assert.Throws<InvalidOperationException>(() => Loop.Start(1));
             Loop.Quit();
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Reset_leaves_nothing_behind()
+        public void Reset_restores_the_initial_state()
         {
             Add<BoxCollider>();
             Time.timeScale = 2f;
@@ -68,7 +68,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Quit_is_asked_for_and_may_be_refused()
+        public void Quit_can_be_cancelled_by_wantsToQuit()
         {
             var allowed = false;
             Application.wantsToQuit += () => allowed;
@@ -81,9 +81,9 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Messages_reach_those_who_listen()
+        public void Log_messages_are_sent_to_logMessageReceived()
         {
-            Loop.Reset(); // the player's own handler again
+            Loop.Reset(); // restores the player's own log handler
             var heard = new List<string>();
             Application.logMessageReceived += (text, stack, type) => heard.Add(type + ": " + text);
             Debug.Log("note");
@@ -93,7 +93,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_renderer_owns_its_material_once_asked()
+        public void Accessing_material_creates_a_copy_for_the_renderer()
         {
             var shared = new Material(Shader.Find("Standard"));
             var renderer = GameObject.CreatePrimitive(PrimitiveType.Sphere).GetComponent<Renderer>();
@@ -112,7 +112,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Draws_are_recorded_for_their_frame()
+        public void Draws_are_recorded_for_one_frame()
         {
             var parameters = new RenderParams(new Material(Shader.Find("Standard")));
             Graphics.RenderPrimitives(in parameters, MeshTopology.Triangles, 3, 5);
@@ -123,7 +123,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Instanced_draws_need_a_material_that_allows_them()
+        public void Instanced_draws_require_a_material_with_instancing()
         {
             var material = new Material(Shader.Find("Standard"));
             var parameters = new RenderParams(material);

@@ -15,7 +15,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(500, 60f, 3f)]
         [TestCase(2000, 20f, 3f)]
         [TestCase(300, 15f, 20f)]
-        public void Overlaps_of_spheres_are_those_of_brute_force(int count, float half, float radius)
+        public void Sphere_overlaps_match_brute_force(int count, float half, float radius)
         {
             var random = new System.Random(count);
             Floor();
@@ -65,7 +65,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Too_small_a_buffer_is_filled()
+        public void A_buffer_that_is_too_small_is_filled()
         {
             for (var index = 0; index < 10; index++) Box(Vector3.zero, Vector3.one);
             Assert.That(Physics.OverlapSphereNonAlloc(Vector3.zero, 1f, new Collider[4]), Is.EqualTo(4));
@@ -87,7 +87,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Closest_points_by_hand()
+        public void Closest_points_match_known_values()
         {
             var box = Box(new Vector3(0f, 0f, 0f), new Vector3(2f, 2f, 2f));
             Assert.That(box.ClosestPoint(new Vector3(5f, 0.5f, 0f)) == new Vector3(1f, 0.5f, 0f), Is.True);
@@ -106,7 +106,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Rays_by_hand()
+        public void Raycasts_match_known_values()
         {
             var box = Box(new Vector3(10f, 0f, 0f), new Vector3(2f, 2f, 2f));
             var ball = Ball(new Vector3(0f, 0f, 10f), 1f);
@@ -139,7 +139,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void The_nearest_of_random_spheres_is_hit()
+        public void A_raycast_hits_the_nearest_of_random_spheres()
         {
             var random = new System.Random(3);
             var balls = new List<SphereCollider>();
@@ -170,7 +170,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void All_hits_of_a_ray_are_given()
+        public void RaycastNonAlloc_returns_all_hits()
         {
             for (var index = 1; index <= 5; index++) Box(new Vector3(index * 2f, 0f, 0f), Vector3.one);
             var hits = new RaycastHit[16];
@@ -180,7 +180,7 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(1)]
         [TestCase(3)]
-        public void A_batch_of_overlaps_runs_until_something_is_asked(int threads)
+        public void A_batch_of_overlaps_completes_on_demand(int threads)
         {
             Loop.PhysicsThreads = threads;
             Loop.Reset();

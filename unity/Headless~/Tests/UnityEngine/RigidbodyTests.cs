@@ -7,7 +7,7 @@ namespace Collektive.Headless.Tests.Engine
     public sealed class RigidbodyTests : PhysicsFixture
     {
         [Test]
-        public void A_kinematic_body_takes_no_velocity_and_says_so_each_time()
+        public void Setting_the_velocity_of_a_kinematic_body_logs_an_error_each_time()
         {
             var body = new GameObject("body").AddComponent<Rigidbody>();
             body.isKinematic = true;
@@ -45,7 +45,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(ForceMode.Acceleration, 0.02f)]
         [TestCase(ForceMode.Impulse, 0.5f)]
         [TestCase(ForceMode.VelocityChange, 1f)]
-        public void The_four_force_modes(ForceMode mode, float speedAfterOneStep)
+        public void Force_modes_change_the_velocity_as_documented(ForceMode mode, float speedAfterOneStep)
         {
             var ball = Ball(Vector3.zero);
             ball.mass = 2f;
@@ -59,7 +59,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Torque_turns_a_ball_by_its_inertia()
+        public void Torque_accelerates_a_ball_by_its_inertia()
         {
             var ball = Ball(Vector3.zero);
             ball.useGravity = false;
@@ -94,10 +94,10 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Without_friction_sliding_keeps_its_speed()
+        public void A_ball_without_friction_keeps_its_speed()
         {
-            Floor(Slippery());
-            var ball = Ball(new Vector3(-20f, 0.5f, 0f), material: Slippery());
+            Floor(Frictionless());
+            var ball = Ball(new Vector3(-20f, 0.5f, 0f), material: Frictionless());
             Run(1f);
             ball.linearVelocity = new Vector3(4f, 0f, 0f);
             Run(5f);
@@ -121,7 +121,7 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(0f, 0f, 0.05f)]
         [TestCase(0.8f, 2.56f, 0.4f)]
-        public void Bounciness_gives_back_speed(float bounciness, float heightAfterBounce, float tolerance)
+        public void Bounciness_determines_the_bounce_height(float bounciness, float heightAfterBounce, float tolerance)
         {
             var material = new PhysicsMaterial { bounciness = bounciness, bounceCombine = PhysicsMaterialCombine.Maximum };
             Floor(material);
@@ -137,7 +137,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void The_speed_limit_holds()
+        public void MaxLinearVelocity_limits_the_speed()
         {
             var ball = Ball(Vector3.zero);
             ball.maxLinearVelocity = 5f;
@@ -147,7 +147,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_frozen_rotation_stays_exactly()
+        public void A_frozen_rotation_does_not_change()
         {
             Floor();
             var ball = Ball(new Vector3(0f, 0.5f, 0f));
@@ -164,7 +164,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_frozen_position_stays_exactly_and_the_others_move()
+        public void A_frozen_axis_does_not_change_and_the_others_move()
         {
             var ball = Ball(new Vector3(0f, 1f, 0f));
             ball.constraints = RigidbodyConstraints.FreezePositionY | RigidbodyConstraints.FreezeRotation;
@@ -177,8 +177,8 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void A_kinematic_body_pushes_and_is_not_pushed()
         {
-            Floor(Slippery());
-            var ball = Ball(new Vector3(1.2f, 0.5f, 0f), material: Slippery());
+            Floor(Frictionless());
+            var ball = Ball(new Vector3(1.2f, 0.5f, 0f), material: Frictionless());
             var pusher = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
             pusher.isKinematic = true;
             for (var step = 1; step <= 100; step++)
@@ -192,7 +192,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Colliders_of_children_belong_to_the_body_and_set_its_centre()
+        public void Child_colliders_belong_to_the_body_and_determine_its_centre_of_mass()
         {
             var body = new GameObject("body");
             foreach (var x in new[] { 1f, 3f })
@@ -214,7 +214,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_sleeping_body_waits_for_a_push()
+        public void A_force_wakes_a_sleeping_body()
         {
             var ball = Ball(new Vector3(0f, 5f, 0f));
             ball.Sleep();
@@ -229,7 +229,7 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(float.NaN)]
         [TestCase(float.PositiveInfinity)]
-        public void What_is_no_number_is_refused_and_changes_nothing(float bad)
+        public void Non_finite_values_are_rejected_and_change_nothing(float bad)
         {
             var ball = Ball(new Vector3(1f, 2f, 3f));
             ball.useGravity = false;
@@ -245,7 +245,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_transform_stays_where_the_last_step_put_it_until_the_next_step_moves_its_body()
+        public void Setting_the_body_position_moves_the_transform_at_the_next_step()
         {
             var ball = Ball(Vector3.zero);
             ball.useGravity = false;
@@ -259,7 +259,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_body_that_moved_and_then_gets_a_parent_keeps_its_local_pose_if_that_is_wanted()
+        public void SetParent_can_keep_the_local_pose_of_a_moved_body()
         {
             var parent = new GameObject("parent").transform;
             parent.position = new Vector3(0f, 0f, 10f);
@@ -304,7 +304,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void The_fixed_update_steps_physics_unless_scripts_do()
+        public void FixedUpdate_steps_physics_except_in_script_mode()
         {
             Physics.simulationMode = SimulationMode.FixedUpdate;
             var ball = Ball(new Vector3(0f, 5f, 0f));

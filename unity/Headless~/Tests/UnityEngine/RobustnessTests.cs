@@ -6,7 +6,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Physics survives what scripts do to it.
+    /// Physics tolerates scripts that destroy or change bodies at any time.
     public sealed class RobustnessTests : PhysicsFixture
     {
         public class Destroyer : MonoBehaviour
@@ -36,7 +36,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(typeof(Destroyer))]
         [TestCase(typeof(SelfDestroyer))]
         [TestCase(typeof(Changer))]
-        public void Messages_may_remove_and_change_what_touches(Type script)
+        public void Collision_messages_can_destroy_and_change_bodies(Type script)
         {
             Floor();
             for (var index = 0; index < 100; index++)
@@ -46,7 +46,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_trigger_message_may_remove_the_other_side()
+        public void A_trigger_message_can_destroy_the_other_object()
         {
             var zone = Box(Vector3.zero, new Vector3(4f, 4f, 4f));
             zone.isTrigger = true;
@@ -59,7 +59,7 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(1e30f)]
         [TestCase(float.MaxValue)]
-        public void A_monstrous_force_moves_no_body_out_of_the_numbers(float force)
+        public void Extreme_forces_keep_positions_finite(float force)
         {
             Floor();
             var ball = Ball(new Vector3(0f, 0.5f, 0f));
@@ -77,7 +77,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Hands_on_bodies_of_all_states_do_no_harm()
+        public void Calls_on_disabled_and_kinematic_bodies_do_not_fail()
         {
             var ball = Ball(Vector3.zero);
             ball.gameObject.SetActive(false);
@@ -105,7 +105,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Queries_with_what_is_no_number_find_nothing()
+        public void Queries_with_NaN_find_nothing()
         {
             Box(Vector3.zero, Vector3.one);
             var bad = new Vector3(float.NaN, 0f, 0f);
@@ -119,7 +119,7 @@ namespace Collektive.Headless.Tests.Engine
 
         [TestCase(3000)]
         [TestCase(100000, Category = "Slow")]
-        public void One_heap_of_very_many_bodies_is_a_clear_error(int count)
+        public void Too_many_overlapping_bodies_are_an_error(int count)
         {
             for (var index = 0; index < count; index++) Ball(Vector3.zero);
             var error = Assert.Throws<InvalidOperationException>(() => Physics.Simulate(Step));
@@ -132,7 +132,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(0f, 0f, 0f)]
         [TestCase(1e-6f, 1e-6f, 1e-6f)]
         [TestCase(1e4f, 1e-4f, 1f)]
-        public void Bodies_of_any_scale_rest_or_fall(float x, float y, float z)
+        public void Bodies_of_any_scale_stay_finite(float x, float y, float z)
         {
             Floor();
             var bodies = new List<Rigidbody>();
@@ -150,13 +150,13 @@ namespace Collektive.Headless.Tests.Engine
             Run(0.5f);
             foreach (var body in bodies) body.transform.localScale = new Vector3(z, x, -y);
             Run(0.5f);
-            foreach (var body in bodies) Assert.That(body.position.magnitude, Is.LessThan(1e4f), "not infinite, not thrown away");
+            foreach (var body in bodies) Assert.That(body.position.magnitude, Is.LessThan(1e4f), "finite and not far away");
             Physics.OverlapSphere(Vector3.zero, 100f);
             Assert.That(Errors, Is.Empty);
         }
 
         [Test]
-        public void Many_bodies_in_one_place_come_apart()
+        public void Many_overlapping_bodies_stay_finite()
         {
             var balls = new List<Rigidbody>();
             for (var index = 0; index < 300; index++) balls.Add(Ball(new Vector3(index * 1e-3f, 0f, 0f)));

@@ -8,7 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Many bodies at once: repeatability, garbage, cost.
+    /// Many bodies at once: repeatability, allocations and cost.
     [Category("Slow")]
     public sealed class SwarmTests : PhysicsFixture
     {
@@ -24,19 +24,19 @@ namespace Collektive.Headless.Tests.Engine
 
         static readonly Collider[] Results = new Collider[1024];
 
-        /// Balls without friction on a floor with four obstacles, drawn to one point.
+        /// Creates frictionless balls on a floor with four obstacles. Each tick pulls them to one point.
         static List<Rigidbody> Swarm(int count, bool listeners)
         {
-            var slippery = Slippery();
-            Floor(slippery);
-            for (var index = 0; index < 4; index++) Box(new Vector3(10f, 1.5f, index * 8f - 12f), new Vector3(1f, 3f, 5f), slippery);
+            var frictionless = Frictionless();
+            Floor(frictionless);
+            for (var index = 0; index < 4; index++) Box(new Vector3(10f, 1.5f, index * 8f - 12f), new Vector3(1f, 3f, 5f), frictionless);
             var random = new System.Random(9);
             var bodies = new List<Rigidbody>();
             var side = Mathf.CeilToInt(Mathf.Sqrt(count));
             for (var index = 0; index < count; index++)
             {
                 var place = new Vector3(index % side * 0.8f - 35f + (float)random.NextDouble() * 0.2f, 0.25f, index / side * 0.8f - side * 0.4f);
-                var body = Ball(place, 0.25f, slippery);
+                var body = Ball(place, 0.25f, frictionless);
                 body.maxLinearVelocity = 5f;
                 if (listeners) body.gameObject.AddComponent<Counter>();
                 bodies.Add(body);
@@ -70,7 +70,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Two_runs_with_one_seed_are_equal_to_the_bit()
+        public void Two_runs_with_one_seed_are_bit_identical()
         {
             var first = PositionsAfter(250);
             Loop.Reset();
@@ -81,7 +81,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_tick_makes_no_garbage()
+        public void A_physics_tick_allocates_no_managed_memory()
         {
             var bodies = Swarm(300, true);
             foreach (var body in bodies) body.transform.position += new Vector3(48f, 0f, 0f); // around the goal: the jam is densest while it forms
@@ -98,7 +98,7 @@ namespace Collektive.Headless.Tests.Engine
                 for (var tick = 0; tick < 200; tick++) GC.KeepAlive(new byte[64]);
             });
             Assert.That(Counter.Calls, Is.GreaterThan(calls + 200 * 300));
-            Assert.That(control, Is.GreaterThanOrEqualTo(200 * 64), "the control allocates, so the measure works");
+            Assert.That(control, Is.GreaterThanOrEqualTo(200 * 64), "the measurement detects allocations");
             Assert.That(ticks, Is.EqualTo(0), "bytes in 200 ticks");
         }
 
@@ -153,7 +153,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(1)]
         [TestCase(2)]
         [TestCase(4)]
-        public void A_batch_answers_as_its_queries_alone_for_any_number_of_threads(int threads)
+        public void Batch_results_equal_single_queries_for_any_number_of_threads(int threads)
         {
             const int places = 8;
             Loop.Reset();

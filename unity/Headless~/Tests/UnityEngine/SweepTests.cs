@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Queries with shapes: sweeps, overlaps, the way out of an overlap.
+    /// Queries with shapes: sweeps, overlaps and penetration.
     public sealed class SweepTests : PhysicsFixture
     {
         const float Gap = 0.01f; // PhysX stops boxes and capsules a little before they touch
@@ -16,7 +16,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_sphere_stops_a_radius_before_the_wall()
+        public void A_sphere_cast_stops_a_radius_before_the_wall()
         {
             var wall = Wall();
             Assert.That(Physics.SphereCast(Vector3.zero, 1f, Vector3.right, out var hit), Is.True);
@@ -28,14 +28,14 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_cast_does_not_see_what_it_starts_in()
+        public void A_cast_ignores_colliders_that_contain_its_start()
         {
             Wall();
             Assert.That(Physics.SphereCast(new Vector3(8.5f, 0f, 0f), 1f, Vector3.right, out _), Is.False);
         }
 
         [Test]
-        public void A_box_and_a_capsule_stop_as_their_shapes_say()
+        public void Box_and_capsule_casts_stop_at_their_surfaces()
         {
             Wall();
             Assert.That(Physics.BoxCast(Vector3.zero, new Vector3(2f, 1f, 1f), Vector3.right, out var hit), Is.True);
@@ -49,7 +49,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void All_hits_of_a_cast_are_given()
+        public void Casts_return_all_hits_up_to_the_buffer_size()
         {
             for (var index = 1; index <= 20; index++) Box(new Vector3(index * 3f, 0f, 0f), Vector3.one);
             Physics.SyncTransforms();
@@ -59,7 +59,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Boxes_and_capsules_overlap_what_they_touch()
+        public void Box_and_capsule_overlaps_find_touching_colliders()
         {
             var wall = Wall();
             Assert.That(Physics.OverlapBox(new Vector3(8f, 0f, 0f), new Vector3(1.1f, 1f, 1f)), Is.EqualTo(new[] { wall }));
@@ -70,7 +70,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void The_way_out_of_an_overlap_is_the_shortest()
+        public void ComputePenetration_returns_the_shortest_way_out()
         {
             var wall = Wall();
             var ball = new GameObject("ball").AddComponent<SphereCollider>();
@@ -83,7 +83,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_body_sweeps_with_all_its_colliders_and_not_into_itself()
+        public void SweepTest_uses_all_colliders_and_ignores_the_body_itself()
         {
             var wall = Wall();
             var body = Ball(Vector3.zero);
@@ -101,7 +101,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(-1f, 1f, 1f)]
         [TestCase(0f, 0f, 0f)]
         [TestCase(1e-9f, 1f, -3f)]
-        public void Mirrored_and_flat_colliders_answer_and_step(float x, float y, float z)
+        public void Mirrored_and_flat_colliders_can_be_queried_and_simulated(float x, float y, float z)
         {
             foreach (var type in new[] { PrimitiveType.Cube, PrimitiveType.Sphere, PrimitiveType.Capsule, PrimitiveType.Cylinder, PrimitiveType.Plane })
             {

@@ -5,7 +5,7 @@ namespace Collektive.Headless.Tests.Engine
 {
     public sealed class TerrainColliderTests : PhysicsFixture
     {
-        /// 64 m by 64 m; the height is half of x.
+        /// A terrain of 64 m by 64 m whose height is half of x.
         static TerrainData Slope()
         {
             var data = new TerrainData { heightmapResolution = 65, size = new Vector3(64f, 100f, 64f) };
@@ -32,7 +32,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Its_surface_is_the_height_map_from_the_objects_place_on()
+        public void The_surface_is_the_height_map_at_the_objects_position()
         {
             Terrain(Slope(), new Vector3(10f, 1f, 20f));
             Assert.That(HeightAt(14f, 30f), Is.EqualTo(3f).Within(1e-3f));
@@ -41,7 +41,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Turn_and_scale_of_its_object_count_for_nothing()
+        public void Rotation_and_scale_of_the_object_are_ignored()
         {
             var terrain = Terrain(Slope(), Vector3.zero);
             terrain.transform.rotation = Quaternion.Euler(0f, 90f, 0f);
@@ -50,7 +50,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Heights_that_change_are_felt()
+        public void Changed_heights_change_the_surface()
         {
             var data = Slope();
             var terrain = Terrain(data, Vector3.zero);
@@ -61,7 +61,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_ball_rolls_down_its_slope_and_none_falls_through()
+        public void A_ball_rolls_down_the_slope_without_falling_through()
         {
             Terrain(Slope(), Vector3.zero);
             var ball = Ball(new Vector3(40f, 20.7f, 30f));
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_resolution_is_a_power_of_two_and_one()
+        public void The_resolution_is_rounded_to_a_power_of_two_plus_one()
         {
             var data = new TerrainData { heightmapResolution = 100 };
             Assert.That(data.heightmapResolution, Is.EqualTo(129));
@@ -82,7 +82,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Heights_are_shares_of_the_size_and_stay_inside()
+        public void Heights_are_relative_to_the_size_and_clamped()
         {
             var data = new TerrainData { size = new Vector3(32f, 50f, 32f) };
             data.SetHeights(31, 32, new[,] { { 0.5f, 7f } });
@@ -93,7 +93,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void It_cannot_fall()
+        public void A_terrain_on_a_non_kinematic_body_is_an_error()
         {
             var terrain = Terrain(Slope(), Vector3.zero);
             terrain.gameObject.AddComponent<Rigidbody>();

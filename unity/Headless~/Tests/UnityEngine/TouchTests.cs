@@ -93,7 +93,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Disabled_and_destroyed_colliders_give_no_exit_and_enter_again()
+        public void Disabled_and_destroyed_colliders_send_no_exit()
         {
             Zone();
             var mover = Mover(Vector3.zero);
@@ -147,7 +147,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_moved_transform_is_seen_by_physics_only_after_a_sync()
+        public void A_moved_transform_affects_physics_only_after_a_sync()
         {
             var target = Box(Vector3.zero, Vector3.one);
             Physics.SyncTransforms();

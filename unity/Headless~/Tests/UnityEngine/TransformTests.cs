@@ -14,7 +14,7 @@ namespace Collektive.Headless.Tests.Engine
 
         static float Number(float least, float most) => least + (float)random.NextDouble() * (most - least);
         static Vector3 Vector(float size) => new Vector3(Number(-size, size), Number(-size, size), Number(-size, size));
-        static Quaternion Turn() => Quaternion.Euler(Number(-180f, 180f), Number(-180f, 180f), Number(-180f, 180f));
+        static Quaternion RandomRotation() => Quaternion.Euler(Number(-180f, 180f), Number(-180f, 180f), Number(-180f, 180f));
 
         static Transform Chain(int depth)
         {
@@ -24,47 +24,47 @@ namespace Collektive.Headless.Tests.Engine
                 var next = new GameObject().transform;
                 next.SetParent(last, false);
                 next.localPosition = Vector(10f);
-                next.localRotation = Turn();
+                next.localRotation = RandomRotation();
                 next.localScale = new Vector3(Number(0.5f, 2f), Number(0.5f, 2f), Number(0.5f, 2f));
                 last = next;
             }
             return last;
         }
 
-        static void Same(Vector3 actual, Vector3 expected, float tolerance = 1e-2f) =>
+        static void Near(Vector3 actual, Vector3 expected, float tolerance = 1e-2f) =>
             Assert.That((actual - expected).magnitude, Is.LessThan(tolerance), $"{actual} is not {expected}");
 
         [Test]
-        public void Points_vectors_and_directions_come_back_from_the_world()
+        public void Points_vectors_and_directions_round_trip_through_world_space()
         {
             for (var trial = 0; trial < Trials; trial++)
             {
                 var transform = Chain(1 + trial % 4);
                 var value = Vector(5f);
-                Same(transform.InverseTransformPoint(transform.TransformPoint(value)), value);
-                Same(transform.InverseTransformVector(transform.TransformVector(value)), value);
-                Same(transform.InverseTransformDirection(transform.TransformDirection(value)), value);
-                Same(transform.localToWorldMatrix.MultiplyPoint3x4(value), transform.TransformPoint(value));
-                Same(transform.worldToLocalMatrix.MultiplyPoint3x4(transform.TransformPoint(value)), value);
+                Near(transform.InverseTransformPoint(transform.TransformPoint(value)), value);
+                Near(transform.InverseTransformVector(transform.TransformVector(value)), value);
+                Near(transform.InverseTransformDirection(transform.TransformDirection(value)), value);
+                Near(transform.localToWorldMatrix.MultiplyPoint3x4(value), transform.TransformPoint(value));
+                Near(transform.worldToLocalMatrix.MultiplyPoint3x4(transform.TransformPoint(value)), value);
             }
         }
 
         [Test]
-        public void World_position_and_rotation_are_kept_when_set()
+        public void SetPositionAndRotation_sets_the_world_pose()
         {
             for (var trial = 0; trial < Trials; trial++)
             {
                 var transform = Chain(1 + trial % 4);
                 var position = Vector(20f);
-                var rotation = Turn();
+                var rotation = RandomRotation();
                 transform.SetPositionAndRotation(position, rotation);
-                Same(transform.position, position);
+                Near(transform.position, position);
                 Assert.That(Quaternion.Angle(transform.rotation, rotation), Is.LessThan(0.1f));
             }
         }
 
         [Test]
-        public void A_new_parent_leaves_the_world_pose()
+        public void SetParent_keeps_the_world_pose()
         {
             for (var trial = 0; trial < Trials; trial++)
             {
@@ -72,14 +72,14 @@ namespace Collektive.Headless.Tests.Engine
                 var position = child.position;
                 var rotation = child.rotation;
                 child.SetParent(parent);
-                Same(child.position, position);
+                Near(child.position, position);
                 Assert.That(Quaternion.Angle(child.rotation, rotation), Is.LessThan(0.1f));
                 Assert.That(child.parent, Is.SameAs(parent));
             }
         }
 
         [Test]
-        public void Hand_values()
+        public void World_values_match_known_values()
         {
             var parent = new GameObject("parent").transform;
             parent.position = new Vector3(1f, 2f, 3f);
@@ -88,17 +88,17 @@ namespace Collektive.Headless.Tests.Engine
             var child = new GameObject("child").transform;
             child.SetParent(parent, false);
             child.localPosition = new Vector3(0f, 0f, 1f);
-            Same(child.position, new Vector3(3f, 2f, 3f), 1e-5f);
-            Same(child.forward, Vector3.right, 1e-5f);
-            Same(child.lossyScale, new Vector3(2f, 2f, 2f), 1e-5f);
+            Near(child.position, new Vector3(3f, 2f, 3f), 1e-5f);
+            Near(child.forward, Vector3.right, 1e-5f);
+            Near(child.lossyScale, new Vector3(2f, 2f, 2f), 1e-5f);
             child.Translate(0f, 0f, 1f);
-            Same(child.position, new Vector3(4f, 2f, 3f), 1e-5f);
+            Near(child.position, new Vector3(4f, 2f, 3f), 1e-5f);
             child.LookAt(child.position + Vector3.back);
-            Same(child.forward, Vector3.back, 1e-5f);
+            Near(child.forward, Vector3.back, 1e-5f);
         }
 
         [Test]
-        public void The_hierarchy_is_kept_in_order()
+        public void Siblings_keep_their_order_and_cycles_are_rejected()
         {
             var root = new GameObject("root").transform;
             foreach (var name in new[] { "a", "b", "c" }) new GameObject(name).transform.SetParent(root);

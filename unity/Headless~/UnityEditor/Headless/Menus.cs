@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Does what the editor does by name and attribute: menu entries, windows' messages, loading.
+    /// Calls members as the editor does by name and attribute: menu entries, window messages, load methods.
     public static class Menus
     {
         const BindingFlags Statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
@@ -21,7 +21,7 @@ namespace UnityEditor.Headless
             return false;
         }
 
-        /// Calls all [InitializeOnLoadMethod]s, as a loaded domain does.
+        /// Calls all [InitializeOnLoadMethod]s, as when a domain is loaded.
         public static void Load()
         {
             foreach (var method in Marked(typeof(InitializeOnLoadMethodAttribute))) AssetState.Reload(() => method.Invoke(null, null));
@@ -77,7 +77,7 @@ namespace UnityEditor.Headless
                         null, new object[] { imported, deleted, new string[0], new string[0], imported.Length + deleted.Length == 0 });
         }
 
-        /// Sends a message by name, if the object has it; what it throws comes out as it is.
+        /// Sends a message by name if the object has such a method. Exceptions are not wrapped.
         public static void Send(object receiver, string message)
         {
             var method = receiver.GetType().GetMethod(message, BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic);

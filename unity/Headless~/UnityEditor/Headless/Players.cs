@@ -4,10 +4,10 @@ using UnityEditor.Build;
 
 namespace UnityEditor.Headless
 {
-    /// Builds of players, as far as the package has a part in them.
+    /// Simulates the package's part in builds of players.
     public static class Players
     {
-        /// Calls all build processors in their order; what they add comes into the folder.
+        /// Calls all build processors in order. The files that they add are copied to the folder.
         public static void Build(BuildTarget target, string streamingAssets, params string[] scenes)
         {
             var processors = new List<BuildPlayerProcessor>();

@@ -50,7 +50,7 @@ namespace UnityEditor.Headless
             return root;
         }
 
-        /// Like an asset it takes part in nothing; its copies do.
+        /// Like an asset it is inactive, but its copies are not.
         static GameObject Object(string name)
         {
             var made = new GameObject(name);

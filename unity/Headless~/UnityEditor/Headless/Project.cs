@@ -4,15 +4,15 @@ using System.Text.RegularExpressions;
 
 namespace UnityEditor.Headless
 {
-    /// The project that the editor has open: the process's working folder, with one package that lies elsewhere.
+    /// The open project: the working folder of the process, with one package in another folder.
     public static class Project
     {
         const string Package = "Packages/org.collektive.unity";
 
-        /// The package's folder: the clone's.
+        /// The folder of the package, which is the clone.
         static string Root => Path.Combine(System.Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT") ?? "", "unity");
 
-        /// Where the package manager keeps the package, below the working folder; it is not in `Packages`.
+        /// The package manager's folder of the package, below the working folder but outside `Packages`.
         public const string PackageCache = "Library/PackageCache/org.collektive.unity@1a2b3c";
 
         internal static string PhysicalPath(string path) =>

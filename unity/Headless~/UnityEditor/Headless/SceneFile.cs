@@ -31,7 +31,7 @@ namespace UnityEditor.Headless
             return ImportedAsset.Of(Project.PathOf(parts.Groups[2].Value))?.Find(long.Parse(parts.Groups[1].Value));
         }
 
-        /// Of the first script that has the field.
+        /// Sets the field of the first script that has it.
         static void Change(GameObject made, string[] path, object value)
         {
             foreach (var script in made.GetComponents<MonoBehaviour>())
@@ -46,7 +46,7 @@ namespace UnityEditor.Headless
         {
             var element = Regex.Match(path[at], @"^(.+)\[(\d+)\]$");
             var field = FieldOf(owner, element.Success ? element.Groups[1].Value : path[at]);
-            // The size of a list: its elements follow.
+            // The size of a list. Its elements follow.
             if (field == null || path[path.Length - 1] == "size") return;
             if (element.Success && IsReference(field)) value = value as UnityEngine.Object;
             if (element.Success) ((IList)field.GetValue(owner)).Insert(int.Parse(element.Groups[2].Value), value);

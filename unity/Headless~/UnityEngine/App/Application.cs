@@ -56,7 +56,7 @@ namespace UnityEngine
             logMessageReceivedThreaded?.Invoke(message, stackTrace, type);
         }
 
-        internal static void RaiseQuitting() => Headless.Loop.Guarded(quitting);
+        internal static void RaiseQuitting() => Headless.Loop.InvokeAll(quitting);
 
         internal static void ResetState()
         {

@@ -34,7 +34,7 @@ namespace UnityEngine
             if (!condition) Default.Log(LogType.Assert, (object)message, context);
         }
 
-        // Nothing to draw on.
+        // Nothing is drawn without a screen.
         public static void DrawLine(Vector3 start, Vector3 end) { }
         public static void DrawLine(Vector3 start, Vector3 end, Color color) { }
         public static void DrawLine(Vector3 start, Vector3 end, Color color, float duration) { }

@@ -10,7 +10,7 @@ namespace UnityEngine
         public bool logEnabled { get; set; } = true;
         public LogType filterLogType { get; set; } = LogType.Log;
 
-        /// `filterLogType` names the least severe type that passes; exceptions always do.
+        /// `filterLogType` is the least severe type that is logged. Exceptions are always logged.
         public bool IsLogTypeAllowed(LogType logType) =>
             logEnabled && (logType == LogType.Exception || filterLogType != LogType.Exception && logType <= filterLogType);
 

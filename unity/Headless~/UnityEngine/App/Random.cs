@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Marsaglia's xorshift128; not the same numbers as Unity's for a seed.
+    /// Marsaglia's xorshift128. The numbers of a seed differ from Unity's.
     public static class Random
     {
         public struct State

@@ -2,7 +2,7 @@ using System.Diagnostics;
 
 namespace UnityEngine
 {
-    /// Seconds. Inside a fixed step `time` and `deltaTime` use the fixed clock, as in Unity.
+    /// Times in seconds. Within a fixed step `time` and `deltaTime` use the fixed clock, as in Unity.
     public class Time
     {
         static readonly Stopwatch Clock = Stopwatch.StartNew();
@@ -44,7 +44,7 @@ namespace UnityEngine
             startOffset = Clock.Elapsed.TotalSeconds;
         }
 
-        /// `captureDeltaTime`, where it is set, takes the place of the time that passed.
+        /// Advances by the elapsed time, or by `captureDeltaTime` if that is set.
         internal static void BeginFrame(float seconds)
         {
             if (captureDeltaTime > 0f) seconds = captureDeltaTime;
@@ -55,7 +55,7 @@ namespace UnityEngine
             frameTime += frameDelta;
         }
 
-        /// True, with the fixed clock advanced, while it is a whole step behind the frame's time.
+        /// Advances the fixed clock and returns true if it is at least one step behind the frame's time.
         internal static bool BeginFixedStep()
         {
             const double rounding = 1e-6;

@@ -21,7 +21,7 @@ namespace Unity.Collections
         ClearMemory = 1,
     }
 
-    /// Managed memory here; `NativeArrays` counts the arrays that were not disposed.
+    /// Uses managed memory. `NativeArrays` counts the undisposed arrays.
     public struct NativeArray<T> : IDisposable where T : struct
     {
         T[] items;

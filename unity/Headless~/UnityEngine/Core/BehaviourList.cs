@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Scripts in the order (execution order, enabling). What is enabled during a pass joins the next one; what is disabled drops out at once.
+    /// Scripts ordered by execution order and enabling. A script enabled during a pass joins the next one. A disabled script drops out immediately.
     sealed class BehaviourList
     {
         readonly struct Entry
@@ -39,7 +39,7 @@ namespace UnityEngine
 
         public void Add(MonoBehaviour script) => added.Add(new Entry(script));
 
-        /// Starts a pass; passes of one list do not nest.
+        /// Starts a pass. Passes of one list cannot be nested.
         public int Begin()
         {
             if (sawStale) entries.RemoveAll(Stale);

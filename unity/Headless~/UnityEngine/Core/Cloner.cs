@@ -5,7 +5,7 @@ using System.Reflection;
 
 namespace UnityEngine
 {
-    /// `Instantiate`: a copy of what Unity would serialise. References into the copied hierarchy point into the copy, all others stay.
+    /// Implements `Instantiate`: copies serialised data. References within the copied hierarchy point to the copy, all others are kept.
     sealed class Cloner
     {
         readonly Dictionary<Object, Object> copies = new Dictionary<Object, Object>();
@@ -46,7 +46,7 @@ namespace UnityEngine
             return copy;
         }
 
-        /// Objects and components, all still inactive, so that no message comes before the fields are there.
+        /// Creates inactive objects and components, so that no message is sent before the fields are set.
         GameObject CopyObjects(GameObject original)
         {
             var copy = new GameObject(original.name, false) { layer = original.layer, tag = original.tag, isStatic = original.isStatic };

@@ -24,13 +24,13 @@ namespace UnityEngine
 
         internal override string NameImpl { get => owner.NameImpl; set => owner.NameImpl = value; }
 
-        /// The object became active, or the component was added to an active one.
+        /// Called when the object becomes active, or when the component is added to an active one.
         internal virtual void Activate() { }
 
         /// Called when the object becomes inactive, or before the component is destroyed.
         internal virtual void Deactivate() { }
 
-        /// Values of the engine's own components for `Instantiate`; scripts are copied field by field.
+        /// Copies values of the engine's components for `Instantiate`. Scripts are copied field by field.
         internal virtual void CopyFrom(Component original) { }
 
         public T GetComponent<T>() => gameObject.GetComponent<T>();

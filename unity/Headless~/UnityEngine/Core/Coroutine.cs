@@ -33,7 +33,7 @@ namespace UnityEngine
             Advance();
         }
 
-        /// Runs to the next yield. A nested routine begins at once and its end goes straight on in the outer one.
+        /// Runs to the next yield. A nested routine starts immediately, and the outer one continues as soon as it ends.
         internal void Advance()
         {
             awaited = null;

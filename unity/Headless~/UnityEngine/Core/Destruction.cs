@@ -3,7 +3,7 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine
 {
-    /// Objects to destroy at the end of the frame in which they are due.
+    /// Objects to destroy at the end of the frame in which they become due.
     static class Destruction
     {
         readonly struct Request
@@ -22,7 +22,7 @@ namespace UnityEngine
 
         public static void Schedule(Object target, float delay) => Requests.Add(new Request(target, Time.timeAsDouble + delay));
 
-        /// Also what the messages of this very pass ask for.
+        /// Includes objects whose destruction is requested by messages of this pass.
         public static void RunDue()
         {
             if (Requests.Count == 0) return;

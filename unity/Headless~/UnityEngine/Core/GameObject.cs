@@ -7,9 +7,9 @@ namespace UnityEngine
     public sealed class GameObject : Object
     {
         internal readonly List<Component> components = new List<Component>();
-        /// The active body, first, and colliders; null until there was one.
+        /// The active body, if any, followed by colliders; null until one was added.
         internal List<Component> physicsParts;
-        /// Messages that scripts here have ever handled.
+        /// Messages that scripts of this object have handled so far.
         internal TouchMessages touchMessages;
 
         readonly Transform ownTransform;
@@ -67,7 +67,7 @@ namespace UnityEngine
             }
         }
 
-        /// The transform also while the object is being destroyed.
+        /// The transform, even while the object is being destroyed.
         internal Transform TransformUnchecked => ownTransform;
 
         // ---- Components ---------------------------------------------------------------------------------------------
@@ -114,7 +114,7 @@ namespace UnityEngine
             RefreshColliders();
         }
 
-        /// Physics has to know the layer of colliders and what scripts listen to.
+        /// Updates the layer of colliders and the messages that physics must send.
         void RefreshColliders()
         {
             if (physicsParts == null) return;
@@ -290,7 +290,7 @@ namespace UnityEngine
             RefreshActivity();
         }
 
-        /// Updates `activeInHierarchy` of this object and all below, then notifies their components.
+        /// Updates `activeInHierarchy` of this object and its descendants, then notifies their components.
         internal void RefreshActivity()
         {
             var parent = ownTransform.parentOrNull;
@@ -347,7 +347,7 @@ namespace UnityEngine
             return null;
         }
 
-        /// The collider fits Unity's mesh of that primitive; a plane is a box 10 x 10 m without height.
+        /// The collider fits Unity's mesh of the primitive. A plane is a flat box of 10 x 10 m.
         public static GameObject CreatePrimitive(PrimitiveType type)
         {
             var primitive = new GameObject(type.ToString());

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// The components that are due for each message, in execution order.
+    /// The components that receive each message, in execution order.
     static class Lifecycle
     {
         static readonly BehaviourList Starting = new BehaviourList();
@@ -22,14 +22,14 @@ namespace UnityEngine
             if (script.messages.LateUpdate != null) LateUpdating.Add(script);
         }
 
-        /// Components of objects that became active together: the engine's own first, then scripts in execution order, Awake and OnEnable of each.
+        /// Notifies components of objects that became active or inactive together: the engine's first, then scripts in execution order.
         public static void ActivityChanged(List<Component> components, bool active)
         {
             Orders.Shuffle(components);
             StableSort(components);
             foreach (var component in components)
             {
-                if (component.destroyed || component.owner.activeInHierarchy != active) continue; // changed by an earlier one's message
+                if (component.destroyed || component.owner.activeInHierarchy != active) continue; // changed by a message to an earlier component
                 if (active) component.Activate();
                 else component.Deactivate();
             }
@@ -66,7 +66,7 @@ namespace UnityEngine
             for (var cursor = LateUpdating.Begin(); LateUpdating.Next(ref cursor, out var script);) Messages.Send(script.messages.LateUpdate, script);
         }
 
-        /// Start of everything enabled since, those that a Start enables included.
+        /// Calls Start of all newly enabled scripts, including those that a Start enables.
         public static void RunStarts()
         {
             while (Starting.HasNew)

@@ -6,7 +6,7 @@ using System.Reflection.Emit;
 
 namespace UnityEngine
 {
-    /// The messages that a script type answers to, found by name once and compiled to direct calls; null where it has no such method.
+    /// The messages of a script type, found once by name and compiled to direct calls; null for missing methods.
     sealed class Messages
     {
         static readonly Dictionary<Type, Messages> Tables = new Dictionary<Type, Messages>();
@@ -53,7 +53,7 @@ namespace UnityEngine
             return table;
         }
 
-        /// The type of which an object may have one component only: the nearest base with [DisallowMultipleComponent], else null.
+        /// The nearest base type with [DisallowMultipleComponent], of which an object can have only one component; else null.
         public static Type SingleBase(Type type)
         {
             for (var level = type; level != typeof(Component); level = level.BaseType)
@@ -61,7 +61,7 @@ namespace UnityEngine
             return null;
         }
 
-        /// False when the message threw; the exception is logged and goes no further.
+        /// Returns false if the message threw. The exception is logged and not rethrown.
         public static bool Send(Action<Object> message, Object target)
         {
             if (message == null) return true;
@@ -102,7 +102,7 @@ namespace UnityEngine
             return method == null ? null : (Action<Object, T>)Emit(method, typeof(Action<Object, T>), typeof(Object), typeof(T));
         }
 
-        /// The method of the most derived class that has one of that name, private or not, with the argument or without.
+        /// Returns the method of that name in the most derived class, private or not, with or without the argument.
         static MethodInfo Find(Type type, string name, Type argument)
         {
             for (var level = type; level != typeof(MonoBehaviour) && level != typeof(ScriptableObject) && level != null; level = level.BaseType)

@@ -27,7 +27,7 @@ namespace UnityEngine
             if (!didAwake)
             {
                 didAwake = true;
-                if (!Messages.Send(messages.Awake, this)) ownEnabled = false; // as Unity does: a script whose Awake failed stays off
+                if (!Messages.Send(messages.Awake, this)) ownEnabled = false; // as in Unity, a script whose Awake throws is disabled
             }
             Enable();
         }

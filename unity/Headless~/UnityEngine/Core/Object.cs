@@ -29,7 +29,7 @@ namespace UnityEngine
         InstanceID = 1,
     }
 
-    /// A destroyed object is still there for C#, but compares equal to null and refuses to be used.
+    /// A destroyed object still exists in C#, but compares equal to null and throws when used.
     public class Object
     {
         static int created;

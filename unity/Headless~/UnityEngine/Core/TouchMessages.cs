@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Which messages of physics a script answers to; Change stands for Enter and Exit.
+    /// Physics messages that a script handles. Change stands for Enter and Exit.
     [Flags]
     enum TouchMessages
     {

@@ -18,14 +18,14 @@ namespace UnityEngine
         internal readonly List<Transform> children = new List<Transform>();
         internal Transform parentOrNull;
 
-        /// Already in the list of transforms that physics has not seen at their new place.
+        /// Whether it is in the list of transforms that changed since the last sync of physics.
         internal bool awaitsSync;
 
         Vector3 placed = Vector3.zero;
         Quaternion turned = Quaternion.identity;
         Vector3 ownScale = Vector3.one;
         bool changed = true;
-        // PhysX's handle of its active body, if any, and the body's step that the pose is of.
+        // PhysX's handle of its active body, if any, and the step of the pose.
         int body = Physx.None;
         int bodyStep;
 
@@ -63,14 +63,14 @@ namespace UnityEngine
 
         unsafe ref Physx.Motion Motion => ref PhysicsWorld.Motions[body];
 
-        /// A step has moved the body since.
+        /// Whether a step has moved the body since.
         bool IsBehind
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
             get => body != Physx.None && Motion.Step != bodyStep;
         }
 
-        /// Takes the pose of the body over, if a step has moved it.
+        /// Copies the pose of the body if a step has moved it.
         internal void Follow()
         {
             if (IsBehind) Place(Motion.Pose.Position, Motion.Pose.Rotation);
@@ -82,7 +82,7 @@ namespace UnityEngine
             return this;
         }
 
-        /// Follows another body from now on, or none.
+        /// Sets the body to follow, or none.
         internal void Follow(int actor)
         {
             Follow();
@@ -193,7 +193,7 @@ namespace UnityEngine
             turned = (Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
         }
 
-        /// The scale along the own axes, without shear.
+        /// The scale along the local axes, without shear.
         public Vector3 lossyScale
         {
             get
@@ -324,7 +324,7 @@ namespace UnityEngine
             foreach (var script in owner.GetComponentsInChildren<MonoBehaviour>()) Messages.Send(script.messages.OnTransformParentChanged, script);
         }
 
-        /// Takes the object out of the list that holds it: its parent's children, or the scene's roots.
+        /// Removes the object from its parent's children or from the scene's roots.
         internal void Detach()
         {
             if (parentOrNull is null) owner.sceneOfRoot.Roots.Remove(owner);

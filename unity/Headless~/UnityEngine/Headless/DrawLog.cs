@@ -8,13 +8,13 @@ namespace UnityEngine.Headless
         public readonly struct Draw
         {
             public readonly Material Material;
-            /// The caller's own; null for none.
+            /// The caller's property block, or null.
             public readonly MaterialPropertyBlock Properties;
             public readonly Bounds Bounds;
             public readonly int Vertices;
             public readonly int Instances;
 
-            /// A buffer as the shader reads it.
+            /// Returns a buffer as the shader reads it.
             public T[] Read<T>(string buffer)
                 where T : struct => Properties.BufferOf(buffer).Data<T>();
 
@@ -32,10 +32,10 @@ namespace UnityEngine.Headless
 
         public static IReadOnlyList<Draw> Draws => Recorded;
 
-        /// Graphics buffers that were made and not released: Unity warns of each that the garbage collector finds.
+        /// Number of unreleased graphics buffers. Unity warns when the garbage collector finds one.
         public static int Buffers { get; internal set; }
 
-        /// Gizmos as text, "line (from) (to)", "ray (from) (direction)", "sphere (centre) radius"; for the test to empty.
+        /// Gizmos as text: "line (from) (to)", "ray (from) (direction)", "sphere (centre) radius". Tests clear the list.
         public static List<string> Gizmos { get; } = new List<string>();
 
         internal static void Add(in RenderParams parameters, int vertices, int instances) => Recorded.Add(new Draw(parameters, vertices, instances));

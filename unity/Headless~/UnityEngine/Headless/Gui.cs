@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine.Headless
 {
-    /// Controls that scripts drew with immediate-mode GUI, and actions of a user: for tests.
+    /// Records controls drawn with immediate-mode GUI and simulates actions of a user, for tests.
     public static class Gui
     {
         static readonly List<string> Drawn = new List<string>();
@@ -11,7 +11,7 @@ namespace UnityEngine.Headless
 
         static bool isPassing;
 
-        /// One line for each control: "KIND NAME: VALUE", controls that are disabled with "(disabled) " in front.
+        /// One line for each control: "KIND NAME: VALUE". Disabled controls are prefixed with "(disabled) ".
         public static IReadOnlyList<string> Lines => Drawn;
 
         /// Labels that scripts placed themselves, for the test to empty.
@@ -19,10 +19,10 @@ namespace UnityEngine.Headless
 
         public static int DisabledDepth { get; set; }
 
-        /// The next time a control of that name is drawn, the user changes it to `value`; `true` presses a button.
+        /// Changes the control of that name to `value` when it is next drawn; `true` presses a button.
         public static void Act(string name, object value) => Actions[name] = value;
 
-        /// Forgets what was drawn.
+        /// Clears the recorded lines and actions.
         public static void Clear() => Drawn.Clear();
 
         /// Draws as the editor does: a pass for the layout, and one for the event, here a repaint or what `Act` has ordered. `between` happens

@@ -4,7 +4,7 @@ using System.Reflection;
 
 namespace UnityEngine.Headless
 {
-    /// The player: drives the one scene frame by frame, on the calling thread, with the phases of Unity's loop.
+    /// The player. Runs the only scene frame by frame on the calling thread, with the phases of Unity's loop.
     public static class Loop
     {
         static readonly RuntimeInitializeLoadType[] BeforeScene =
@@ -17,13 +17,13 @@ namespace UnityEngine.Headless
         static int searched;
         static List<MethodInfo> found;
 
-        /// The value of `Application.isEditor`: whether the process continues after `Quit`, as the editor does after play mode.
+        /// The value of `Application.isEditor`: whether the process continues after `Quit`, like the editor after play mode.
         public static bool IsEditor { get; set; }
 
         /// The value of `Application.isBatchMode`.
         public static bool IsBatchMode { get; set; } = true;
 
-        /// The value of `Application.dataPath`: the folder of this process's program, unless it plays another one.
+        /// The value of `Application.dataPath`: by default, the folder of this program.
         public static string DataPath { get; set; } = AppDomain.CurrentDomain.BaseDirectory;
 
         /// Permutes the orders that Unity does not specify: messages of one execution order in a frame, touches in a step and their two sides, and the
@@ -33,15 +33,15 @@ namespace UnityEngine.Headless
         /// The value of `SystemInfo.supportsComputeShaders`, false with -nographics.
         public static bool HasComputeShaders { get; set; } = true;
 
-        /// How many threads step physics in a world made later; results do not depend on it.
+        /// Number of physics threads of the next world. Results do not depend on it.
         public static int PhysicsThreads { get => PhysicsWorld.Threads; set => PhysicsWorld.Threads = value; }
 
-        /// Set by `Application.Quit`: the caller leaves its frame loop and calls `Quit`.
+        /// Set by `Application.Quit`. The caller must then leave its frame loop and call `Quit`.
         public static bool QuitRequested { get; private set; }
         public static int ExitCode { get; private set; }
 
         /// Enters play mode: seeds `Random`, runs the [RuntimeInitializeOnLoadMethod]s of all loaded assemblies, and calls `buildScene`
-        /// where Unity loads the first scene. Objects made before belong to the scene too.
+        /// where Unity loads the first scene. Objects created earlier belong to the scene too.
         public static void Start(int seed, Action buildScene = null)
         {
             if (started) throw new InvalidOperationException("The player is already running: call Loop.Quit or Loop.Reset first.");
@@ -90,7 +90,7 @@ namespace UnityEngine.Headless
             started = false;
         }
 
-        /// Quits if needed and forgets everything: objects, handlers, clocks, physics. For tests, one after another.
+        /// Quits if needed, and resets all state between tests: objects, handlers, clocks and physics.
         public static void Reset()
         {
             Quit();
@@ -113,8 +113,8 @@ namespace UnityEngine.Headless
             ExitCode = 0;
         }
 
-        /// Calls handlers one by one; what one throws is logged and stops no other.
-        internal static void Guarded(Action handlers)
+        /// Calls each handler. An exception is logged, and the others are still called.
+        internal static void InvokeAll(Action handlers)
         {
             if (handlers == null) return;
             foreach (Action handler in handlers.GetInvocationList())
@@ -136,8 +136,8 @@ namespace UnityEngine.Headless
             ExitCode = exitCode;
         }
 
-        /// Of the assemblies that use UnityEngine, by assembly name and place in the assembly, so that every run has one order. Looking through all types takes
-        /// as long as a short run, so what was found is kept until another assembly is loaded.
+        /// Returns methods of the assemblies that use UnityEngine, ordered by assembly name and position, so that the order is the same in every run. Searching
+        /// all types takes as long as a short run, so the result is cached until another assembly is loaded.
         static List<MethodInfo> InitializeMethods()
         {
             var loaded = AppDomain.CurrentDomain.GetAssemblies().Length;

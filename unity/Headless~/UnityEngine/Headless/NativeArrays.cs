@@ -3,7 +3,7 @@ namespace UnityEngine.Headless
     /// Native arrays in use, for tests.
     public static class NativeArrays
     {
-        /// Those that were made and not disposed.
+        /// Number of undisposed arrays.
         public static int Count { get; internal set; }
     }
 }

@@ -3,7 +3,7 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine.Headless
 {
-    /// A preview scene as in the editor, which is not played. It contains the objects that `build` creates.
+    /// A preview scene as in the editor, which is not played, with the objects that `build` creates.
     public static class PreviewScene
     {
         public static Scene Open(Action build)

@@ -12,7 +12,7 @@ namespace UnityEngine.Headless
         /// Those that began before their results were needed.
         public static long BatchesStartedEarly { get; internal set; }
 
-        /// Whether a batch runs while the main thread does something else.
+        /// Whether a batch is running in the background.
         public static bool IsRunning => OverlapBatch.IsRunning;
     }
 }

@@ -3,7 +3,7 @@ namespace UnityEngine.Headless
     /// A height map as triangles.
     public static class TerrainMesh
     {
-        /// Each `step`th sample along both sides, row by row, from the object's place.
+        /// Returns every `step`th sample along both sides, row by row, relative to the object.
         public static Vector3[] Points(TerrainData data, int step)
         {
             var side = (data.heightmapResolution - 1) / step + 1;
@@ -15,7 +15,7 @@ namespace UnityEngine.Headless
             return points;
         }
 
-        /// Of so many points along each side.
+        /// Returns the triangles of a grid with this number of points along each side.
         public static int[] Triangles(int side)
         {
             var triangles = new int[6 * (side - 1) * (side - 1)];

@@ -150,7 +150,7 @@ namespace UnityEngine
             }
         }
 
-        /// Gauss-Jordan with row pivots; the zero matrix for a singular one.
+        /// Inverse by Gauss-Jordan elimination with row pivots; the zero matrix if singular.
         public readonly Matrix4x4 inverse
         {
             get

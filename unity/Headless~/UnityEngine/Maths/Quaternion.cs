@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace UnityEngine
 {
-    /// A rotation of left-handed space; `a * b` turns by b first. Euler angles are in degrees and turn about z, then x, then y.
+    /// A rotation in left-handed space; `a * b` applies b first. Euler angles are in degrees and rotate about z, then x, then y.
     public struct Quaternion : IEquatable<Quaternion>, IFormattable
     {
         public const float kEpsilon = 0.000001F;
@@ -122,7 +122,7 @@ namespace UnityEngine
         public void SetLookRotation(Vector3 view) => this = LookRotation(view);
         public void SetLookRotation(Vector3 view, Vector3 up) => this = LookRotation(view, up);
 
-        /// The rotation that carries the x, y and z axes to these (orthonormal) vectors.
+        /// Returns the rotation that maps the x, y and z axes to these orthonormal vectors.
         internal static Quaternion FromAxes(Vector3 axisX, Vector3 axisY, Vector3 axisZ)
         {
             var trace = axisX.x + axisY.y + axisZ.z;

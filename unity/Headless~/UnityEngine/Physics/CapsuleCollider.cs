@@ -4,7 +4,7 @@ namespace UnityEngine
 {
     public class CapsuleCollider : Collider
     {
-        // Turn PhysX's capsule, which lies along x, to x, y or z.
+        // Rotations of PhysX's capsule, which is aligned with x, to x, y or z.
         static readonly Quaternion[] Turns = { Quaternion.identity, Quaternion.Euler(0f, 0f, 90f), Quaternion.Euler(0f, -90f, 0f) };
 
         Vector3 ownCenter;
@@ -32,7 +32,7 @@ namespace UnityEngine
             }
         }
 
-        /// With both caps; one below the diameter gives a sphere.
+        /// Height including both caps. Less than the diameter gives a sphere.
         public float height
         {
             get => ownHeight;
@@ -43,7 +43,7 @@ namespace UnityEngine
             }
         }
 
-        /// 0, 1, 2: along x, y, z.
+        /// Axis of the capsule: 0, 1, 2 for x, y, z.
         public int direction
         {
             get => ownDirection;
@@ -61,7 +61,7 @@ namespace UnityEngine
             var wide = Mathf.Max(Mathf.Abs(scale[(ownDirection + 1) % 3]), Mathf.Abs(scale[(ownDirection + 2) % 3]));
             var scaledRadius = Mathf.Abs(ownRadius) * wide;
             var halfLength = Mathf.Max(0f, Mathf.Abs(ownHeight * scale[ownDirection]) * 0.5f - scaledRadius);
-            // PhysX knows no capsule without a length.
+            // PhysX does not accept capsules without a length.
             shape.Geometry.Kind = halfLength > 0f ? Physx.Kind.Capsule : Physx.Kind.Sphere;
             shape.Geometry.Radius = scaledRadius;
             shape.Geometry.Half = new Vector3(halfLength, 0f, 0f);

@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Queries and contacts see the shape at the pose that physics last took over, not at the transform's.
+    /// Queries and contacts use the shape's last synchronised pose, not the transform's.
     public class Collider : Component
     {
         const float Tolerance = 1e-6f;
@@ -13,10 +13,10 @@ namespace UnityEngine
         bool ownsMaterial;
 
         internal bool Registered { get; private set; }
-        /// Counts registrations: what was known of an earlier one no longer holds.
+        /// Number of registrations, which identifies stale information about an earlier one.
         internal int Registration { get; private set; }
         internal Rigidbody Body { get; private set; }
-        /// PhysX's handle, or none: not registered, or without a shape.
+        /// PhysX's handle; none if not registered or without a shape.
         internal int Handle { get; private set; } = Physx.None;
 
         int place = Physx.None; // the static actor of a collider without a body
@@ -73,7 +73,7 @@ namespace UnityEngine
             }
         }
 
-        /// A copy of the shared material, made at the first access and this collider's own.
+        /// This collider's copy of the shared material, created on the first access.
         public PhysicsMaterial material
         {
             get
@@ -94,7 +94,7 @@ namespace UnityEngine
 
         PhysicsMaterial EffectiveMaterial => assignedMaterial ? assignedMaterial : PhysicsMaterial.Default;
 
-        /// Whether physics knows the shape's closest points.
+        /// Whether physics can compute closest points of the shape.
         internal virtual bool HasClosestPoint => true;
 
         public Vector3 ClosestPoint(Vector3 position) => Queries.ClosestPoint(this, position);
@@ -106,7 +106,7 @@ namespace UnityEngine
         internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
             throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
 
-        /// Where the geometry is with this object at that pose.
+        /// Returns the pose of the geometry if this object has the given pose.
         internal Physx.Pose GeometryAt(Vector3 position, Quaternion rotation)
         {
             var shape = new Physx.Shape();
@@ -139,7 +139,7 @@ namespace UnityEngine
             Detach();
         }
 
-        /// Joins the nearest active body at or above its object.
+        /// Attaches to the nearest active body on its object or its ancestors.
         internal void Attach()
         {
             var nearest = NearestBody();
@@ -169,7 +169,7 @@ namespace UnityEngine
             Body = null;
         }
 
-        /// Takes the transform's pose and scale over.
+        /// Copies the transform's pose and scale.
         internal unsafe void TakePose()
         {
             var transform = owner.TransformUnchecked;
@@ -191,13 +191,13 @@ namespace UnityEngine
             Refresh();
         }
 
-        /// A property of the shape changed: seen at once.
+        /// Applies a changed property of the shape immediately.
         internal void ShapeChanged()
         {
             if (Registered) TakePose();
         }
 
-        /// Brings PhysX's shape in line with everything but the transform.
+        /// Updates PhysX's shape with all properties except the transform.
         internal unsafe void Refresh()
         {
             if (!Registered) return;
@@ -245,7 +245,7 @@ namespace UnityEngine
 
         static bool Near(float a, float b) => Mathf.Abs(a - b) <= Tolerance;
 
-        /// The reports with listeners: this object and its body's receive overlaps; its body's, or this one without a body, receives contacts.
+        /// Returns the reports that have listeners. Overlaps are sent to this object and its body, contacts to the body, or to this object without one.
         Physx.Reports Listening()
         {
             var bodyMessages = Body is null ? owner.touchMessages : Body.owner.touchMessages;

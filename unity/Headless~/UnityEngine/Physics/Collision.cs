@@ -5,7 +5,7 @@ namespace UnityEngine
     public struct ContactPoint
     {
         public Vector3 point { get; internal set; }
-        /// Out of the other collider, into this one.
+        /// The normal, which points out of the other collider and into this one.
         public Vector3 normal { get; internal set; }
         public Vector3 impulse { get; internal set; }
         public Collider thisCollider { get; internal set; }
@@ -13,7 +13,7 @@ namespace UnityEngine
         public float separation { get; internal set; }
     }
 
-    /// One instance serves all messages, as Unity's do by default: copy the values that you keep.
+    /// One instance is reused for all messages, as by default in Unity. Copy values to keep them.
     public class Collision
     {
         internal readonly List<ContactPoint> Contacts = new List<ContactPoint>();

@@ -2,12 +2,12 @@ using System;
 
 namespace UnityEngine
 {
-    /// Triangles, or the hull around points, as PhysX has them.
+    /// Triangles, or a hull around points, in PhysX's form.
     sealed class CookedMesh
     {
         public IntPtr Handle { get; private set; }
 
-        /// Null when it worked, else why not.
+        /// Cooks the mesh. Returns an error, or null.
         public unsafe string Cook(Vector3[] points, int[] indices, bool convex)
         {
             Release();

@@ -27,7 +27,7 @@ namespace UnityEngine
         public float targetPosition;
     }
 
-    /// Turns about its axis through its anchor. A motor always brakes too, limits do not bounce.
+    /// Rotates about its axis through its anchor. A motor always brakes too. Limits do not bounce.
     public class HingeJoint : Joint
     {
         JointMotor ownMotor;

@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Which pairs of layers and of single colliders pass through each other.
+    /// Pairs of layers and of single colliders that do not collide.
     sealed class IgnoredPairs
     {
         readonly int[] layers = new int[32]; // bit j of row i: layers i and j
@@ -32,7 +32,7 @@ namespace UnityEngine
             fixed (int* rows = layers) Physx.physics_ignore_layers(world, rows);
         }
 
-        /// PhysX's world goes with it.
+        /// Clears all pairs. PhysX's world, which has them too, is destroyed at the same time.
         public void Clear()
         {
             System.Array.Clear(layers, 0, layers.Length);

@@ -1,6 +1,6 @@
 namespace UnityEngine
 {
-    /// Connects its body with another one, or with the world. Its place is taken where the bodies are when it becomes active or is changed.
+    /// Connects its body with another one, or with the world. It uses the poses of the bodies when it becomes active or changes.
     [RequireComponent(typeof(Rigidbody))]
     public abstract class Joint : Component
     {
@@ -13,11 +13,11 @@ namespace UnityEngine
         bool active;
 
         public Rigidbody connectedBody { get => ownConnectedBody; set => Set(ref ownConnectedBody, value); }
-        /// Of a hinge: what it turns about, in the body's frame.
+        /// Axis of a hinge in the body's frame.
         public Vector3 axis { get => ownAxis; set => Set(ref ownAxis, value); }
         public Vector3 anchor { get => ownAnchor; set => Set(ref ownAnchor, value); }
 
-        /// In the connected body's frame, or the world's.
+        /// Anchor in the frame of the connected body or of the world.
         public Vector3 connectedAnchor
         {
             get => ownConnectedAnchor;
@@ -28,10 +28,10 @@ namespace UnityEngine
             }
         }
 
-        /// The connected anchor is where the anchor is.
+        /// Whether the connected anchor is computed from the anchor.
         public bool autoConfigureConnectedAnchor { get => ownAutoConfigure; set => Set(ref ownAutoConfigure, value); }
 
-        /// In newtons; beyond it `OnJointBreak` is sent and the joint destroyed.
+        /// Force in newtons above which `OnJointBreak` is sent and the joint is destroyed.
         public float breakForce { get => ownBreakForce; set => Set(ref ownBreakForce, value); }
         public float breakTorque { get => ownBreakTorque; set => Set(ref ownBreakTorque, value); }
         public bool enableCollision { get => ownCollision; set => Set(ref ownCollision, value); }
@@ -62,7 +62,7 @@ namespace UnityEngine
 
         internal bool Connects(Rigidbody body) => ReferenceEquals(body, ownConnectedBody) || ReferenceEquals(body.owner, owner);
 
-        /// Creates PhysX's joint again.
+        /// Recreates PhysX's joint.
         internal unsafe void Refresh()
         {
             if (!active) return;

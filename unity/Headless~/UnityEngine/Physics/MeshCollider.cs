@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Convex: the hull around the mesh. Not convex: its triangles, which have no inside; for static and kinematic objects only.
+    /// A convex collider is the hull around the mesh. A concave one consists of its triangles, has no inside, and must be static or kinematic.
     public class MeshCollider : Collider
     {
         Mesh ownMesh;
@@ -54,7 +54,7 @@ namespace UnityEngine
             }
             if (cooked.Handle != IntPtr.Zero && (cookedVersion != ownMesh.Version || !cookedScale.Equals(scale)))
             {
-                DropShape(); // a new mesh may lie where the old one was
+                DropShape(); // a new mesh can have the address of the old one
                 cooked.Release();
             }
             if (cooked.Handle == IntPtr.Zero) Cook(scale);
@@ -65,7 +65,7 @@ namespace UnityEngine
             return true;
         }
 
-        /// The scale goes into the vertices: any scale will do, mirrored and flat ones too.
+        /// Applies the scale to the vertices, which supports any scale, including mirrored and flat ones.
         void Cook(Vector3 scale)
         {
             var points = ownMesh.vertices;

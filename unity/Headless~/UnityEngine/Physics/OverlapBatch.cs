@@ -4,8 +4,8 @@ using Unity.Collections;
 
 namespace UnityEngine
 {
-    /// A batch of spheres that physics' other threads work on, while the main thread goes on. Only one runs at a time: any other request to
-    /// physics finishes it first.
+    /// A batch of sphere overlaps that runs on the other physics threads while the main thread continues. Only one runs at a time. Any other
+    /// request to physics completes it first.
     static unsafe class OverlapBatch
     {
         static Physx.Sphere* spheres; // native, as the next two: kept until the process ends
@@ -18,7 +18,7 @@ namespace UnityEngine
 
         public static bool IsRunning { get; private set; }
 
-        /// Puts colliders that touch each sphere into the results as far as its places go, and after them one that is null.
+        /// Writes the colliders that touch each sphere to its part of the results, up to its capacity, followed by null.
         public static void Begin(Span<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int placesOfEach)
         {
             PhysicsWorld.Flush();

@@ -81,7 +81,7 @@ namespace UnityEngine
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.Raycast(start, end - start, out hitInfo, (end - start).magnitude, layerMask, queryTriggerInteraction);
 
-        /// In no particular order, as in Unity; what does not fit is skipped.
+        /// Results are unordered, as in Unity. Those that do not fit are skipped.
         public static int RaycastNonAlloc(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance = Mathf.Infinity,
             int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.RaycastAll(origin, direction, results, maxDistance, layerMask, queryTriggerInteraction);
@@ -107,7 +107,7 @@ namespace UnityEngine
         static Physx.Pose At(Vector3 position) => new Physx.Pose(position, Quaternion.identity);
         static Physx.Pose At(Vector3 position, Quaternion rotation) => new Physx.Pose(position, rotation.normalized);
 
-        /// Between the centres of its two caps.
+        /// The points are the centres of the two caps.
         static Physx.Geometry CapsuleGeometry(Vector3 from, Vector3 to, float radius, out Physx.Pose pose)
         {
             var length = (to - from).magnitude;
@@ -160,7 +160,7 @@ namespace UnityEngine
 
         // ---- Overlaps -------------------------------------------------------------------------------------------------
 
-        /// In no particular order, as in Unity; what does not fit is skipped.
+        /// Results are unordered, as in Unity. Those that do not fit are skipped.
         public static int OverlapSphereNonAlloc(Vector3 position, float radius, Collider[] results, int layerMask = AllLayers,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.Overlaps(Ball(radius), At(position), results, layerMask, queryTriggerInteraction);
@@ -202,7 +202,7 @@ namespace UnityEngine
         public static Vector3 ClosestPoint(Vector3 point, Collider collider, Vector3 position, Quaternion rotation) =>
             Queries.ClosestPoint(collider, point, position, rotation);
 
-        /// The shortest way that takes the first collider out of the second, were they at these poses.
+        /// Computes the shortest translation that separates the first collider from the second at these poses.
         public static bool ComputePenetration(Collider colliderA, Vector3 positionA, Quaternion rotationA, Collider colliderB, Vector3 positionB,
             Quaternion rotationB, out Vector3 direction, out float distance) =>
             Queries.Penetration(colliderA, positionA, rotationA, colliderB, positionB, rotationB, out direction, out distance);

@@ -12,7 +12,7 @@ namespace UnityEngine
     {
         internal static readonly PhysicsMaterial Default = new PhysicsMaterial("Default");
 
-        /// Counts changes of all materials: colliders check their materials after an increase.
+        /// Number of changes of all materials. Colliders check their materials when it increases.
         internal static int Changes { get; private set; }
 
         Physx.Material values = new Physx.Material { StaticFriction = 0.6f, DynamicFriction = 0.6f };

@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// The one physics world: what moved since the last sync, the commands for PhysX, and the step. Main thread only.
+    /// The physics world: transforms that moved since the last sync, commands for PhysX, and the step. Main thread only.
     static unsafe class PhysicsWorld
     {
         public static readonly IgnoredPairs Ignored = new IgnoredPairs();
@@ -23,16 +23,16 @@ namespace UnityEngine
         static bool stepping;
         static int materialChanges;
 
-        /// By PhysX's handle of the body: written by PhysX in a step, and by scripts between steps. Native, kept until the process ends.
+        /// Motions by PhysX's handle of the body, written by PhysX in steps and by scripts in between. Native, kept until the process ends.
         public static Physx.Motion* Motions { get; private set; }
 
         /// Steps of this world so far.
         public static int StepCount { get; private set; }
 
-        /// How many threads step the next world; results do not depend on it.
+        /// Number of threads of the next world. Results do not depend on it.
         public static int Threads = 1;
 
-        /// For a call: queries that run are finished first.
+        /// The world for a call. Completes running queries first.
         public static IntPtr Handle
         {
             get
@@ -59,7 +59,7 @@ namespace UnityEngine
             return world;
         }
 
-        /// All objects are destroyed already.
+        /// Called when all objects have been destroyed.
         public static void ResetState()
         {
             OverlapBatch.Finish();
@@ -79,7 +79,7 @@ namespace UnityEngine
 
         // ---- Members --------------------------------------------------------------------------------------------------
 
-        /// Its motion has a place from now on.
+        /// Allocates memory for the motion of the body.
         public static void Add(Rigidbody body)
         {
             if (body.Handle >= motionCapacity) Motions = Longer(Motions, motionCapacity = Math.Max(1024, 2 * body.Handle));
@@ -88,14 +88,14 @@ namespace UnityEngine
         public static void Add(Joint joint) => Joints.Add(joint);
         public static void Remove(Joint joint) => Joints.Remove(joint);
 
-        /// A body came: joints that wait for it are made.
+        /// Adds a body, and creates the joints that wait for it.
         public static void Connect(Rigidbody body)
         {
             foreach (var joint in Joints)
                 if (joint.Connects(body)) joint.Refresh();
         }
 
-        /// A body goes, and PhysX's joints with it.
+        /// Removes a body with PhysX's joints.
         public static void Disconnect(Rigidbody body)
         {
             foreach (var joint in Joints)
@@ -118,7 +118,7 @@ namespace UnityEngine
 
         public static Collider ColliderOf(int shape) => shape == Physx.None ? null : colliders[shape];
 
-        /// Its transform has got a parent or lost it.
+        /// Called when its transform is attached to a parent or detached.
         public static void SetNested(Rigidbody body, bool nested)
         {
             if (nested == body.PlaceInNested >= 0) return;
@@ -134,7 +134,7 @@ namespace UnityEngine
             body.PlaceInNested = -1;
         }
 
-        /// Its transform follows with the next step, even if PhysX does not move it.
+        /// Moves its transform at the next step, even if PhysX does not move the body.
         public static void PublishAfterStep(Rigidbody body) => Unpublished.Add(body);
 
         // ---- Commands -------------------------------------------------------------------------------------------------
@@ -192,7 +192,7 @@ namespace UnityEngine
             Moved.Add(transform);
         }
 
-        /// Another parent may mean another body.
+        /// A new parent can change the body of a collider.
         public static void HierarchyChanged(Transform transform)
         {
             var parts = transform.owner.physicsParts;
@@ -247,8 +247,8 @@ namespace UnityEngine
                 var done = Physx.physics_step(Handle, commands, count, step, &gravity, StepCount + 1, Motions, &result);
                 StepCount++;
                 if (done == 0) throw new InvalidOperationException(Physx.Error());
-                // Other transforms follow their bodies when they are read, which does not happen between the steps of a tick. These must follow before
-                // their parents are moved.
+                // Other transforms are updated from their bodies when they are read, which does not happen between the steps of a tick. These must be
+                // updated before their parents move.
                 foreach (var body in Nested) body.UpdateTransform();
                 foreach (var body in Unpublished) body.Publish();
                 Unpublished.Clear();
@@ -264,7 +264,7 @@ namespace UnityEngine
             }
         }
 
-        /// Null when none broke.
+        /// Null if no joint broke.
         static List<Joint> BrokenJoints(in Physx.Result result)
         {
             List<Joint> broken = null;

@@ -83,7 +83,7 @@ namespace UnityEngine
             public Combine FrictionCombine, BounceCombine;
         }
 
-        /// PhysX's numbers: when two materials differ, the later wins.
+        /// Values of PhysX. If two materials differ, the later one wins.
         public enum Combine
         {
             Average = 0,

@@ -10,7 +10,7 @@ namespace UnityEngine
         static Physx.RayLine[] lines = new Physx.RayLine[64];
         static Physx.Filter[] filters = new Physx.Filter[64];
 
-        /// PhysX's world, up to date.
+        /// PhysX's world after a sync.
         static IntPtr World
         {
             get
@@ -32,7 +32,7 @@ namespace UnityEngine
             return sum - sum == 0f;
         }
 
-        /// False for a query without a direction, or with NaN.
+        /// Returns false for a query without a direction or with NaN.
         static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line) =>
             UnitLine(origin, direction.normalized, maxDistance, out line);
 
@@ -59,7 +59,7 @@ namespace UnityEngine
             return true;
         }
 
-        /// The nearest hit of each ray, computed on all threads of physics.
+        /// Finds the nearest hit of each ray, on all threads of physics.
         public static void Raycast(Span<RaycastCommand> commands, Span<RaycastHit> nearest)
         {
             Headless.QueryLog.Rays += commands.Length;
@@ -157,7 +157,7 @@ namespace UnityEngine
             return Taken(count);
         }
 
-        /// All results of a query that fills an array up to its length.
+        /// Returns all results of a query that fills an array up to its length.
         public static RaycastHit[] All(Func<RaycastHit[], int> query)
         {
             var results = new RaycastHit[16];
@@ -247,7 +247,7 @@ namespace UnityEngine
             if (buffer.Length < length) buffer = new T[length];
         }
 
-        /// A full buffer may have been too small.
+        /// Enlarges a full buffer, which may have been too small.
         static bool Grow<T>(ref T[] buffer, int count)
         {
             if (count < buffer.Length) return false;

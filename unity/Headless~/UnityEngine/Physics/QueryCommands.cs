@@ -78,7 +78,7 @@ namespace UnityEngine
                 count = Math.Min(maxHits, count);
                 var hits = results.AsSpan().Slice(index * maxHits, maxHits);
                 new Span<RaycastHit>(found, 0, count).CopyTo(hits);
-                // The first hit without a collider is the end; those behind it are what they were.
+                // The first hit without a collider is the end. Later ones are not written.
                 if (count < maxHits) hits[count] = default;
             }
         }

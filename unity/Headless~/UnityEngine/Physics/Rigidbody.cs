@@ -41,8 +41,8 @@ namespace UnityEngine
         ContinuousSpeculative = 3,
     }
 
-    /// Velocities and poses are those after the last step; what scripts set since is included, forces are not. They are not interpolated, because no frame lies
-    /// between steps.
+    /// Velocities and poses are those after the last step, with values set by scripts since, but without forces. They are not interpolated, because no frame
+    /// is between steps.
     [DisallowMultipleComponent]
     public class Rigidbody : Component
     {
@@ -50,7 +50,7 @@ namespace UnityEngine
         const int DefaultIterations = 6, DefaultVelocityIterations = 1;
 
         internal readonly List<Collider> Colliders = new List<Collider>();
-        /// PhysX's handle, or none: not active.
+        /// PhysX's handle; none if inactive.
         internal int Handle = Physx.None;
         internal int PlaceInNested = -1;
 
@@ -199,7 +199,7 @@ namespace UnityEngine
                 kinematic = value;
                 Motion.Velocity = Motion.Spin = Vector3.zero;
                 Motion.Asleep = 0;
-                // Shapes that only a kinematic body may have go before it changes and come after it.
+                // Remove shapes that only a kinematic body can have before the change, and add them after it.
                 if (!value) RefreshColliders();
                 Order(Physx.Order.Kinematic, new Vector3(value ? 1f : 0f, 0f, 0f));
                 Order(Physx.Order.Detection, new Vector3((int)detection, 0f, 0f));
@@ -255,7 +255,7 @@ namespace UnityEngine
             }
         }
 
-        /// Where physics has the body; setting it moves the transform with the next step.
+        /// Position in physics. Setting it moves the transform at the next step.
         public Vector3 position
         {
             get => Registered ? Motion.Pose.Position : transform.position;
@@ -270,7 +270,7 @@ namespace UnityEngine
 
         // ---- Mass -----------------------------------------------------------------------------------------------------
 
-        /// In the body's frame; that of its colliders unless one was set.
+        /// Centre of mass in the body's frame; computed from its colliders unless set.
         public unsafe Vector3 centerOfMass
         {
             get
@@ -357,7 +357,7 @@ namespace UnityEngine
 
         // ---- Control --------------------------------------------------------------------------------------------------
 
-        /// A kinematic body gets there with the next step, pushing what is in its way; another one is put there.
+        /// A kinematic body moves there in the next step and pushes other bodies. A dynamic one is placed there.
         public void MovePosition(Vector3 position) => Move(position, HasTarget ? targetRotation : rotation);
 
         public void MoveRotation(Quaternion rotation) => Move(HasTarget ? targetPosition : position, rotation);
@@ -448,7 +448,7 @@ namespace UnityEngine
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.SweepAll(this, direction, maxDistance, queryTriggerInteraction);
 
-        /// The nearest point on the boxes around its colliders.
+        /// Returns the nearest point on the bounds of its colliders.
         public Vector3 ClosestPointOnBounds(Vector3 position)
         {
             var best = position;
@@ -547,7 +547,7 @@ namespace UnityEngine
             foreach (var collider in Colliders) collider.Refresh();
         }
 
-        /// Takes the transform's pose over, if it is another.
+        /// Copies the transform's pose if it differs.
         internal void TakePose()
         {
             var transform = owner.TransformUnchecked;
@@ -559,7 +559,7 @@ namespace UnityEngine
 
         void SetPose(Vector3 position, Quaternion rotation)
         {
-            // The transform goes to the new pose with the next step, and until then has that of the last one.
+            // The transform keeps the pose of the last step until the next one.
             place.Follow();
             ref var motion = ref Motion;
             motion.Pose = new Physx.Pose(position, rotation);
@@ -567,7 +567,7 @@ namespace UnityEngine
             OrderPose(Physx.Order.Pose, position, rotation);
         }
 
-        /// Moves the transform, if the last step moved the body.
+        /// Moves the transform if the last step moved the body.
         internal void UpdateTransform() => place.Follow();
 
         internal void Publish() => place.Place(Motion.Pose.Position, Motion.Pose.Rotation);

@@ -3,7 +3,7 @@ using UnityEngine.Headless;
 
 namespace UnityEngine
 {
-    /// The surface of a height map, two triangles for each square of samples. It is where its object is, without its turn and scale.
+    /// The surface of a height map, with two triangles per square of samples. It uses the position of its object, but not its rotation and scale.
     public class TerrainCollider : Collider
     {
         readonly CookedMesh cooked = new CookedMesh();
@@ -34,7 +34,7 @@ namespace UnityEngine
             }
             if (cooked.Handle != IntPtr.Zero && cookedVersion != ownData.Version)
             {
-                DropShape(); // a new mesh may lie where the old one was
+                DropShape(); // a new mesh can have the address of the old one
                 cooked.Release();
             }
             if (cooked.Handle == IntPtr.Zero) Cook();

@@ -2,18 +2,18 @@ using System;
 
 namespace UnityEngine
 {
-    /// A map of heights. Nothing of it is drawn here.
+    /// A height map, which is not drawn.
     public sealed class TerrainData : Object
     {
         const int MinResolution = 33, MaxResolution = 4097;
 
-        float[,] heights = new float[MinResolution, MinResolution]; // by z and x, as shares of the size
+        float[,] heights = new float[MinResolution, MinResolution]; // by z and x, relative to the size
         Vector3 ownSize = new Vector3(MinResolution - 1, 600f, MinResolution - 1);
 
-        /// Grows with each change.
+        /// Number of changes.
         internal int Version { get; private set; }
 
-        /// Samples along each side: a power of two and one, from 33 to 4097, or else the nearest such number above. All heights become 0.
+        /// Samples along each side: a power of two plus one, from 33 to 4097. Other numbers are rounded up. Setting it resets all heights to 0.
         public int heightmapResolution
         {
             get => heights.GetLength(0);
@@ -26,7 +26,7 @@ namespace UnityEngine
             }
         }
 
-        /// Metres between samples, and of the greatest height.
+        /// Metres between samples, and of the maximum height.
         public Vector3 heightmapScale => new Vector3(ownSize.x / (heightmapResolution - 1), ownSize.y, ownSize.z / (heightmapResolution - 1));
 
         public Vector3 size

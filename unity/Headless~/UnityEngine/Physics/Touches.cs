@@ -2,8 +2,8 @@ using System;
 
 namespace UnityEngine
 {
-    /// Sends PhysX's reports to scripts: Enter in the first step of a touch, Stay in later ones (of triggers also in the first), Exit in the first
-    /// without. A collider that was disabled or destroyed in between gives no Exit.
+    /// Sends PhysX's reports to scripts: Enter in the first step of a touch, Stay in later ones (for triggers also in the first), and Exit in the first
+    /// step without it. A collider that was disabled or destroyed in between sends no Exit.
     sealed unsafe class Touches
     {
         struct Touch
@@ -27,7 +27,7 @@ namespace UnityEngine
         {
             Copy(result);
             Orders.Shuffle(touches, count);
-            // A message may do anything but step.
+            // A message can do anything except step physics.
             for (var index = 0; index < count; index++)
             {
                 if (!touches[index].StillRegistered) continue;
@@ -59,7 +59,7 @@ namespace UnityEngine
             for (var index = 0; index < result.ContactCount; index++) contacts[index] = result.Contacts[index];
         }
 
-        /// Lets go of the colliders.
+        /// Releases the colliders.
         public void Clear()
         {
             Array.Clear(touches, 0, count);
@@ -122,7 +122,7 @@ namespace UnityEngine
             }
         }
 
-        /// The touch as seen from one side; sign is 1 for A. An Exit carries no contacts.
+        /// Fills the message with the touch from one side; the sign is 1 for A. An Exit has no contacts.
         void Fill(in Touch touch, Collider to, Collider other, float sign)
         {
             message.collider = other;

@@ -10,7 +10,7 @@ namespace Unity.Profiling
         public static ProfilerCategory Physics => new ProfilerCategory("Physics");
     }
 
-    /// Measures nothing: the headless player has no profiler.
+    /// Has no effect: the headless player has no profiler.
     public struct ProfilerMarker
     {
         public ProfilerMarker(string name) { }

@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// Imitates memory of a graphics card. Tests read its content (`Data`).
+    /// Simulates memory of a graphics card. Tests read its content (`Data`).
     public sealed class GraphicsBuffer : IDisposable
     {
         [Flags]
@@ -43,7 +43,7 @@ namespace UnityEngine
         public int count { get; }
         public int stride { get; }
 
-        /// Its elements, as a shader would read them.
+        /// The elements as a shader reads them.
         internal T[] Data<T>()
             where T : struct => MemoryMarshal.Cast<byte, T>(memory).ToArray();
 

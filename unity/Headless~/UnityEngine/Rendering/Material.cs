@@ -7,7 +7,7 @@ namespace UnityEngine
         static readonly int ColorId = Shader.PropertyToID("_Color");
         static Material shared;
 
-        /// Of new primitives. Scripts may change it.
+        /// Material of new primitives. Scripts can change it.
         internal static Material Default => shared = shared ?? new Material(Shader.Find("Standard")) { name = "Default-Material" };
 
         internal static void ResetState() => shared = null;

@@ -36,7 +36,7 @@ namespace UnityEngine
         public void SetBuffer(string name, GraphicsBuffer value) => SetBuffer(Shader.PropertyToID(name), value);
         public void SetBuffer(int nameID, GraphicsBuffer value) => buffers[nameID] = value;
 
-        /// The buffer that a shader would read.
+        /// Returns the buffer that a shader reads.
         internal GraphicsBuffer BufferOf(string name) => buffers[Shader.PropertyToID(name)];
 
         public float GetFloat(string name) => GetFloat(Shader.PropertyToID(name));

@@ -19,7 +19,7 @@ namespace UnityEngine
         readonly List<Color> ownColors = new List<Color>();
         readonly List<int> indices = new List<int>();
 
-        /// Counts changes of vertices and triangles.
+        /// Number of changes of vertices and triangles.
         internal int Version { get; private set; }
 
         public IndexFormat indexFormat { get; set; }
@@ -118,7 +118,7 @@ namespace UnityEngine
 
         internal static void ResetState() => Array.Clear(Primitives, 0, Primitives.Length);
 
-        /// Name and size of Unity's mesh; without vertices.
+        /// Has the name and size of Unity's mesh, but no vertices.
         internal static Mesh Primitive(PrimitiveType type)
         {
             var size = type switch

@@ -3,7 +3,7 @@ using UnityEngine.Rendering;
 
 namespace UnityEngine
 {
-    /// Keeps materials and property blocks, and draws nothing.
+    /// Stores materials and property blocks, but draws nothing.
     public class Renderer : Component
     {
         readonly List<Material> assigned = new List<Material>();
@@ -47,7 +47,7 @@ namespace UnityEngine
             }
         }
 
-        /// A copy of the shared material, made at the first access and this renderer's own.
+        /// This renderer's copy of the shared material, created on the first access.
         public Material material
         {
             get

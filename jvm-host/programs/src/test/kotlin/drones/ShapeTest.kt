@@ -9,7 +9,7 @@ import kotlin.test.assertTrue
 
 class ShapeTest {
     @Test
-    fun `whoever follows the way arrives on the shape`() {
+    fun `following the way leads to the shape`() {
         val random = Random(1)
         for ((number, shape) in SHAPES.withIndex()) {
             repeat(200) {
@@ -21,7 +21,7 @@ class ShapeTest {
     }
 
     @Test
-    fun `the sphere, the ring and the tower are where they should be`() {
+    fun `the ways to sphere, ring and tower have known lengths`() {
         val (sphere, ring, tower) = SHAPES
         assertEquals(-10.0, sphere.wayTo(point(30.0, 0.0, 0.0), RADIUS).x, 1e-9)
         assertEquals(0.98 * RADIUS * 4 / 3 - 40, ring.wayTo(point(40.0, 0.0, 0.0), RADIUS).x, 1e-9)
@@ -30,11 +30,11 @@ class ShapeTest {
     }
 
     @Test
-    fun `a drone at the very middle of a shape gets a finite way`() {
+    fun `the way from the centre of a shape is finite`() {
         for (shape in SHAPES) assertTrue(shape.wayTo(point(0.0, 0.0, 0.0), RADIUS).length.isFinite())
     }
 
-    /** Counts random points near the surface: their number is that of the area. */
+    /** Counts random points near the surface. Their number is proportional to the area. */
     @Test
     fun `all shapes have about the area of the sphere`() {
         val random = Random(2)

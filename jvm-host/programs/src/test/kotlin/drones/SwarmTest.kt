@@ -16,9 +16,9 @@ class SwarmTest {
     private val network = TestNetwork(deltaTime = 0.05)
 
     @Test
-    fun `the greatest id leads, and the news of each shape passes one hop a round`() {
+    fun `the greatest id leads, and each shape spreads one hop per round`() {
         line(10)
-        // The greatest id knows at once that it leads; the others believe it of themselves for a round.
+        // The greatest id leads from the start. For one round, the others also consider themselves leaders.
         val shapes = List(12) { tick().values.map { it.shape } }
         assertEquals(List(10) { 0 }, shapes.last())
         assertEquals(listOf(9), tick().filterValues { it.leads }.keys.toList())
@@ -29,7 +29,7 @@ class SwarmTest {
     }
 
     @Test
-    fun `when the leader fails another one calls the next shape`() {
+    fun `if the leader fails, another one selects the next shape`() {
         line(6)
         repeat(10) { tick() }
         network.remove(5)
@@ -40,7 +40,7 @@ class SwarmTest {
     }
 
     @Test
-    fun `a drone flies to the shape, and away from one that is too near`() {
+    fun `a drone flies to the shape, and away from a drone that is too near`() {
         add(0, Point3D(Triple(0.0, 0.0, 0.0)))
         add(1, Point3D(Triple(0.5, 0.0, 0.0)))
         network.link(0, 1)

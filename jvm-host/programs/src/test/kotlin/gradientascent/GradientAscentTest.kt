@@ -23,7 +23,7 @@ class GradientAscentTest {
     private val high = sensors(20f, Vector3Value(3f, 1f, 4f))
 
     @Test
-    fun `both nodes climb, also the one in front`() {
+    fun `both nodes climb, including the one in front`() {
         round(0, null, low)
         assertEquals(listOf(3.6f, 1f, 4.8f), round(1, 0, high), "away from the lower one")
         assertEquals(listOf(0.6f, 1f, 0.8f), round(0, 1, low), "towards the higher one")

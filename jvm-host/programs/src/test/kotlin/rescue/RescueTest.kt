@@ -28,14 +28,14 @@ class RescueTest {
     private fun Map<Int, ActuatorData>.roles() = values.map { it.role }
 
     @Test
-    fun `without a casualty all explore, and know their distance to the base`() = robots(4) {
+    fun `without a casualty all robots explore and compute their distance to the base`() = robots(4) {
         val answers = it.ticks(STABLE)
         assertEquals(listOf(3, 0, 0, 0), answers.roles())
         assertEquals(listOf(0f, 8f, 16f, 24f), answers.values.map(ActuatorData::distance))
     }
 
     @Test
-    fun `robots between a casualty and the base are a channel and hold their places`() = robots(5) {
+    fun `robots between a casualty and the base form a channel and keep their positions`() = robots(5) {
         casualties[3] = 1
         val answers = it.ticks(STABLE)
         assertEquals(listOf(3, 1, 1, 2, 0), answers.roles())
@@ -44,7 +44,7 @@ class RescueTest {
     }
 
     @Test
-    fun `of robots that see one casualty the least id stays, and another takes its place when it fails`() = robots(4) {
+    fun `among robots that see a casualty the least id stays, and another replaces it when it fails`() = robots(4) {
         casualties += mapOf(2 to 0, 3 to 0)
         assertEquals(listOf(3, 1, 2, 0), it.ticks(STABLE).roles())
         it.places[1] = Point2D(16.0 to 1.0)
@@ -54,7 +54,7 @@ class RescueTest {
     }
 
     @Test
-    fun `each casualty has a channel of its own, the nearer one does not hide the farther`() = robots(6) {
+    fun `each casualty has its own channel, even behind a nearer one`() = robots(6) {
         casualties += mapOf(1 to 0, 5 to 1)
         assertEquals(listOf(3, 2, 1, 1, 1, 2), it.ticks(STABLE).roles())
     }
@@ -68,7 +68,7 @@ class RescueTest {
     }
 
     @Test
-    fun `a robot cut off from the base knows no distance`() = robots(4) {
+    fun `a robot cut off from the base has no distance`() = robots(4) {
         it.ticks(STABLE)
         it.places -= 1
         assertEquals(listOf(0f, -1f, -1f), it.ticks(STABLE).values.map(ActuatorData::distance))

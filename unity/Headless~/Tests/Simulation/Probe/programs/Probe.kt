@@ -41,11 +41,11 @@ public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
     return ActuatorData(if (hops == unknown) -1f else hops.toFloat())
 }
 
-/** What "hops" does, by the standard library. */
+/** The same as "hops", with the standard library. */
 @Program("far")
 public fun Aggregate<Int>.far(sensors: SensorData): ActuatorData = ActuatorData(hopDistanceTo(sensors.value() == 0f).toFloat())
 
-/** Neighbours that took the same arm, by the sign of the value. */
+/** Counts neighbours in the same branch, which the sign of the value selects. */
 @Program("arms")
 public fun Aggregate<Int>.arms(sensors: SensorData): ActuatorData =
     if (sensors.value() < 0) ActuatorData(-1f, neighboring(0).neighbors.size) else ActuatorData(1f, neighboring(0).neighbors.size)
@@ -56,7 +56,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData = ActuatorDat
 @Program("random")
 public fun Aggregate<Int>.random(sensors: SensorData, device: Device): ActuatorData = ActuatorData(device.random.nextDouble().toFloat())
 
-/** The wind of the scene; -1 before it has any. */
+/** Returns the wind of the global data; -1 before it is set. */
 @Program("windy")
 public fun Aggregate<Int>.windy(sensors: SensorData, device: Device): ActuatorData =
     ActuatorData((device.globals as GlobalData?)?.wind() ?: -1f)
@@ -75,10 +75,10 @@ private fun Aggregate<Int>.clash(): Int = share(0) { it.local.value }
 
 private fun Aggregate<Int>.deeper(depth: Int): Int = if (depth < 0) neighboring(depth).local.value else deeper(depth + 1) + 1
 
-/** Combines a field of all neighbours, hidden from projection in a list, with one of those that are here. */
+/** Combines a field of all neighbours, which a list hides from projection, with a field of the current branch. */
 private fun Aggregate<Int>.misaligned(all: List<Field<Int, *>>): Int = all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
 
-/** What goes wrong is chosen by the value: 13 and up; other values are counted like "count" does. */
+/** Values from 13 select an error. Other values count rounds, like "count". */
 @Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
 @Program("trouble")
 public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorData {

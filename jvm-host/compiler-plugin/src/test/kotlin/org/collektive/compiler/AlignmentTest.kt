@@ -142,7 +142,7 @@ class AlignmentTest {
     fun `implementations of Aggregate are not programs`() = assertPaths("wrapped", "neighboring")
 
     @Test
-    fun `a package whose name only starts like Kotlin's belongs to the user`() {
+    fun `a package whose name starts like Kotlin's is user code`() {
         val compiled = Compilation.of(
             """
             @file:Suppress("unused") package kotlinswarm;

@@ -40,7 +40,7 @@ class BranchTest {
     }
 
     @Test
-    fun `an arm that only returns does not hide the devices that go on`() = assertSeen("earlyReturn", 1 to setOf(3), 3 to setOf(1))
+    fun `an arm that only returns does not affect devices that continue`() = assertSeen("earlyReturn", 1 to setOf(3), 3 to setOf(1))
 
     @Test
     fun `nested arms`() = assertSeen("nested", 0 to setOf(), 2 to setOf(), 1 to setOf(3))

@@ -21,7 +21,7 @@ class ProjectionTest {
     fun `outside branches, a field has all devices`() = assertSeen("outside", 0 to setOf(1, 2, 3))
 
     @Test
-    fun `a field made in the arm needs no projection`() {
+    fun `a field created in the arm is not projected`() {
         val network = referenceNetwork(0, 1)
         network.round(compiled.program("madeInside"))
         assertEquals(listOf("if > neighboring"), network.first.visited)
@@ -55,7 +55,7 @@ class ProjectionTest {
         assertSeen("lambdaFromOutside", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test
-    fun `a field that a function takes out of its arguments is not projected`() =
+    fun `a field that a function reads from its arguments is not projected`() =
         assertSeen("takenOut", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test

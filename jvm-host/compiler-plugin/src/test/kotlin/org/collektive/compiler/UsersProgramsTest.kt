@@ -8,7 +8,7 @@ import kotlin.test.assertEquals
 /** Programs in all styles of Kotlin compute the expected results on every route. */
 class UsersProgramsTest {
     @TestFactory
-    fun `programs of users`(): List<DynamicTest> = expected.map { (name, results) ->
+    fun `user programs give the expected results`(): List<DynamicTest> = expected.map { (name, results) ->
         dynamicTest(name) {
             val program = compiled.program(name)
             for ((route, row) in rows()) {

@@ -24,7 +24,7 @@ class CompiledProgramsTest {
     fun `code without a device has no stack`() = popToken(null, pushToken(null, "outer"))
 
     @Test
-    fun `a projected field has those that are aligned at the token`() {
+    fun `a projected field contains the devices that are aligned at the token`() {
         val device = FakeDevice(1, aligned = listOf(3, 4))
         val field = device.field(listOf(2, 3, 4), listOf(20, 30, 40), local = 10)
         assertEquals(mapOf(3 to 30, 4 to 40, 1 to 10), project(field, "branch")?.all?.toMap())
@@ -32,7 +32,7 @@ class CompiledProgramsTest {
     }
 
     @Test
-    fun `a field of which all are aligned stays what it is`() {
+    fun `a field whose devices are all aligned is not copied`() {
         val device = FakeDevice(1, aligned = listOf(2, 3))
         val field = device.field(listOf(2, 3), listOf(20, 30), local = 10)
         assertSame(field, project(field, "branch"))

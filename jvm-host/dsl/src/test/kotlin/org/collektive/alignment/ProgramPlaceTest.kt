@@ -35,7 +35,7 @@ class ProgramPlaceTest {
     fun `without tokens the place is the root`() = assertEquals("node 3 at root", "${ProgramPlace(3, emptyList())}")
 
     @Test
-    fun `of a long path the beginning and the end are shown`() {
+    fun `a long path is shortened to its beginning and end`() {
         assertEquals((1..11).joinToString(" > "), ProgramPlace(3, (1..11).toList()).path)
         assertEquals("1 > 2 > 3 > 4 > 5 > 6 > 7 > 8 > … (1,990 more) > 1999 > 2000", ProgramPlace(3, (1..2000).toList()).path)
     }

@@ -109,7 +109,7 @@ class EngineTest {
     }
 
     @Test
-    fun `random numbers depend on the seed and the node alone`() {
+    fun `random numbers depend only on the seed and the node`() {
         fun numbers(seed: Long, threads: Int) = TestEngine(program { it.random.nextInt() }, threads, seed = seed).use { test ->
             with(test) {
                 val ids = IntArray(100) { it * 3 }
@@ -207,7 +207,7 @@ class EngineTest {
     }
 
     @Test
-    fun `a program that interrupts its thread harms no later round`() = TestEngine(
+    fun `a program that interrupts its thread does not affect later rounds`() = TestEngine(
         program {
             Thread.currentThread().interrupt()
             1

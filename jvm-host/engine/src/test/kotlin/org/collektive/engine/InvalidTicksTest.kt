@@ -64,7 +64,7 @@ class InvalidTicksTest {
     )
 
     @TestFactory
-    fun `a bad tick changes nothing`(): List<DynamicTest> = cases.map { case ->
+    fun `an invalid tick changes nothing`(): List<DynamicTest> = cases.map { case ->
         DynamicTest.dynamicTest(case.message) {
             assertEquals(run(bad = null), run(bad = case))
         }

@@ -20,7 +20,7 @@ import kotlin.test.assertTrue
 /** Devices on Collektive's public API compute the same as the project's own runtime, and the engine the same as the test kit's network. */
 class MailboxRuntimesTest {
     @TestFactory
-    fun `random programs give the same answers for hundreds of ticks with nodes and links that come and go`(): List<DynamicTest> =
+    fun `random programs give the same answers for hundreds of ticks while nodes and links change`(): List<DynamicTest> =
         Schedule.entries.flatMap { schedule ->
             (1..6).map { seed ->
                 DynamicTest.dynamicTest("$schedule, seed $seed") {
@@ -56,7 +56,7 @@ class MailboxRuntimesTest {
     }
 
     @Test
-    fun `values that must not outlive a round are refused here too`() {
+    fun `values that must not outlive a round are refused by each runtime`() {
         val rule = SharingRule { if (it is StringBuilder) "a builder changes" else null }
         val view = StringBuilder()
         val program = program {

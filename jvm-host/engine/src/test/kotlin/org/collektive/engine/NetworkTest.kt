@@ -17,7 +17,7 @@ class NetworkTest {
     /** Each node sends its time; its answer is what it received from its neighbours. */
     private val received = program { device -> neighboring(device.time).neighbors.toMap() }
 
-    /** What node 2 receives from node 1 in each of [ticks] ticks, while node 1 sends in the ticks of [sending]. */
+    /** Returns the values that node 2 receives from node 1 in each of [ticks] ticks, while node 1 sends in the ticks of [sending]. */
     private fun receivedFrom1(
         network: NetworkModel,
         ticks: Int,
@@ -254,7 +254,7 @@ class NetworkTest {
     }
 
     @TestFactory
-    fun `losses have the share and the mean length of bursts that were asked for`(): List<DynamicTest> =
+    fun `losses have the requested rate and mean burst length`(): List<DynamicTest> =
         listOf(0.05 to 4.0, 0.2 to 8.0, 0.5 to 1.0, 0.6 to 2.5).map { (share, length) ->
             DynamicTest.dynamicTest("$share, $length") {
                 val (messages, bursts) = bursts(NetworkModel(burstShare = share, burstLength = length))

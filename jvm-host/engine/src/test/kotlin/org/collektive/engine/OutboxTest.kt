@@ -13,14 +13,14 @@ class OutboxTest {
     private class Sent : Export()
 
     @Test
-    fun `nothing can be read of a node that never sent`() {
+    fun `a node that never sent has no message`() {
         assertNull(box.last)
         assertNull(box.readable(tick = 1))
         assertEquals(0, box.sentAt)
     }
 
     @Test
-    fun `what is sent in a tick is read from the next one on`() {
+    fun `a message is readable from the tick after it was sent`() {
         val sent = Sent()
         box.send(sent, tick = 3, time = 0.3)
         assertNull(box.readable(tick = 3))
@@ -30,7 +30,7 @@ class OutboxTest {
     }
 
     @Test
-    fun `rounds of a tick read the same before and after the sender's own, whichever ticks it leaves out`() {
+    fun `rounds before and after the sender's round read the same message, whichever ticks the sender skips`() {
         val random = Random(1)
         var last: Export? = null
         for (tick in 1L..1000L) {

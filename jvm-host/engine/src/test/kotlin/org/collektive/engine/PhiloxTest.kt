@@ -38,7 +38,7 @@ class PhiloxTest {
     }
 
     @Test
-    fun `a double is 53 bits of two words, the first one high`() {
+    fun `a double is 53 bits of two words, high word first`() {
         val words = Philox(1, 2, 3)
         val high = words.nextInt().toUInt().toULong()
         val low = words.nextInt().toUInt().toULong()
@@ -57,7 +57,7 @@ class PhiloxTest {
     }
 
     @Test
-    fun `the functions of Random work on it`() {
+    fun `the functions of Random work on a stream`() {
         val stream = Philox(9, 9, 0)
         assertTrue((0 until 1000).all { stream.nextInt(3, 10) in 3 until 10 })
         assertTrue((0 until 1000).map { stream.nextBoolean() }.toSet().size == 2)

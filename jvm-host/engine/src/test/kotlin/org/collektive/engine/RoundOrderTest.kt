@@ -37,7 +37,7 @@ class RoundOrderTest {
     }
 
     @Test
-    fun `each due node runs once while nodes come and go`() = TestEngine(recorder).use { engine ->
+    fun `each due node runs once while nodes are added and removed`() = TestEngine(recorder).use { engine ->
         val random = Random(7)
         val there = sortedSetOf<Int>()
         val links = HashSet<Pair<Int, Int>>()

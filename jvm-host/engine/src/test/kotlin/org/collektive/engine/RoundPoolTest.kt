@@ -15,7 +15,7 @@ class RoundPoolTest {
     private val farOff get() = System.nanoTime() + 60_000_000_000
 
     @Test
-    fun `every index is done once, for any count, range and number of threads`() {
+    fun `every index is processed once, for any count, range and number of threads`() {
         val random = Random(1)
         for (threads in listOf(1, 2, 3, 8)) {
             val pool = RoundPool(threads)
@@ -62,7 +62,7 @@ class RoundPoolTest {
 
     @Test
     @Timeout(60)
-    fun `a thread that is done helps the others`() {
+    fun `an idle thread takes over work of the others`() {
         val pool = RoundPool(2)
         val workers = AtomicIntegerArray(100)
         val othersAreDone = CountDownLatch(99)

@@ -37,7 +37,7 @@ internal class FingerprintTest {
     }
 
     @Test
-    fun `comments and spaces change nothing`() {
+    fun `comments and spaces do not change the fingerprint`() {
         assertEquals(fingerprint("a: float; b: int;"), fingerprint("\n/// says more\n a:float;\n\n b : int ; // end\n"))
     }
 

@@ -94,7 +94,7 @@ internal class GeneratedTextTest {
     }
 
     @Test
-    fun `no comment of a schema can become code`() {
+    fun `comments of a schema cannot inject code`() {
         val ends = listOf("*/ int x;", "\\u002a\\u002f int x;", "/ int x;", "C:\\users", "/* int x;", "*") +
             listOf('\u2028', '\u0085', '\u000c').map { "a${it}int x;" }
         val comments = ends.joinToString("") { "///$it\n" }

@@ -22,7 +22,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `what flatc refuses has its place at the front of the line`() {
+    fun `an error of flatc begins with its position`() {
         val unknown = refusal("namespace a;\ntable SensorData {\n  x: flaot;\n}\n\n\n").lines()
         assertEquals("flatc refuses user.fbs:", unknown[0])
         assertTrue(unknown[1].matches(Regex("""/.*/user\.fbs:3: error: type referenced but not defined .*: flaot""")), unknown[1])
@@ -83,7 +83,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `a name that means something else in generated code is refused with its line`() {
+    fun `a name with another meaning in generated code is refused with its line`() {
         fun type(declaration: String) = "namespace a;\n\n$declaration\ntable SensorData { x: int; }\nstruct ActuatorData { x: float; }"
         fun fields(text: String) = "namespace a;\nstruct ActuatorData { x: float; }\ntable SensorData {\n$text\n}"
         fun namespace(name: String) = "namespace $name;\ntable SensorData { x: int; }\nstruct ActuatorData { x: float; }"
@@ -133,7 +133,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `a file whose name cannot be that of a class is refused`() {
+    fun `a file name that is not a valid class name is refused`() {
         for (name in listOf("1st.fbs", "_.fbs", "sch\u00f6n.fbs", "a\nb.fbs", "a*b.fbs")) {
             val message = assertFailsWith<GeneratorException> { Fixture.generate(user("", "x: int;"), name) }.message.orEmpty()
             assertContains(message, "the name of the file is the name of a class: begin it with a letter")
@@ -236,7 +236,7 @@ internal class RefusalTest {
     }
 
     @Test
-    fun `a command line may name several schemas, of which each must exist`() {
+    fun `a command line can name several schemas, and each must exist`() {
         val (first, second) = Fixture.files(Fixture.testSchemas).filter { it.toString().endsWith(".fbs") }
         val include = Fixture.root.resolve("schema").toString()
         val words = arrayOf("--flatc", "${Fixture.flatc}", "--include", include, "--schema", "$first", "--schema")

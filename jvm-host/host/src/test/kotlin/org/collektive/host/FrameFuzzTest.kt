@@ -15,7 +15,7 @@ class FrameFuzzTest {
     private val shim = TestShim()
 
     @Test
-    fun `thousands of damaged frames`() {
+    fun `damaged frames are refused without effect, or accepted by all sessions`() {
         val random = Random(11)
         val fuzzed = TestSession(shim).apply { open(program = "sum") }
         val control = TestSession(shim).apply { open(program = "sum") }
@@ -55,7 +55,7 @@ class FrameFuzzTest {
     }
 
     @Test
-    fun `frames of random bytes, and cut ones`() {
+    fun `random and truncated frames are refused`() {
         val random = Random(5)
         val session = TestSession(shim).apply { open() }
         repeat(2000) {
@@ -85,7 +85,7 @@ class FrameFuzzTest {
     }
 
     @Test
-    fun `damaged open requests`() {
+    fun `random open requests are refused`() {
         Host.shim = shim
         val random = Random(8)
         repeat(500) {

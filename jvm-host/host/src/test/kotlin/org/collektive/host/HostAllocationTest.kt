@@ -18,7 +18,7 @@ class HostAllocationTest {
     fun `no allocation per tick on the engine thread`() = assertNoneIn(TestSession(TestShim()).apply { open(program = "probe") })
 
     @Test
-    fun `a recorded tick allocates nothing either`() {
+    fun `a recorded tick does not allocate either`() {
         val file = Files.createTempFile("collektive", ".clkrec")
         assertNoneIn(TestSession(TestShim()).apply { open(program = "probe", record = file.toString()) })
         Files.delete(file)

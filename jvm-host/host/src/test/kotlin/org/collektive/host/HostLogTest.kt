@@ -12,7 +12,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** What programs print, log and throw in their own threads goes to the shim's log, with its origin. */
+/** Output, log lines and uncaught exceptions of programs go to the shim's log, with their origin. */
 internal class HostLogTest {
     private val shim = TestShim()
     private val log = HostLog(shim)
@@ -71,7 +71,7 @@ internal class HostLogTest {
     }
 
     @Test
-    fun `a line without an end is cut, and flushing ends it`() {
+    fun `an unterminated line is cut at the limit, and flushing ends it`() {
         print("x".repeat(5000))
         System.out.flush()
         assertEquals(listOf(4096, 904), logs().map { it.second.length })
@@ -91,7 +91,7 @@ internal class HostLogTest {
     }
 
     @Test
-    fun `a line of greatest length is one entry`() {
+    fun `a line of maximum length is one entry`() {
         println("x".repeat(4096))
         assertEquals(listOf(4096), logs().map { it.second.length })
     }

@@ -27,7 +27,7 @@ class LibraryTest {
     lateinit var folder: Path
 
     @Test
-    fun `programs answer the same on both runtimes`() {
+    fun `programs give the same answers on both runtimes`() {
         val answers = listOf(AggregateRuntime.BuiltIn, AggregateRuntime.Collektive).map { runtime ->
             val session = TestSession(shim)
             check(session.open(runtime = runtime) >= 0) { shim.error }

@@ -258,7 +258,7 @@ class StepTest {
     }
 
     @Test
-    fun `a round that never ends fails the session, and the next one runs`() {
+    fun `an endless round fails the session, and the next session runs`() {
         val session = session(program = "probe")
         session.ok(
             Step(1).apply {
@@ -284,7 +284,7 @@ class StepTest {
     }
 
     @Test
-    fun `a bad request is refused, and the message names the reason`() {
+    fun `an invalid request is refused, and the message names the reason`() {
         val session = session()
         session.ok(
             Step(1).apply {

@@ -78,7 +78,7 @@ class ErrorsTest {
         }
 
     @Test
-    fun `a value for a device that is no neighbour`() =
+    fun `a value for a device that is not a neighbour`() =
         assertMessage<NoSuchElementException>("no value for device 99, only for [1]", "node 1 at helper (Swarm.kt:7)") {
             call("neighboring", 8) { neighboring(1) }[99]
         }
@@ -109,7 +109,7 @@ class ErrorsTest {
     }
 
     @Test
-    fun `a pivot without a toString of its own, where messages are serialised`() {
+    fun `a pivot without its own toString, with serialised messages`() {
         class Key
         val error = failure(JSON) { alignedOn(Key()) { evolve(0) { it } } }
         assertContains(error.message.orEmpty(), "cannot be a pivot where messages are serialised: its class does not override toString")
@@ -131,7 +131,7 @@ class ErrorsTest {
     }
 
     @Test
-    fun `recursion without end`() {
+    fun `infinite recursion`() {
         fun Aggregate<Int>.deeper(): Int = call("deeper", 3) { alignedOn("key") { deeper() } } + 1
         for (route in routes.keys - "in place") {
             val error = assertIs<StackOverflowError>(failure(route) { deeper() })

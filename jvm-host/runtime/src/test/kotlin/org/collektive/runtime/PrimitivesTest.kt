@@ -30,7 +30,7 @@ class PrimitivesTest {
     fun `neighboring returns what aligned neighbours sent in their last round`() {
         val network = network(1, 2, 3).line(1, 2, 3)
         val first = network.round { neighboring(localId * 10).all.toMap() }
-        assertEquals(mapOf(1 to 10), first[1], "nobody had sent anything yet")
+        assertEquals(mapOf(1 to 10), first[1], "no messages in the first round")
         val second = network.round { neighboring(localId * 100).all.toMap() }
         assertEquals(mapOf(1 to 10, 3 to 30, 2 to 200), second[2])
         assertEquals(mapOf(2 to 20, 1 to 100), second[1])
@@ -116,7 +116,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `exchange sends each neighbour its own value, and new neighbours the local one`() {
+    fun `exchange sends each neighbour its own value, and sends new neighbours the local one`() {
         val network = network(1, 2, 3).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             exchanging("") { seen ->
@@ -233,7 +233,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `a caught exception leaves the stack as it was`() {
+    fun `a caught exception restores the stack`() {
         val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
             if (localId == 1) runCatching { alignedOn("a") { alignedOn("b") { error("caught") } } }
@@ -244,7 +244,7 @@ class PrimitivesTest {
     }
 
     @Test
-    fun `a failed round changes neither state nor messages`() {
+    fun `a failed round changes neither state nor sent messages`() {
         val network = network(1, 2).line(1, 2)
         fun program(fails: Boolean): Aggregate<Int>.() -> Any? = {
             val count = alignedOn("count") { evolve(0) { it + 1 } }

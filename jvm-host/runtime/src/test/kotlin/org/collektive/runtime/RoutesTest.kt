@@ -28,7 +28,7 @@ class RoutesTest {
     private var nextId = 0
 
     @Test
-    fun `every route returns, keeps and sends what the reference does`() {
+    fun `every route returns, stores and sends the same values as the reference`() {
         repeat(120, ::compare)
         assertTrue(
             rounds > 5000 && clashes in 1..rounds / 3 && values.size > 200,

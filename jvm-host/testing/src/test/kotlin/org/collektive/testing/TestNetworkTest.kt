@@ -110,7 +110,7 @@ class TestNetworkTest {
     }
 
     @TestFactory
-    fun `a program may answer null`() = onBoth { assertEquals(mapOf(0 to null, 1 to null, 2 to null), round<Int?> { null }) }
+    fun `a program can return null`() = onBoth { assertEquals(mapOf(0 to null, 1 to null, 2 to null), round<Int?> { null }) }
 
     @TestFactory
     fun `a round that fails names its node, and the others have run`() = onBoth {

@@ -72,7 +72,7 @@ private fun Aggregate<Int>.outerSums(): List<Int> {
 
 private const val MODULUS = 1009
 
-/** Values for single neighbours: which receiver gets which, whatever becomes of the links meanwhile. */
+/** Tests that each receiver gets its own value while links change. */
 @CollektiveIgnore("it drives the programs")
 class PerNeighbourTest {
     private val programs = mapOf<String, Aggregate<Int>.(Int) -> Int>(
@@ -88,7 +88,7 @@ class PerNeighbourTest {
     )
 
     @TestFactory
-    fun `both runtimes give the same answers while nodes and links come, go and come back`(): List<DynamicTest> =
+    fun `both runtimes give the same answers while nodes and links are removed and restored`(): List<DynamicTest> =
         programs.flatMap { (name, program) ->
             Schedule.entries.flatMap { schedule ->
                 networks.mapIndexed { index, network ->

@@ -33,7 +33,7 @@ class PackagesTest {
         .should().dependOnClassesThat().resideInAPackage("com.google.flatbuffers..").check(classes)
 
     @Test
-    fun `the DSL and its library use none of the API beside it, but for the links`() = noClasses()
+    fun `the DSL and its library do not use the API for program authors, except for the links`() = noClasses()
         .that().resideInAnyPackage("it.unibo.collektive.(aggregate|networking|path|state|stdlib)..", "org.collektive.alignment..")
         .should().dependOnClassesThat().resideInAnyPackage("org.collektive.api..", "org.collektive.spi..", "org.collektive.links..")
         .check(classes)

@@ -13,17 +13,17 @@ import kotlin.test.assertEquals
 
 /**
  * Compares our answers with those of Collektive 28.3.2, in every round of every golden program. Programs that are meant to differ
- * are left out; `Documentation~/from-collektive.md` lists the reasons.
+ * are skipped; `Documentation~/from-collektive.md` lists the reasons.
  */
 class GoldenTest {
     @Test
-    fun `every program has answers`() = assertEquals(answers.keys, programs.keys)
+    fun `every program has recorded answers`() = assertEquals(answers.keys, programs.keys)
 
     @TestFactory
-    fun `answers on our runtime`() = tests(::AggregateRuntimes)
+    fun `the built-in runtime gives the recorded answers`() = tests(::AggregateRuntimes)
 
     @TestFactory
-    fun `answers through Collektive's public API`() = tests(::MailboxRuntimes)
+    fun `the mailbox runtime gives the recorded answers`() = tests(::MailboxRuntimes)
 
     private fun tests(runtimes: () -> DeviceRuntimes) = programs.map { (name, program) ->
         DynamicTest.dynamicTest(name) {
@@ -38,7 +38,7 @@ class GoldenTest {
         }
     }
 
-    /** Whether the texts are equal but for the last digits of doubles: Collektive computes distances by `hypot`. */
+    /** Whether the texts are equal except for the last digits of doubles: Collektive computes distances by `hypot`. */
     private fun isSame(a: String, b: String): Boolean = a == b || NUMBER.split(a) == NUMBER.split(b) &&
         NUMBER.findAll(a).zip(NUMBER.findAll(b)).all { (x, y) -> isSame(x.value.toDouble(), y.value.toDouble()) }
 

@@ -17,7 +17,7 @@ fun Aggregate<Int>.both(device: Device): Any? = with(device) { distances().all.t
 
 fun Aggregate<Int>.inBranch(device: Device): Any? = with(device) { if (localId != 1) distances().neighbors.size else -1 }
 
-/** Programs know the lengths and attenuations of their links as the scene gives them. */
+/** Programs can read the lengths and attenuations that the scene gives their links. */
 @CollektiveIgnore("it drives the programs")
 class LinksTest {
     @Test
@@ -25,14 +25,14 @@ class LinksTest {
         onBoth { assertEquals(mapOf(0 to 0.0, 1 to 2.5, 2 to 5.5), it(Aggregate<Int>::toFirst, 4)) }
 
     @Test
-    fun `lengths and attenuations are those of the links from the neighbours`() = onBoth {
+    fun `lengths and attenuations belong to the links from the neighbours`() = onBoth {
         val lengths = mapOf(0 to 2.5, 2 to 3.0, 1 to 0.0)
         val attenuations = mapOf(0 to 0.0, 2 to 7.0, 1 to 0.0)
         assertEquals<Any?>(lengths to attenuations, it(Aggregate<Int>::both, 2)[1])
     }
 
     @Test
-    fun `a changed length counts from the next round`() = onBoth { assertEquals(2.5 + 9.0, it(Aggregate<Int>::toFirst, 9)[2]) }
+    fun `a changed length takes effect in the next round`() = onBoth { assertEquals(2.5 + 9.0, it(Aggregate<Int>::toFirst, 9)[2]) }
 
     @Test
     fun `in a branch only the neighbours there have a length`() =

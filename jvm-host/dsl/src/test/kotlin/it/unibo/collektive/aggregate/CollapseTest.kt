@@ -12,27 +12,27 @@ class CollapseTest {
     private val alone = FakeDevice(2).field(emptyList(), emptyList(), local = "own")
 
     @Test
-    fun `the neighbours come in order, without the device itself`() {
+    fun `neighbors contains the neighbours in order, without the device itself`() {
         assertEquals(listOf(FieldEntry(1, "a"), FieldEntry(3, "b"), FieldEntry(4, "a")), field.neighbors.list)
         assertEquals(listOf(1, 3, 4), field.neighbors.ids.list)
         assertEquals(listOf("a", "b", "a"), field.neighbors.values.list)
     }
 
     @Test
-    fun `all are the neighbours, then the device itself`() {
+    fun `all contains the neighbours, then the device itself`() {
         assertEquals(field.neighbors.list + FieldEntry(2, "own"), field.all.list)
         assertEquals(listOf(1, 3, 4, 2), field.all.ids.list)
         assertEquals(listOf("a", "b", "a", "own"), field.all.values.list)
     }
 
     @Test
-    fun `sets drop repetition, sequences keep it`() {
+    fun `sets drop duplicates, sequences keep them`() {
         assertEquals(setOf("a", "b"), field.neighbors.values.set)
         assertEquals(listOf("a", "b", "a"), field.neighbors.values.sequence.toList())
     }
 
     @Test
-    fun `size and contains are those of the elements`() {
+    fun `size and contains match the elements`() {
         assertEquals(listOf(3, 4), listOf(field.neighbors.size, field.all.size))
         assertTrue("own" in field.all.values)
         assertFalse("own" in field.neighbors.values)
@@ -47,7 +47,7 @@ class CollapseTest {
     }
 
     @Test
-    fun `without neighbours only the device itself is there`() {
+    fun `without neighbours, only the device itself remains`() {
         assertEquals(emptyList(), alone.neighbors.values.list)
         assertEquals(listOf("own"), alone.all.values.list)
         assertFailsWith<IndexOutOfBoundsException> { alone.neighbors.list[0] }

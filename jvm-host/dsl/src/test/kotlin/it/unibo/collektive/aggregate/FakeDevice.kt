@@ -7,7 +7,7 @@ import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingScope
 
-/** A device that knows its id, its path and its [aligned] neighbours, and runs no rounds: what fields need of one. */
+/** A device without rounds that has only the members that fields use: its id, its path and its [aligned] neighbours. */
 internal class FakeDevice<ID : Any>(override val localId: ID, private val aligned: List<ID> = emptyList()) : Aggregate<ID> {
     private val pivots = ArrayList<Any?>()
 

@@ -18,7 +18,7 @@ class FieldTest {
     private val f = device.field(listOf(1, 3, 1000), listOf(10, 30, 10_000), local = 50)
 
     @Test
-    fun `entries are in ascending order, the own one last`() {
+    fun `entries are in ascending order, with the local one last`() {
         assertEquals(listOf(1, 3, 1000), f.neighbors.ids.list)
         assertEquals(listOf(10, 30, 10000), f.neighbors.values.list)
         assertEquals(listOf(1, 3, 1000, 5), f.all.ids.list)
@@ -40,7 +40,7 @@ class FieldTest {
     }
 
     @Test
-    fun `get finds neighbours and the device itself, and no other`() {
+    fun `get finds only neighbours and the device itself`() {
         assertEquals(listOf(10, 30, 50, 10000), listOf(1, 3, 5, 1000).map { f[it] })
         val error = assertFailsWith<NoSuchElementException> { f[4] }
         assertEquals("the field has no value for device 4, only for [1, 3, 1000, 5] [node 5 at root]", error.message)
@@ -89,13 +89,13 @@ class FieldTest {
     }
 
     @Test
-    fun `a field is no value of a field`() {
+    fun `a field cannot be a value of a field`() {
         assertFailsWith<IllegalStateException> { f.mapValues { f } }
         assertFailsWith<IllegalStateException> { f.mapToConstant(f) }
     }
 
     @Test
-    fun `what maps one entry is aligned on its id, however it ends`() {
+    fun `the function of an entry is aligned on its id, even if it throws`() {
         val paths = ArrayList<List<Any?>>()
         f.map { paths += device.path }
         assertEquals(listOf(listOf<Any?>(1), listOf(3), listOf(1000), listOf(5)), paths)
@@ -104,26 +104,26 @@ class FieldTest {
     }
 
     @Test
-    fun `a receiver without a value of its own gets the local one`() {
+    fun `a receiver without its own value gets the local one`() {
         assertEquals(listOf(10, 30, 10_000, 50, 50), listOf(1, 3, 1000, 5, 4).map(f::getOrLocal))
     }
 
     @Test
-    fun `ids need no order when they are no numbers`() {
+    fun `ids that are not numbers need no order`() {
         val named = FakeDevice("b").field(listOf("z", "a"), listOf(1, 2), local = 3)
         assertEquals(listOf(1, 2, 3), listOf("z", "a", "b").map { named[it] })
         assertFailsWith<NoSuchElementException> { named["c"] }
     }
 
     @Test
-    fun `only a field made of one value is known to be constant`() {
+    fun `only a field created from one value is known to be constant`() {
         assertTrue(f.mapToConstant(1).isConstant)
         assertFalse(f.mapValues { 1 }.isConstant)
         assertEquals(3, f.mapToConstant(1).neighborCount)
     }
 
     @Test
-    fun `equality is that of the maps`() {
+    fun `fields with equal entries are equal`() {
         assertEquals(f, f.mapValues { it + 1 }.mapValues { it - 1 })
         assertEquals(f.hashCode(), f.mapValues { it }.hashCode())
         assertNotEquals(f, f.mapValues { it + 1 })

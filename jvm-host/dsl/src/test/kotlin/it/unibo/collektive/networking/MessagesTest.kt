@@ -27,13 +27,13 @@ class MessagesTest {
         PayloadRepresentation(payload, sharing) as PayloadRepresentation<Any?>
 
     @Test
-    fun `a message in memory has the very objects`() {
+    fun `a message in memory contains the same objects`() {
         val payload = Any()
         assertEquals(InMemoryMessage(7, mapOf(path to payload)), InMemoryMessageFactory<Int>()(7, mapOf(path to value(payload, InMemory))))
     }
 
     @Test
-    fun `a serialised message survives its journey, null included`() {
+    fun `a serialised message round-trips, including null`() {
         val data = mapOf<Path, PayloadRepresentation<Any?>>(
             path to value(42, Serialize(Int.serializer())),
             DigestHashingFactory()("other") to value(null, Serialize(String.serializer().nullable)),
@@ -64,7 +64,7 @@ class MessagesTest {
     }
 
     @Test
-    fun `a receiver gets the value made for it, null too, and others the default`() {
+    fun `a receiver gets its own value, which can be null, and others get the default`() {
         val data = SharedData<Int, String?>("all", mapOf(1 to "one", 2 to null))
         assertEquals(listOf("one", null, "all"), listOf(data[1], data[2], data[3]))
     }

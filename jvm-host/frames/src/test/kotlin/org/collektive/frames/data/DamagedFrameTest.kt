@@ -14,7 +14,7 @@ internal class DamagedFrameTest {
     private val random = Random(42)
 
     @Test
-    fun `frames with flipped bits`() = attack { bytes ->
+    fun `frames with flipped bits are rejected or readable`() = attack { bytes ->
         repeat(1 + random.nextInt(4)) {
             val at = random.nextInt(bytes.size)
             bytes[at] = (bytes[at].toInt() xor (1 shl random.nextInt(8))).toByte()
@@ -23,7 +23,7 @@ internal class DamagedFrameTest {
     }
 
     @Test
-    fun `frames with extreme numbers`() = attack { bytes ->
+    fun `frames with extreme numbers are rejected or readable`() = attack { bytes ->
         repeat(1 + random.nextInt(3)) {
             val number = listOf(0, 1, -1, 4, 5, 0x7F, 0x7FFF, 0x8000, 0xFFFF, Int.MAX_VALUE, Int.MIN_VALUE, bytes.size)[random.nextInt(12)]
             val at = random.nextInt(bytes.size - 3)
@@ -33,10 +33,10 @@ internal class DamagedFrameTest {
     }
 
     @Test
-    fun `truncated frames`() = attack { bytes -> bytes.copyOf(random.nextInt(bytes.size)) }
+    fun `truncated frames are rejected or readable`() = attack { bytes -> bytes.copyOf(random.nextInt(bytes.size)) }
 
     @Test
-    fun `frames of random bytes`() = attack { bytes -> bytes.also(random::nextBytes) }
+    fun `frames of random bytes are rejected or readable`() = attack { bytes -> bytes.also(random::nextBytes) }
 
     private fun attack(damage: (ByteArray) -> ByteArray) {
         var passed = 0

@@ -18,25 +18,25 @@ internal class ElementReaderTest {
     fun `tables that share a vtable pass`() = assertEquals(3, checked().size)
 
     @Test
-    fun `the string of the last table lies outside the frame`() {
+    fun `a string outside the frame is rejected`() {
         frame.putInt(field(2, NAME), 1 shl 20)
         assertEquals("data[2].name lies outside the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
-    fun `the string of the last table has a damaged offset`() {
+    fun `a damaged offset of a string is rejected`() {
         frame.putInt(field(2, NAME), 0)
         assertEquals("data[2].name has a damaged offset", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
-    fun `the last table has another vtable, which is damaged`() {
+    fun `a damaged vtable is rejected`() {
         frame.putInt(table(2), 1 shl 20)
         assertEquals("data[2] lies outside the frame", assertFailsWith<MalformedFrameException> { checked() }.message)
     }
 
     @Test
-    fun `a number of the last table lies beyond the end of the frame`() {
+    fun `a number beyond the end of the frame is rejected`() {
         // The frame ends with the start of the table, but its vtable claims eight more bytes.
         val end = frame.limit() - Int.SIZE_BYTES
         val vtable = table(1) - frame.getInt(table(1))

@@ -74,7 +74,7 @@ internal class GeneratedCodeTest {
     }
 
     @Test
-    fun `flatc reads what was written as results, for structs and for tables`() {
+    fun `flatc reads the written results, for structs and for tables`() {
         for (schema in listOf(GeneratedSchemas.features, GeneratedSchemas.blocks)) {
             repeat(200) {
                 val results = Array<Any?>(random.nextInt(5)) { Objects.randomResult(schema, random) }
@@ -101,7 +101,7 @@ internal class GeneratedCodeTest {
     }
 
     @Test
-    fun `the ranges of table results follow each other without gap`() {
+    fun `the ranges of table results are contiguous`() {
         val results = Array<Any?>(5) { Objects.randomResult(GeneratedSchemas.features, random) }
         val (_, ranges) = write(GeneratedSchemas.features, results)
         var end = 0
@@ -131,7 +131,7 @@ internal class GeneratedCodeTest {
     }
 
     @Test
-    fun `the fault of a result that cannot be written names the reason`() {
+    fun `the error of a result that cannot be written names the reason`() {
         val blocks = GeneratedSchemas.blocks.actuatorWriter()
         assertEquals("the program returned null", blocks.findProblem(null))
         assertEquals("the program returned a java.lang.String instead of a test.blocks.ActuatorData", blocks.findProblem("x"))
@@ -149,7 +149,7 @@ internal class GeneratedCodeTest {
     }
 
     @Test
-    fun `a required field cannot be left out, nor be null from Java`() {
+    fun `a required field can be neither missing nor null, even from Java`() {
         assertEquals(emptyList(), type("LeafValue").constructors.filter { it.parameterCount == 0 })
         val refusal = assertFailsWith<InvocationTargetException> { made("label" to null) }.targetException
         assertContains(refusal.message.orEmpty(), "parameter label")

@@ -57,7 +57,7 @@ class ViewRuleTest {
     }
 
     @Test
-    fun `all other values may be shared`() {
+    fun `all other values can be shared`() {
         val ring = arrayOfNulls<Any>(1).also { it[0] = it }
         val values = listOf(
             null, 1, "text", 2.0, Unit, Thread.State.NEW, intArrayOf(1), 1 to 2, listOf(1, "a", null), emptyMap<Any, Any>(), Reading(null),

@@ -15,16 +15,16 @@ import kotlin.test.assertTrue
 /** The corpus of `./collektive test --fuzz`: seeds, and an input for each defect that fuzzing found. */
 class CorpusTest {
     @TestFactory
-    fun `open keeps its rules`() = replay("open", OpenFuzzer, FuzzSeeds.open)
+    fun `open passes on all inputs of the corpus`() = replay("open", OpenFuzzer, FuzzSeeds.open)
 
     @TestFactory
-    fun `step keeps its rules`() = replay("step", StepFuzzer, FuzzSeeds.step)
+    fun `step passes on all inputs of the corpus`() = replay("step", StepFuzzer, FuzzSeeds.step)
 
     @TestFactory
-    fun `control keeps its rules`() = replay("control", ControlFuzzer, FuzzSeeds.control - "control-recording")
+    fun `control passes on all inputs of the corpus`() = replay("control", ControlFuzzer, FuzzSeeds.control - "control-recording")
 
     @Test
-    fun `the seeds are frames of the present schema`() {
+    fun `the seeds are frames of the current schema`() {
         for ((entry, seeds) in mapOf("open" to FuzzSeeds.open, "step" to FuzzSeeds.step, "control" to FuzzSeeds.control)) {
             for ((name, frame) in seeds) {
                 val file = CORPUS.resolve("$entry/$name")

@@ -63,7 +63,7 @@ class SessionTest {
     }
 
     @Test
-    fun `when a session cannot be made, its record is closed and its threads end`() {
+    fun `if a session cannot be created, its record is closed and its threads end`() {
         val jar = folder.resolve("broken.jar")
         ProbeJars.programs.copyTo(jar)
         FileSystems.newFileSystem(URI.create("jar:${jar.toUri()}"), emptyMap<String, Any>()).use { zip ->
@@ -87,7 +87,7 @@ class SessionTest {
     }
 
     @Test
-    fun `when a record cannot be made, the session's threads end`() {
+    fun `if a record cannot be created, the session's threads end`() {
         val before = rounds()
         lateinit var during: Set<Thread>
         assertFailsWith<IllegalStateException> {

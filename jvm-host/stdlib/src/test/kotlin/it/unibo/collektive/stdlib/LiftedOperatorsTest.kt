@@ -27,7 +27,7 @@ import kotlin.test.fail
 class LiftedOperatorsTest {
     @Tag("slow")
     @TestFactory
-    fun `every function does for each entry what Kotlin's own does`() = objects().map { name ->
+    fun `every function applies Kotlin's function to each entry`() = objects().map { name ->
         val lifted = Class.forName(name).kotlin
         dynamicTest(name.removePrefix("it.unibo.collektive.stdlib.")) {
             val plain = StdlibFunctions(lifted)
@@ -82,7 +82,7 @@ class LiftedOperatorsTest {
         throw e.targetException
     }
 
-    /** What tells two results apart: the contents of those that have no `equals` of their own. */
+    /** Converts a result to a value that can be compared: types without their own `equals` become lists of their contents. */
     private fun shown(value: Any?): Any? = when (value) {
         is BooleanArray -> value.toList()
         is ByteArray -> value.toList()
@@ -105,7 +105,7 @@ class LiftedOperatorsTest {
     private fun defaulted(map: Map<*, *>) = (map as Map<Int, Any?>).getValue(100)
 
     @Test
-    fun `a reified type is the caller's`() = inRound { shape ->
+    fun `a reified type is the type of the caller`() = inRound { shape ->
         val values = shape.mapValues { listOf(it, "$it") }
         assertEquals((0..2).associateWith { listOf("$it") }, values.filterIsInstance<String, Int>().all.toMap())
     }

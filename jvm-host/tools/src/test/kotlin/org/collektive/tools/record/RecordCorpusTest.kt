@@ -25,13 +25,13 @@ class RecordCorpusTest {
     lateinit var folder: Path
 
     @TestFactory
-    fun `records keep their rules`(): List<DynamicTest> {
+    fun `the reader passes on all records of the corpus`(): List<DynamicTest> {
         val files = Files.list(CORPUS).use { it.sorted().toList() }
         return files.map { DynamicTest.dynamicTest(it.name) { RecordFuzzer.run(it.readBytes()) } }
     }
 
     @Test
-    fun `the seed is a record of the present format`() {
+    fun `the seed is a record of the current format`() {
         val seed = CORPUS.resolve("record-plain")
         if (System.getProperty("collektive.seeds") == "write") seed.writeBytes(RecordFuzzer.sealed(withoutJar(recorded())))
         assertEquals(TICKS, RecordFuzzer.run(seed.readBytes()), "$seed: write it again with -Dcollektive.seeds=write")

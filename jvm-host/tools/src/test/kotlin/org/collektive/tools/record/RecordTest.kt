@@ -297,7 +297,7 @@ class RecordTest {
     }
 
     @Test
-    fun `outputs that differ on the same input are named, and so are other programs`() {
+    fun `differences in outputs of the same input and in programs are reported`() {
         val result = run("diff", record("a", jar = summing("sensors.value()")), record("b", jar = summing("sensors.value() % 503")))
         assertEquals(1, result.code)
         assertContains(result.results, "different settings: programs: SHA-256")
@@ -312,7 +312,7 @@ class RecordTest {
     }
 
     @Test
-    fun `refused steps and steps without end are recorded, and replay the same way`() {
+    fun `refused and endless steps are recorded, and replay in the same way`() {
         val file = folder.resolve("failed.clkrec")
         val session = TestSession(shim)
         check(session.open(program = "probe", record = file.toString()) >= 0)
@@ -407,7 +407,7 @@ class RecordTest {
     }
 
     @Test
-    fun `damage under a valid checksum is reported, too`() {
+    fun `damage with a valid checksum is reported too`() {
         val bytes = record(ticks = 3).readBytes()
         val chunks = chunks(bytes).filter { it.kind != Chunk.JAR && it.payload.hasRemaining() }
         val random = Random(4)
@@ -508,7 +508,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a comparison runs no code of a record`() {
+    fun `a comparison does not run code of a record`() {
         val ran = folder.resolve("ran")
         val jar = ProbeJars.withClass(
             """

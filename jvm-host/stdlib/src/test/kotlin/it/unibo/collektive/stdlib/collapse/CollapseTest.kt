@@ -47,7 +47,7 @@ class CollapseTest {
     }
 
     @Test
-    fun `extremes of neighbours are null when there are none, but of numbers the least or greatest`() = fields { field, neighbors, _ ->
+    fun `extremes without neighbours are null, or the least or greatest number`() = fields { field, neighbors, _ ->
         val list = neighbors.map { it.second }
         val values = field.neighbors.values
         assertEquals(list.maxOrNull() ?: Int.MIN_VALUE, values.max())

@@ -13,7 +13,7 @@ class TimeReplicatedTest {
     private fun at(seconds: Int) = Instant.fromEpochSeconds(seconds.toLong())
 
     @Test
-    fun `a process that never forgets follows changes when it is replicated`() {
+    fun `a process without stabilisation follows changes when it is replicated`() {
         val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
         fun second(now: Int, greatest: Int) = swarm.round {
             timeReplicated(at(now), 3, 10.seconds) {

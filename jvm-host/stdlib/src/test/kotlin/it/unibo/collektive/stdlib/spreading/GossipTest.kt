@@ -73,7 +73,7 @@ class GossipTest {
     }
 
     @Test
-    fun `nonStabilizingGossip merges everything and forgets nothing`() {
+    fun `nonStabilizingGossip merges all values and never drops one`() {
         val swarm = Swarm(4).line(1.0, 1.0, 1.0)
         assertEquals(setOf(setOf(0, 1, 2, 3)), swarm.rounds(4) { nonStabilizingGossip(setOf(localId)) { a, b -> a + b } }.values.toSet())
         swarm.remove(3)
@@ -81,7 +81,7 @@ class GossipTest {
     }
 
     @Test
-    fun `everHappened looks at the condition in a device's first round, and stays true`() {
+    fun `everHappened evaluates the condition only in a device's first round, and stays true`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         assertEquals(setOf(false), swarm.rounds(4) { everHappened { false } }.values.toSet())
         assertEquals(setOf(false), swarm.rounds(4) { everHappened { true } }.values.toSet())

@@ -71,7 +71,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `values do not creep up when a source vanishes, however short the links are`() {
+    fun `values do not count up when a source is removed, even with short links`() {
         val swarm = Swarm(6).line(100.0, 100.0, 0.001, 0.001, 0.001)
         val program: it.unibo.collektive.aggregate.api.Aggregate<Int>.() -> Double = {
             distanceTo(localId == 0, with(swarm) { lengths() })
@@ -152,7 +152,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `a settled network takes up what changes although all offers stay`() = perturbed { swarm, atOnce, random ->
+    fun `a settled network reacts to changes even if all offers stay equal`() = perturbed { swarm, atOnce, random ->
         val source = swarm.ids.random(random)
         val lengths = swarm.shortestPaths(listOf(source)).mapValues { (_, path) -> path.first }
         for ((stretch, unit) in listOf(1.0 to 1.0, 2.0 to 1.0, 2.0 to 4.0)) {
@@ -170,7 +170,7 @@ class GradientCastTest {
     }
 
     @Test
-    fun `a settled network takes up another maxDiameter`() {
+    fun `a settled network reacts to another maxDiameter`() {
         val swarm = Swarm(5).line(1.0, 1.0, 1.0, 1.0)
         for (limit in listOf(Int.MAX_VALUE, 1, 2)) {
             val seen = swarm.rounds(10) { hopGradientCast(localId == 0, localId == 0, limit) }
