@@ -120,7 +120,8 @@ def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[]
 
 def _check(experiment: Experiment, search: Search, store: Store, trust: bool) -> None:
     """Validates the metric, and the first and last value of each parameter."""
-    ends = {key: (list(value.choices) if isinstance(value, optuna.distributions.CategoricalDistribution) else [value.low, value.high])  # type: ignore[attr-defined]
+    categorical = optuna.distributions.CategoricalDistribution
+    ends = {key: (list(value.choices) if isinstance(value, categorical) else [value.low, value.high])  # type: ignore[attr-defined]
             for key, value in search.parameters.items()}
     first = {key: values[0] for key, values in ends.items()}
     metrics = check_keys(experiment, store, trust, [({**first, key: value}, ("tune", "parameters", key)) for key, values in ends.items() for value in values])

@@ -160,7 +160,7 @@ int32_t engine_await(int64_t deadline) {
     while (prim_semaphore_wait_until(&engine.done, deadline)) {
         if (!atomic_load(&engine.busy)) return engine.result == CLK_OK ? CLK_OK : error_set(engine.result, "%s", engine.error);
         int32_t running = engine_check_running();
-        if (running != CLK_OK) return running; /* woken by wake_all, not by work that nobody waited for */
+        if (running != CLK_OK) return running; /* woken by wake_all, not by finished work */
     }
     return CLK_TIMEOUT;
 }

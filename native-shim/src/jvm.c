@@ -345,7 +345,8 @@ static int32_t work_stop(void) {
 /* Halts a JVM that does not shut down. False if that is impossible: while JNI_CreateJavaVM runs, after the JVM ended itself, while a debugger may
  * have suspended its threads, and in a forked child, which has none of them. */
 static bool halt(void) {
-    if (!atomic_load(&jvm.created) || jvm.halt == NULL || atomic_load(&jvm.parked) || host_is_debugged() || engine_is_forked()) return false;
+    if (!atomic_load(&jvm.created) || jvm.halt == NULL || atomic_load(&jvm.parked) || host_is_debugged() || engine_is_forked())
+        return false;
     atomic_store(&jvm.stopping, true);
     atomic_store(&jvm.halting, true);
     if (!atomic_load(&jvm.halt_thread)) start_halt_thread();

@@ -12,8 +12,8 @@
 
 #define MAX_SESSIONS 256
 #define FIRST_ANSWER_BYTES (64 * 1024)
-#define DEBUG_STEP_MS 100   /* until a step is pending, if a debugger is attached */
-#define DEBUG_CALL_MS 1000  /* until other calls give up */
+#define DEBUG_STEP_MS 100  /* until a step is pending, if a debugger is attached */
+#define DEBUG_CALL_MS 1000 /* until other calls give up */
 
 struct session {
     uint32_t generation; /* 0 before the first use */
@@ -25,9 +25,9 @@ struct session {
 /* Guarded by the turn, except the counters. */
 static struct {
     struct session all[MAX_SESSIONS];
-    struct session control; /* never opened by a caller: it owns the answer slot of clk_control */
-    struct host_call call;  /* the call that the host runs */
-    struct session *caller; /* its session, and not NULL while a debugger may stop the call after its function has returned */
+    struct session control;  /* never opened by a caller: it owns the answer slot of clk_control */
+    struct host_call call;   /* the call that the host runs */
+    struct session *caller;  /* its session, and not NULL while a debugger may stop the call after its function has returned */
     int64_t limit, deadline; /* of the call, with the grace period */
     atomic_int count;
     _Atomic uint64_t steps;
@@ -46,8 +46,7 @@ static clk_session session_handle(const struct session *session) {
 
 static struct session *session_find(clk_session handle) {
     uint32_t index = (uint32_t)handle;
-    if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32 &&
-        !sessions.all[index].closing)
+    if (index < MAX_SESSIONS && sessions.all[index].open && sessions.all[index].generation == handle >> 32 && !sessions.all[index].closing)
         return &sessions.all[index];
     error_set(CLK_HANDLE, "session 0x%llx is already closed or was never issued; open a new one", (unsigned long long)handle);
     return NULL;

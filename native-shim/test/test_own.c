@@ -71,8 +71,8 @@ static bool ends_within(pid_t process, int limit_ms) {
 }
 
 static void start_own(void) {
-    CHECK_OK(start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:ErrorFile=/dev/null", "-Dtest.overflow=" TEST_OVERFLOW_LIBRARY), false,
-                      60000));
+    CHECK_OK(start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:ErrorFile=/dev/null", "-Dtest.overflow=" TEST_OVERFLOW_LIBRARY),
+                      false, 60000));
 }
 
 /* ---- Deaths of the child --------------------------------------------------------------------------------------------- */
@@ -276,7 +276,8 @@ void own_without_processes(void) {
     for (rlim_t processes = 1;; processes += processes < 4 ? 1 : 4) {
         struct rlimit less = {.rlim_cur = processes, .rlim_max = limit.rlim_max};
         CHECK(setrlimit(RLIMIT_NPROC, &less) == 0);
-        int32_t result = start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:+UseSerialGC", "-XX:ErrorFile=/dev/null"), false, 10000);
+        int32_t result =
+            start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:+UseSerialGC", "-XX:ErrorFile=/dev/null"), false, 10000);
         if (result == CLK_OK) break;
         CHECK(result == CLK_MEMORY || result == CLK_JVM_START || result == CLK_TIMEOUT);
         CHECK(clk_jvm_state() == CLK_STATE_NONE && jvm_process() == 0);

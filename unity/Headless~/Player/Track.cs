@@ -77,7 +77,8 @@ namespace Collektive.Headless
             var rows = file.ReadCsv("id", "x", "z", "lon", "lat", "time");
             var isGeographic = double.IsNaN(rows[0][1]) && !double.IsNaN(rows[0][3]);
             var first = isGeographic ? 3 : 1;
-            if (double.IsNaN(rows[0][first]) || double.IsNaN(rows[0][first + 1])) throw file.Error(1, "the columns 'x' and 'z', or 'lon' and 'lat', are missing");
+            if (double.IsNaN(rows[0][first]) || double.IsNaN(rows[0][first + 1]))
+                throw file.Error(1, "the columns 'x' and 'z', or 'lon' and 'lat', are missing");
             var hasTimes = !double.IsNaN(rows[0][5]);
             if (isMoving && !hasTimes) throw file.Error(1, "the column 'time' is missing");
             if (hasTimes && double.IsNaN(rows[0][0])) throw file.Error(1, "the column 'time' needs the column 'id'");

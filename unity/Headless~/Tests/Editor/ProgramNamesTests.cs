@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             var folder = Path.Combine(Root, "unity/Samples~/Channel");
             var scene = File.ReadAllText(Path.Combine(folder, "Channel.unity"));
-            // As written by version 0.2.0.
+            // As written by the previous release.
             var start = scene.IndexOf("      propertyPath: settings.libraries", System.StringComparison.Ordinal);
             var end = scene.IndexOf("      propertyPath: settings.seed", System.StringComparison.Ordinal);
             var target = "    - target: {fileID: 7296416222207784731, guid: de7f1c418113b5c64bd5634bfb1c00c4, type: 3}\n";

@@ -21,7 +21,8 @@ namespace Collektive.Headless.Tests.Player
         [TearDown]
         public void DeleteFile() => File.Delete(path);
 
-        [TestCase("avg(hrd)", 4, "no such column: hrd, at character 5 of 'avg(hrd)'; columns: id, time, degree, x, y, z, message_values, message_bytes, value, heard, sensor_value")]
+        [TestCase("avg(hrd)", 4, "no such column: hrd, at character 5 of 'avg(hrd)'; columns: id, time, degree, x, y, z, message_values, message_bytes, "
+            + "value, heard, sensor_value")]
         [TestCase("avg(\"hrd\")", -1, "no such column: \"hrd\"")]
         [TestCase("avg(heard", 9, "'avg(heard' ends too early")]
         [TestCase("", 0, "'' ends too early")]

@@ -86,7 +86,7 @@ namespace Collektive.Bridge
             return TryTake(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer), answer);
         }
 
-        /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for a step that has not ended. Result and exceptions are those of <see cref="Step"/>.</summary>
+        /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for a step that has not ended. Returns and throws as <see cref="Step"/>.</summary>
         public bool TryFinish(int waitMs)
         {
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };

@@ -75,7 +75,7 @@ namespace Collektive.Bridge
         public void Reload(IReadOnlyList<string> jars)
         {
             reloadedJars = jars;
-            // The new programs have classes of their own for it.
+            // The new programs read it with new classes.
             GlobalsChanged |= hasSentGlobals;
         }
 

@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Unity
 {
-    /// <summary>Values by index, 0 or greater, in pages that are created when they are first used: a large index does not need memory for all smaller ones.</summary>
+    /// <summary>Values by index, 0 or greater, in pages that are created on first use. A large index needs no memory for all smaller ones.</summary>
     internal sealed class PagedArray<T>
     {
         private const int Bits = 7;

@@ -60,7 +60,10 @@ namespace Collektive.Unity
             Write(ref data, new Span<Zone>(zones, 0, count));
         }
 
-        /// <summary>Writes the zones in the order of the ticks in which they were entered, and those of one tick by distance. The span is valid during the call only.</summary>
+        /// <summary>
+        /// Writes the zones in the order of the ticks in which they were entered, and zones of one tick by distance. The span is valid only
+        /// during the call.
+        /// </summary>
         protected abstract void Write(ref TData data, Span<Zone> zones);
 
         /// <summary>Handles a zone that the node enters.</summary>

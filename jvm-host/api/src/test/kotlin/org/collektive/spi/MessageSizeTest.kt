@@ -23,8 +23,10 @@ class MessageSizeTest {
     @Test
     fun `each type has its bytes`() {
         val sizes = listOf(
-            null to 1, true to 1, 3.toByte() to 1, 'x' to 2, 3.toShort() to 2, 3 to 4, 3f to 4, Colour.RED to 4, 3L to 8, 3.0 to 8, Unit to 0,
-            "aé" to 7, listOf(1, 2) to 12, emptySet<Int>() to 4, mapOf(1 to 2.0) to 16, arrayOf("a", null) to 10, doubleArrayOf(1.0, 2.0) to 20,
+            null to 1, true to 1, 3.toByte() to 1, 'x' to 2, 3.toShort() to 2, 3 to 4, 3f to 4, Colour.RED to 4, 3L to 8, 3.0 to 8,
+            Unit to 0,
+            "aé" to 7, listOf(1, 2) to 12, emptySet<Int>() to 4, mapOf(1 to 2.0) to 16, arrayOf("a", null) to 10,
+            doubleArrayOf(1.0, 2.0) to 20,
             booleanArrayOf(true) to 5, Point(1f, 2f) to 13, (1 to 2L) to 12, 7u to 4, Result.success(3) to 4,
         )
         for ((value, bytes) in sizes) {

@@ -49,7 +49,8 @@ public class Engine @JvmOverloads constructor(
      * Returns a new node for each existing one, in order of their ids, from [create], which receives the id and the [NewNode.source]. Changes
      * nothing.
      */
-    public fun replacements(create: (Int, Any?) -> NewNode): List<NewNode> = List(nodes.size) { create(nodes.keys[it], nodes.node(it).source) }
+    public fun replacements(create: (Int, Any?) -> NewNode): List<NewNode> =
+        List(nodes.size) { create(nodes.keys[it], nodes.node(it).source) }
 
     /**
      * Applies the changes of [tick], then runs one round of each due node.

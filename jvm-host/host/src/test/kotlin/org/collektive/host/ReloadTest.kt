@@ -125,7 +125,8 @@ class ReloadTest {
         val same = step(jar(evolve, counter("implements java.io.Serializable")))
         assertReloaded(same.reload(), stored = 4, kept = 4)
         assertEquals("3 3", text(same))
-        val changed = counter("implements java.io.Serializable").replace("{ final", "{ private static final long serialVersionUID = 3; final")
+        val form = "{ private static final long serialVersionUID = 3; final"
+        val changed = counter("implements java.io.Serializable").replace("{ final", form)
         val other = step(jar(evolve, changed))
         assertReloaded(other.reload(), stored = 4, kept = 0)
         assertEquals("1 1", text(other))

@@ -45,7 +45,10 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
 
     /** The jars with which the checked frame replaces all programs, or `null`. Allocates. */
     public val reloadedJars: List<String>?
-        get() = if (target(frame, root, FrameLayouts.STEP_REQUEST_RELOAD) == 0) null else request.reload().let { List(it.jarsLength(), it::jars) }
+        get() {
+            if (target(frame, root, FrameLayouts.STEP_REQUEST_RELOAD) == 0) return null
+            return request.reload().let { List(it.jarsLength(), it::jars) }
+        }
 
     /**
      * Reads the checked frame.

@@ -32,10 +32,13 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         return calls[identity] ?: token
     }
 
-    override fun value(value: Any?): Any? = if (isSimple(value)) value else try {
-        if (contains(value, IDENTITY_SET(), 0)) copy(value) else value
-    } catch (_: UnknownContent) {
-        copy(value)
+    override fun value(value: Any?): Any? {
+        if (isSimple(value)) return value
+        return try {
+            if (contains(value, identitySet(), 0)) copy(value) else value
+        } catch (_: UnknownContent) {
+            copy(value)
+        }
     }
 
     /** Returns whether [value] contains an object of the old programs. @throws UnknownContent when that is unknown. */
@@ -104,7 +107,8 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
 
         /** A call of the compiler plugin, such as `share@Swarm.kt:12#9c1d3a5e7f00b2d4`. */
         val CALL = Regex("(.+@[^:]+):\\d+(#[0-9a-f]{16})")
-        val IDENTITY_SET: () -> MutableSet<Any> = { Collections.newSetFromMap(IdentityHashMap()) }
+
+        fun identitySet(): MutableSet<Any> = Collections.newSetFromMap(IdentityHashMap())
 
         fun identityOf(text: String): String? = CALL.matchEntire(text)?.let { it.groupValues[1] + it.groupValues[2] }
 
