@@ -10,6 +10,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>A scene that refers to libraries plays on a real JVM in a project without a JDK, a compiler and sources.</summary>
+    [Category("Mono")]
     public sealed class LibraryPlayTests : ProjectFixture
     {
         private SimulationSettings settings;

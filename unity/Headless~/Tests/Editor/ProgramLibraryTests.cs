@@ -13,6 +13,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>A jar with programs is an asset, which is imported without a JVM.</summary>
+    [Category("Mono")]
     public sealed class ProgramLibraryTests : ProjectFixture
     {
         private const string Path = "Assets/Swarm/swarm.clkprograms";

@@ -9,6 +9,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>Scenes of earlier versions name their schema, jars and programs.</summary>
+    [Category("Mono")]
     public sealed class ProgramNamesTests : ProjectFixture
     {
         private SimulationManager manager;

@@ -9,12 +9,15 @@ namespace Collektive.Unity
     public sealed class AggregateProgram : ScriptableObject
     {
         [SerializeField]
+        [Tooltip("Name in the @Program annotation.")]
         private string programName = "";
 
         [SerializeField]
+        [Tooltip("Parameters that nodes can set.")]
         private Declaration[] parameters = new Declaration[0];
 
         [SerializeField]
+        [Tooltip("The library that contains the program.")]
         private ProgramLibrary library;
 
         /// <summary>The name in its <c>@Program</c> annotation.</summary>
@@ -46,8 +49,13 @@ namespace Collektive.Unity
         [Serializable]
         private struct Declaration
         {
+            [Tooltip("Name of the parameter.")]
             public string name;
+
+            [Tooltip("Value of nodes that do not set the parameter.")]
             public string defaultValue;
+
+            [Tooltip("Meaning, unit and range.")]
             public string description;
         }
     }

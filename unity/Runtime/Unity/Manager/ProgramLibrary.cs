@@ -14,21 +14,27 @@ namespace Collektive.Unity
         internal const string Extension = "clkprograms";
 
         [SerializeField]
+        [Tooltip("Identifies the file in players.")]
         private string guid = "";
 
         [SerializeField]
+        [Tooltip("Full name of the generated schema class.")]
         private string schema = "";
 
         [SerializeField]
+        [Tooltip("SHA-256 of the binary schema.")]
         private string schemaHash = "";
 
         [SerializeField]
+        [Tooltip("Runtime for which the programs were compiled.")]
         private string runtime = "";
 
         [SerializeField]
+        [Tooltip("SHA-256 of the schema and the Kotlin files.")]
         private string sourcesHash = "";
 
         [SerializeField]
+        [Tooltip("The programs of the library.")]
         private AggregateProgram[] programs = new AggregateProgram[0];
 
         /// <summary>The programs, by name in ordinal order; empty if the file could not be imported.</summary>
