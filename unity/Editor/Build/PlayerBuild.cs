@@ -44,7 +44,7 @@ namespace Collektive.Unity.Editor
         private static void AddPrograms(SceneSimulation simulation, SortedDictionary<string, string> files)
         {
             var settings = simulation.Settings;
-            var problem = settings.FindProblem();
+            var problem = settings.FindProblem() ?? settings.FindLibraryProblem();
             if (problem != null) throw simulation.Failure(problem);
             var failed = ProgramBuild.Refresh(SchemaProject.FindAll(new[] { settings }));
             if (failed.Count > 0)

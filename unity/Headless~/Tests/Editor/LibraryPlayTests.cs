@@ -99,15 +99,15 @@ namespace Collektive.Headless.Tests.Editor
         public void Libraries_that_cannot_run_together_are_an_error()
         {
             var library = Import("swarm", "COLLEKTIVE_PROBE_JAR");
-            Assert.That(settings.FindProblem(), Is.StringContaining("no program library is selected"));
+            Assert.That(settings.FindLibraryProblem(), Is.StringContaining("no program library is selected"));
             settings.libraries.Add(null);
             Assert.That(settings.JarPaths, Is.Empty, "builds before Play read it");
-            Assert.That(settings.FindProblem(), Is.StringContaining("is empty, or its file was deleted"));
+            Assert.That(settings.FindLibraryProblem(), Is.StringContaining("is empty, or its file was deleted"));
             settings.libraries[0] = library;
-            Assert.That(settings.FindProblem(), Is.Null);
+            Assert.That(settings.FindLibraryProblem(), Is.Null);
             ProgramLibraryTests.Pack("Assets/other.clkprograms", "other.OtherSchema");
             settings.libraries.Add(AssetDatabase.LoadAssetAtPath<ProgramLibrary>("Assets/other.clkprograms"));
-            Assert.That(settings.FindProblem(), Is.StringStarting("Assets/swarm.clkprograms and Assets/other.clkprograms were compiled with different "
+            Assert.That(settings.FindLibraryProblem(), Is.StringStarting("Assets/swarm.clkprograms and Assets/other.clkprograms were compiled with different "
                 + "schemas, probe.ProbeSchema and other.OtherSchema"));
         }
 

@@ -174,7 +174,7 @@ namespace Collektive.Unity
             RuntimeJars = string.IsNullOrWhiteSpace(runtimeJars) ? "" : Installation.PathOf(runtimeJars),
         };
 
-        /// <summary>Returns the first error with its fix, or null.</summary>
+        /// <summary>Returns the first error of a value with its fix, or null.</summary>
         internal string FindProblem()
         {
             if (ArgumentProblem != null) return ArgumentProblem;
@@ -189,9 +189,7 @@ namespace Collektive.Unity
             if (runtime == AggregateRuntime.Collektive && string.IsNullOrWhiteSpace(runtimeJars))
                 return "runtime is Collektive, but runtime jars is empty: select the folder of Collektive's jars";
             if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: enter the path, or remove the entry";
-            var problem = FindLibraryProblem();
-            if (problem != null) return problem;
-            problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
+            var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
             return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
         }
 
@@ -203,7 +201,8 @@ namespace Collektive.Unity
                 + library.File + ", which is not among the libraries of the Simulation Manager: add it";
         }
 
-        private string FindLibraryProblem()
+        /// <summary>Returns the error of the libraries, or null.</summary>
+        internal string FindLibraryProblem()
         {
             if (jars.Count > 0) return null;
             var all = Libraries();

@@ -13,7 +13,7 @@ namespace Collektive.Unity
         /// <exception cref="BridgeException">The settings are wrong, or the JVM or the session did not start.</exception>
         internal static Session Open(SimulationSettings settings, Object context)
         {
-            var problem = Jvm.FindProblem() ?? settings.FindProblem();
+            var problem = Jvm.FindProblem() ?? settings.FindProblem() ?? settings.FindLibraryProblem();
             if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
             var schema = Schemas.Find(settings.SchemaName);
             StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);
