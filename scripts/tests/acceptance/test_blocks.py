@@ -12,6 +12,8 @@ from build.places import ROOT
 # Blocks without a test, and the reason.
 EXEMPT = {
     ("Documentation~/from-collektive.md", "kts"): "needs Collektive's artefacts, which the tests do not fetch",
+    ("Documentation~/experiments.md", "bash"): "needs Slurm",
+    ("Documentation~/experiments.md", "yaml"): "needs Kubernetes",
     ("docs/boundary.md", "text"): "a command line with placeholders; test_own.c runs it",
 }
 # Options of Unity's players in pages.
