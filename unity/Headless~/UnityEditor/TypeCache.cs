@@ -9,9 +9,12 @@ namespace UnityEditor
         public static TypeCollection GetTypesDerivedFrom<T>()
         {
             var found = new List<Type>();
+            var owner = typeof(T).Assembly.GetName().Name;
             foreach (var assembly in AppDomain.CurrentDomain.GetAssemblies())
             {
                 if (assembly.IsDynamic) continue;
+                // Others, such as Mono's own on CoreCLR, may lack types that they refer to.
+                if (assembly != typeof(T).Assembly && !Array.Exists(assembly.GetReferencedAssemblies(), name => name.Name == owner)) continue;
                 foreach (var type in assembly.GetTypes())
                     if (type != typeof(T) && typeof(T).IsAssignableFrom(type)) found.Add(type);
             }

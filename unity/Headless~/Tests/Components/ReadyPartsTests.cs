@@ -44,6 +44,7 @@ namespace Collektive.Headless.Tests.Components
                 foreach (var field in type.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
                 {
                     if (!field.IsPublic && field.GetCustomAttribute<SerializeField>() == null) continue;
+                    if (field.GetCustomAttribute<HideInInspector>() != null) continue;
                     Assert.That(field.GetCustomAttribute<TooltipAttribute>(), Is.Not.Null, type.Name + "." + field.Name);
                 }
             }
