@@ -261,9 +261,8 @@ def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lam
 
 
 def of_page(language: str) -> str:
-    """The only code block in a language of the page about experiments."""
-    (found,) = re.findall(rf"(?ms)^```{language}\n(.*?)^```$", (ROOT / "Documentation~/experiments.md").read_text())
-    return str(found)
+    """The first code block in a language of the page about experiments."""
+    return str(re.findall(rf"(?ms)^```{language}\n(.*?)^```$", (ROOT / "Documentation~/experiments.md").read_text())[0])
 
 
 def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
