@@ -10,6 +10,7 @@ void own_ends_with_its_parent(void) { skip("uses signals"); }
 void own_with_a_bad_launcher(void) { skip("uses shell scripts"); }
 void own_without_resources(void) { skip("uses limits of POSIX"); }
 void own_without_processes(void) { skip("uses limits of POSIX"); }
+#if defined(__linux__)
 void own_out_of_memory(void) { skip("uses limits of POSIX"); }
 void own_needs_no_shared_memory_folder(void) { skip("uses mounts of Linux"); }
 void own_continues_after_a_suspension(void) { skip("uses signals"); }
@@ -325,6 +326,10 @@ void own_needs_no_shared_memory_folder(void) {
     CHECK_OK(open_session(&session));
     CHECK_OK(step(session, GROW, 1 << 24, 60000));
 }
+#else
+void own_out_of_memory(void) { skip("limits of other processes need Linux"); }
+void own_needs_no_shared_memory_folder(void) { skip("private mounts need Linux"); }
+#endif
 #endif
 
 /* ---- Starts after starts --------------------------------------------------------------------------------------------- */
