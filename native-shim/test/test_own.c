@@ -10,7 +10,6 @@ void own_ends_with_its_parent(void) { skip("uses signals"); }
 void own_with_a_bad_launcher(void) { skip("uses shell scripts"); }
 void own_without_resources(void) { skip("uses limits of POSIX"); }
 void own_without_processes(void) { skip("uses limits of POSIX"); }
-#if defined(__linux__)
 void own_out_of_memory(void) { skip("uses limits of POSIX"); }
 void own_needs_no_shared_memory_folder(void) { skip("uses mounts of Linux"); }
 void own_continues_after_a_suspension(void) { skip("uses signals"); }
@@ -289,6 +288,7 @@ void own_without_processes(void) {
     CHECK_OK(clk_jvm_stop(60000));
 }
 
+#if defined(__linux__)
 void own_out_of_memory(void) {
     clk_session session;
     struct rlimit limit, less;
