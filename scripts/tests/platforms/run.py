@@ -15,7 +15,7 @@ from tests import junit
 LEFT_OUT = "slow|repeats"
 # Of the tests in both placements, runs those in this process. qemu cannot start an emulated program from another one, and does not report why a
 # program cannot be executed.
-NOT_EMULATED = "^own_([^o]|o[^w]|own_(ends_with_its_parent|with_a_bad_launcher))"
+NOT_EMULATED = "^own_([^o]|o[^w]|own_(ends_with_its_parent|with_a_bad_launcher|out_of_memory))"
 
 
 def run(results: Path, names: list[str]) -> int:
