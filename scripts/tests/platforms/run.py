@@ -13,8 +13,8 @@ from tests import junit
 
 # Omits slow and repeating tests, because an emulated JVM takes seconds to start.
 LEFT_OUT = "slow|repeats"
-# Of the tests in both placements, runs those in this process. qemu cannot start an emulated program from another one, and does not report why a
-# program cannot be executed.
+# Of the tests in both placements, runs those in this process. qemu cannot start an emulated program from another one, does not report why a
+# program cannot be executed, and does not limit its memory.
 NOT_EMULATED = "^own_([^o]|o[^w]|own_(ends_with_its_parent|with_a_bad_launcher|out_of_memory))"
 
 
