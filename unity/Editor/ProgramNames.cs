@@ -8,8 +8,8 @@ using UnityEngine.SceneManagement;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Replaces the names of programs and jars in scenes of earlier versions with references, when a scene is opened and before Play. Names that fit no
-    /// library stay, and are reported.
+    /// Replaces the names of programs and jars in scenes of earlier versions with references, when a scene is opened and before Play. Names without
+    /// a matching library are kept and reported.
     /// </summary>
     internal static class ProgramNames
     {

@@ -157,8 +157,11 @@ namespace Collektive.Unity.Editor
                 Debug.LogError("the Kotlin compiler crashed: the compiler plugin may be built for another version of the compiler; use the plugin's version");
             var built = current;
             Finish(code == 0 ? Progress.Status.Succeeded : Progress.Status.Failed);
-            if (code == 0) AssetDatabase.ImportAsset(built.Jar);
-            if (code == 0) ReloadWhilePlaying();
+            if (code == 0)
+            {
+                AssetDatabase.ImportAsset(built.Jar);
+                ReloadWhilePlaying();
+            }
             if (built.HasGeneratedSince(begun)) AssetDatabase.Refresh();
         }
 

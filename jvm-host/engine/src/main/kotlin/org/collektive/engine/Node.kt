@@ -28,7 +28,7 @@ internal class Node(new: NewNode, val runtime: DeviceRuntime, clock: Clock, seed
     /** Number of the last validation that removes this node. Used by [TickValidator]. */
     var mark = 0L
 
-    /** Whether the node has a new program, and its first round has not succeeded yet. */
+    /** Whether the node has a new program that has not run a round yet. */
     var isReloaded = false
         private set
 

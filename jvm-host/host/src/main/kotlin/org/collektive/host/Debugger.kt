@@ -4,7 +4,7 @@ import org.collektive.host.shim.ShimCalls
 import java.util.Properties
 import java.util.function.LongSupplier
 
-/** A clock like `System.nanoTime()` that stands still while a debugger is attached to this JVM, so that breakpoints use up no time limit. */
+/** A clock like `System.nanoTime()` that stands still while a debugger is attached to this JVM, so that breakpoints do not count towards time limits. */
 internal object Debugger : LongSupplier {
     // The agent sets it to its address while it listens for a debugger, and clears it when one attaches.
     private const val LISTENER = "sun.jdwp.listenerAddress"
@@ -40,7 +40,7 @@ internal object Debugger : LongSupplier {
         if (isAttached) {
             attached = System.nanoTime()
         } else {
-            // In this order, a reader between the two sees too early a time, never too late a one.
+            // In this order, a concurrent reader may see an earlier time, but never a later one.
             excluded += System.nanoTime() - attached
             attached = 0
         }
