@@ -37,6 +37,8 @@ suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests UNLOCKED
 suite(stress stress LABELS all NEEDS build:jvm_modules
   SCRIPT stress.py RESULTS/stress.xml -f 1 -fsm 1 -iters 3 -time 200 -sc false -af NONE -jvmArgs -XX:-TieredCompilation)
 
+# A run of all suites tests C# in process on the newest JDK and with the JVM in its own process on the oldest.
+list(GET COLLEKTIVE_TEST_JDKS 0 oldest)
 list(GET COLLEKTIVE_TEST_JDKS -1 newest)
 foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   cmake_path(GET jdk FILENAME name)
@@ -47,14 +49,22 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
     set(labels quick all)
     set(slow all)
   endif()
+  set(in_process ${labels})
+  set(own_process extra)
+  if(jdk STREQUAL oldest)
+    set(own_process all)
+    if(NOT jdk STREQUAL newest)
+      set(in_process extra)
+    endif()
+  endif()
   set(shim ctest --test-dir "${CMAKE_BINARY_DIR}/native-shim" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
   set(java_home ENVIRONMENT "CLK_TEST_JAVA_HOME=${jdk}")
   suite(shim-on-${name} shim LABELS ${labels} NEEDS build:shim_test ${java_home} COMMAND ${shim} -LE slow)
   suite(shim-slow-on-${name} shim LABELS ${slow} NEEDS build:shim_test PARALLEL ${java_home} COMMAND ${shim} -L slow)
   suite(sanitized-on-${name} sanitized LABELS extra NEEDS build:sanitized TIMEOUT 1800 ${java_home}
     COMMAND ctest --test-dir "${COLLEKTIVE_BUILD}/sanitized" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
-  suite(csharp-on-${name} csharp LABELS ${labels} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
-  suite(csharp-own-process-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
+  suite(csharp-on-${name} csharp LABELS ${in_process} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
+  suite(csharp-own-process-on-${name} csharp LABELS ${own_process} NEEDS ${csharp_needs} NUNIT PARALLEL ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
     SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
   suite(csharp-debugger-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Debugger)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)

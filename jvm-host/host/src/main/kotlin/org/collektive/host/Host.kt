@@ -6,6 +6,7 @@ import org.collektive.host.session.Session
 import org.collektive.host.session.SessionOpening
 import org.collektive.host.session.orClose
 import org.collektive.host.session.reading
+import org.collektive.host.shim.Debugger
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import org.collektive.host.shim.LogLevel

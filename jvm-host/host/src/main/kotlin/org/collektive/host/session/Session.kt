@@ -13,9 +13,9 @@ import org.collektive.frames.session.writeOpenResponse
 import org.collektive.frames.tick.ReloadOutcome
 import org.collektive.frames.tick.StepResponseWriter
 import org.collektive.frames.tick.UserData
-import org.collektive.host.Debugger
 import org.collektive.host.programs.Programs
 import org.collektive.host.record.RecordWriter
+import org.collektive.host.shim.Debugger
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import org.collektive.host.shim.LogLevel

@@ -8,7 +8,6 @@ import org.collektive.frame.Network
 import org.collektive.frame.OpenRequest
 import org.collektive.frames.data.ViewRule
 import org.collektive.frames.session.openRequest
-import org.collektive.host.Debugger
 import org.collektive.host.jfr.SessionEvents
 import org.collektive.host.jfr.SessionStartEvent
 import org.collektive.host.library.AggregateLibrary
@@ -16,6 +15,7 @@ import org.collektive.host.library.AggregateRuntime
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.programs.Programs
 import org.collektive.host.record.RecordWriter
+import org.collektive.host.shim.Debugger
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import org.collektive.host.shim.ShimCalls

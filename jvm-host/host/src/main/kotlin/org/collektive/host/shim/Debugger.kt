@@ -1,6 +1,5 @@
-package org.collektive.host
+package org.collektive.host.shim
 
-import org.collektive.host.shim.ShimCalls
 import java.util.Properties
 import java.util.function.LongSupplier
 
