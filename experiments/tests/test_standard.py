@@ -21,6 +21,8 @@ PROGRAM = """package first
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.spreading.hopDistanceTo
+import org.collektive.api.Metric
+import org.collektive.api.NetworkSnapshot
 import org.collektive.api.Program
 import standard.ActuatorData
 import standard.SensorData
@@ -29,6 +31,22 @@ import standard.SensorData
 fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
     val hops = hopDistanceTo(sensors.source())
     return ActuatorData(value = hops.toDouble(), flag = hops < Int.MAX_VALUE, category = hops)
+}
+
+@Metric("farthest")
+fun farthest(network: NetworkSnapshot<SensorData, ActuatorData>): Double = network.nodes.maxOf { it.answer?.value ?: -1.0 }
+
+@Metric("sources")
+fun sources(network: NetworkSnapshot<SensorData, ActuatorData>): Double = network.nodes.count { it.sensors?.source() == true }.toDouble()
+
+@Metric("step")
+fun step(network: NetworkSnapshot<SensorData, ActuatorData>): Double =
+    network.nodes.maxOf { node -> node.links.maxOf { (node.answer?.value ?: 0.0) - (network[it.from]?.answer?.value ?: 0.0) } }
+
+@Metric("late")
+fun late(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
+    check(network.time < 0.45) { "too late" }
+    return 1.0
 }
 """
 DATA = {
@@ -84,6 +102,9 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("metrics.bad", "flag", "'metrics.bad' is not an aggregate"),
     ("metrics.bad", "random() + avg(flag)", "not authorized to use function: random, at character 1"),
     ("metrics.bad", 3, "'metrics.bad' is 3; it must be of type string"),
+    ("metrics.bad", {"function": 3}, "'metrics.bad.function' is 3; it must be of type string"),
+    ("metrics.bad", {}, "'metrics.bad.function' is missing"),
+    ("metrics.bad", {"function": "step", "unit": "m"}, "unknown key 'metrics.bad.unit'; known here: function"),
     ("metrics.links", "count(*)", "'metrics.links': metrics.csv already has a column of that name: rename the metric"),
     ("converged.speed", {"to": 1}, "unknown metric; the metrics are: reached, mean, sources, degree_mean"),
     ("fields.deployment.kind", "Ring", "it must be of type string (one of Grid, Disc, Uniform, Poisson, File)"),
@@ -266,6 +287,36 @@ def test_metrics_have_the_expected_values(study: Study, tmp_path: Path) -> None:
     assert study.worker.run({"seconds": 3, "outputs.interval": 0.1, "stopWhenConverged": True}, "{}", str(tmp_path / "stopped"), 300,
                             is_repeated=False).status == "complete"
     assert json.loads((tmp_path / "stopped/manifest.json").read_text())["ticks"] == 5
+
+
+def test_functions_are_metrics_like_sql(study: Study, tmp_path: Path) -> None:
+    functions = {name: {"function": name} for name in ("farthest", "sources", "step")}
+    queries = {"sql_farthest": "max(value)", "sql_sources": "total(source)"}
+    study.write({**SCENARIO, "metrics": {**functions, **queries}, "outputs": {"interval": 0.5},
+                 "converged": {"step": {"from": 1, "to": 1, "seconds": 0.5}},
+                 "fields": {"deployment": {"nodes": 9, "columns": 3, "spacing": 1}, "neighbourhood": {"radius": 1.1},
+                            "sets": [{"name": "source", "ids": [0], "until": 1.7}]}})
+    # The last tick is not that of a row.
+    assert study.worker.run({"seconds": 2.2}, "{}", str(tmp_path / "out"), 300, is_repeated=False).status == "complete"
+    with (tmp_path / "out/metrics.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert [row["second"] for row in rows] == ["0", "0.5", "1", "1.5", "2"]
+    assert list(rows[0])[1:6] == ["sql_farthest", "sql_sources", "farthest", "sources", "step"]
+    assert [(row["farthest"], row["sources"]) for row in rows[1:]] == [(row["sql_farthest"], row["sql_sources"]) for row in rows[1:]]
+    assert [row["step"] for row in rows[:4]] == ["NaN", "1", "1", "1"]
+    assert (rows[0]["farthest"], rows[1]["farthest"], rows[-1]["sources"]) == ("NaN", "4", "0")
+    manifest = json.loads((tmp_path / "out/manifest.json").read_text())
+    assert manifest["converged"]["step"] == pytest.approx(0.5)
+    assert manifest["end"]["farthest"] == manifest["end"]["sql_farthest"]
+
+
+def test_a_function_that_fails_ends_the_run_with_its_place(study: Study, tmp_path: Path) -> None:
+    study.write({**SCENARIO, "metrics": {"all": {"function": "late"}}, "converged": {}, "outputs": {"interval": 0.2}})
+    result = study.worker.run({"seconds": 1}, "{}", str(tmp_path / "out"), 300, is_repeated=False)
+    assert result.status == "failed"
+    assert "'metrics.all': the function 'late' failed: java.lang.IllegalStateException: too late" in result.message
+    with (tmp_path / "out/metrics.csv").open() as file:
+        assert [row["all"] for row in csv.DictReader(file)] == ["NaN", "1", "1"]
 
 
 def test_a_set_has_its_members_from_one_tick_to_another(study: Study, tmp_path: Path) -> None:

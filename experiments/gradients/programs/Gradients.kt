@@ -5,24 +5,34 @@ import it.unibo.collektive.stdlib.spreading.bellmanFordGradientCast
 import it.unibo.collektive.stdlib.spreading.gradientCast
 import it.unibo.collektive.stdlib.spreading.multiGradientCast
 import it.unibo.collektive.stdlib.util.euclideanDistance2D
+import org.collektive.api.Metric
+import org.collektive.api.NetworkSnapshot
 import org.collektive.api.Program
+import standard.ActuatorData
+import standard.SensorData
+import java.util.ArrayDeque
+import kotlin.math.abs
 
-private const val FAR = Double.POSITIVE_INFINITY
+/** Distances of [FAR] metres or more count as unknown. */
+private const val FAR = 100.0
 
-/** Ids of the nodes that may be sources: the scene makes these first. */
-private val CANDIDATES = listOf(0, 1)
+/** Ids of the nodes that may be sources. */
+private val CANDIDATES = listOf(0, 48)
+
+/** Whether the node is the source: its set is active only before or after the switch. */
+private val SensorData.isSource get() = sets() != 0L
 
 private fun Aggregate<Int>.metric(sensors: SensorData) =
     euclideanDistance2D(sensors.position().x().toDouble() to sensors.position().z().toDouble())
 
-private fun SensorData.start() = if (source()) 0.0 else FAR
+private fun SensorData.start() = if (isSource) 0.0 else Double.POSITIVE_INFINITY
 
-private fun answer(distance: Double) = ActuatorData(distance = if (distance < FAR) distance.toFloat() else -1f)
+private fun answer(distance: Double) = ActuatorData(value = minOf(distance, FAR), flag = distance < FAR)
 
 /** Distances along self-avoiding paths, which offers carry with them. */
 @Program("path-vector")
 public fun Aggregate<Int>.pathVector(sensors: SensorData): ActuatorData = answer(
-    gradientCast(sensors.source(), sensors.start(), metric(sensors), accumulateData = { _, toNeighbor, data -> data + toNeighbor }),
+    gradientCast(sensors.isSource, sensors.start(), metric(sensors), accumulateData = { _, toNeighbor, data -> data + toNeighbor }),
 )
 
 /** A gradient from each candidate, all the time; the nearest candidate that is a source counts. */
@@ -40,5 +50,28 @@ public fun Aggregate<Int>.multiPath(sensors: SensorData): ActuatorData {
 /** Distances alone: small messages, but distances creep up when a source vanishes. */
 @Program("bellman-ford")
 public fun Aggregate<Int>.bellmanFord(sensors: SensorData): ActuatorData = answer(
-    bellmanFordGradientCast(sensors.source(), sensors.start(), { _, toNeighbor, data -> data + toNeighbor }, metric = metric(sensors)),
+    bellmanFordGradientCast(sensors.isSource, sensors.start(), { _, toNeighbor, data -> data + toNeighbor }, metric = metric(sensors)),
 )
+
+/** The mean difference between the nodes' distances and the shortest paths along links, in metres. */
+@Metric("error")
+public fun error(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
+    val shortest = shortestPaths(network)
+    return network.nodes.map { abs((it.answer?.value ?: FAR) - shortest.getValue(it.id)) }.average()
+}
+
+/** The algorithm of Bellman and Ford, with a queue of the nodes whose distance became shorter. */
+private fun shortestPaths(network: NetworkSnapshot<SensorData, ActuatorData>): Map<Int, Double> {
+    val distances = network.nodes.associateTo(HashMap()) { it.id to if (it.sensors?.isSource == true) 0.0 else FAR }
+    val pending = ArrayDeque(network.nodes)
+    while (true) {
+        val node = pending.poll() ?: return distances
+        // Links have the same length in both directions.
+        for (link in node.links) {
+            val path = distances.getValue(node.id) + link.length
+            if (path >= distances.getValue(link.from)) continue
+            distances[link.from] = path
+            network[link.from]?.let(pending::add)
+        }
+    }
+}

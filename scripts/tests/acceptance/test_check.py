@@ -33,6 +33,8 @@ class CheckTest(Project):
             self.write("program.json", program="brightst"): "unknown program 'brightst'",
             self.write("parameter.json", parameters={"brightest": {"step": 3}}): "the parameter 'step', which program 'brightest' does not declare",
             self.write("metric.json", metrics={"lit": "avg(lihgt)"}): "no such column: lihgt",
+            self.write("function.json", metrics={"lit": {"function": "lit"}}): "unknown metric 'lit'; the jars contain no metrics",
+            self.write("no-function.json", metrics={"lit": {}}): "'metrics.lit.function' is missing",
             self.path("project", "sweep.json"): "no public field 'lmps'",
             self.path("project", "nowhere.json"): "is not a file",
         }

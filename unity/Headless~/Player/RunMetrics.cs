@@ -4,21 +4,24 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>All metrics of a run: those of the scene, then those of the scenario.</summary>
+    /// <summary>All metrics of a run: those of the scene, then the scenario's SQL, then its functions.</summary>
     internal sealed class RunMetrics : IDisposable
     {
         private readonly SceneBuilder scene;
         private readonly SqlMetrics queries;
+        private readonly FunctionMetrics functions;
         private readonly List<string> names;
         private readonly double[] own;
 
-        internal RunMetrics(SceneBuilder scene, SqlMetrics queries)
+        internal RunMetrics(SceneBuilder scene, SqlMetrics queries, FunctionMetrics functions)
         {
             this.scene = scene;
             this.queries = queries;
+            this.functions = functions;
             names = new List<string>(scene.MetricNames);
             own = new double[names.Count];
             names.AddRange(queries.Names);
+            names.AddRange(functions.Names);
         }
 
         internal IReadOnlyList<string> Names => names;
@@ -26,8 +29,15 @@ namespace Collektive.Headless
         /// <summary>Requests what metrics need from the next tick on.</summary>
         internal void Begin(SimulationManager manager) => queries.Begin(manager);
 
+        /// <summary>Decides whether the next tick evaluates functions.</summary>
+        internal void Prepare(SimulationManager manager, bool isDue) => functions.Prepare(manager, isDue);
+
         /// <summary>Copies the data that the next tick overwrites.</summary>
-        internal void Ticked(SimulationManager manager) => queries.Ticked(manager);
+        internal void Ticked(SimulationManager manager)
+        {
+            queries.Ticked(manager);
+            functions.Ticked(manager);
+        }
 
         /// <summary>Evaluates all metrics at the current time, in the order of <see cref="Names"/>.</summary>
         internal void Measure(SimulationManager manager, double[] values)
@@ -35,6 +45,7 @@ namespace Collektive.Headless
             scene.Measure(own);
             own.CopyTo(values, 0);
             queries.Measure(manager, values, own.Length);
+            functions.Measure(manager, values, own.Length + queries.Names.Count);
         }
 
         public void Dispose() => queries.Dispose();

@@ -66,6 +66,7 @@ namespace Collektive.Headless
             file.Fill(Settings, Shared, root, "");
             ReadParameters(file, file.Optional(root, "parameters", new JObject()));
             Queries = file.Optional(root, "metrics", new JObject());
+            Functions = new FunctionMetrics(file, Queries);
             Convergence = Convergence.Read(file, file.Optional(root, "converged", new JObject()));
             StopWhenConverged = file.Optional(root, "stopWhenConverged", false);
             if (StopWhenConverged && Convergence.Criteria.Count == 0)
@@ -147,6 +148,9 @@ namespace Collektive.Headless
         /// <summary>SQL of the scenario's metrics, by name.</summary>
         internal JObject Queries { get; }
 
+        /// <summary>The metrics that are functions of the programs.</summary>
+        internal FunctionMetrics Functions { get; }
+
         /// <summary>Criteria of convergence.</summary>
         internal Convergence Convergence { get; }
 
@@ -196,6 +200,7 @@ namespace Collektive.Headless
             foreach (var field in Shared) field.SetValue(settings, field.GetValue(Settings));
             settings.runtimeJars = RuntimeJars;
             settings.runtimePlugin = RuntimePlugin;
+            settings.Metrics = Functions.Functions;
             foreach (var parameters in Settings.ProgramParameters) settings.ProgramParameters.Add(parameters.Key, parameters.Value);
         }
 

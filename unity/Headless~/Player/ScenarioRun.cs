@@ -171,7 +171,7 @@ namespace Collektive.Headless
             SceneFields.Set(scene, scenario, options.FieldAssignments);
             DataFile.Folder = scenario.Data;
             if (scene.FindProblem() is string problem) throw SceneFields.Error(scenario, problem);
-            runMetrics = new RunMetrics(scene, scenario.MakeMetrics());
+            runMetrics = new RunMetrics(scene, scenario.MakeMetrics(), scenario.Functions);
             if (MetricsTable.FindDuplicate(runMetrics) is string metric) throw DuplicateError(scene, metric);
             scenario.Convergence.Bind(runMetrics.Names);
             return scene;
@@ -214,6 +214,7 @@ namespace Collektive.Headless
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished && !HasConverged; frame++)
                 {
                     var before = done;
+                    runMetrics.Prepare(manager, rows.IsDue(done + 1) || frame == ticks);
                     limit.Begin(done + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();

@@ -34,12 +34,13 @@ namespace Collektive.Headless
         internal SqlMetrics(JsonFile file, JObject root, DataSchema schema, int limitMs)
         {
             this.file = file;
-            if (root.Count == 0) return;
+            var queries = root.Properties().Where(property => !FunctionMetrics.IsFunction(property)).ToList();
+            if (queries.Count == 0) return;
             columns = new NodeColumns(schema);
             database = new Sqlite(limitMs);
             database.Execute("PRAGMA journal_mode = OFF; CREATE TABLE " + Sqlite.Table + " (" + columns.Definitions + ")");
             var read = new SortedSet<string>(StringComparer.OrdinalIgnoreCase);
-            foreach (var property in root.Properties()) metrics.Add(Prepare(property, read));
+            foreach (var property in queries) metrics.Add(Prepare(property, read));
             columns.Use(read);
             clear = database.Prepare("DELETE FROM " + Sqlite.Table);
             insert = Insertion(1);

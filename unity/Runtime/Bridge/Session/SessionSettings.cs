@@ -37,6 +37,9 @@ namespace Collektive.Bridge
         /// <summary>Folder of the jars of <see cref="AggregateRuntime.Collektive"/>.</summary>
         public string RuntimeJars { get; set; } = "";
 
+        /// <summary>Names of the metrics of programs that <see cref="StepRequest.Measures"/> requests.</summary>
+        public IReadOnlyList<string> Metrics { get; set; } = new string[0];
+
         /// <summary>Limit for opening and closing in milliseconds.</summary>
         public int OpenLimitMs { get; set; } = 30000;
 
@@ -53,6 +56,8 @@ namespace Collektive.Bridge
                 fingerprints[i] = Frame.TypeFingerprint.CreateTypeFingerprint(
                     builder, builder.CreateString(types[i].Key), types[i].Value);
             }
+            var metrics = new StringOffset[Metrics.Count];
+            for (var i = 0; i < metrics.Length; i++) metrics[i] = builder.CreateString(Metrics[i]);
             builder.Finish(Frame.OpenRequest.CreateOpenRequest(
                 builder, Protocol, Seed, Threads, (Frame.Schedule)Schedule,
                 Frame.OpenRequest.CreateJarsVector(builder, jars), builder.CreateString(schema.Name),
@@ -62,7 +67,8 @@ namespace Collektive.Bridge
                     builder, Network.loss, Network.lossPerMetre, Network.lossPerAttenuation, Network.delay, Network.jitter, Network.retention,
                     Network.burstShare, Network.burstLength, Network.burstLoss),
                 builder.CreateString(Record ?? ""),
-                (Frame.AggregateRuntime)Runtime, builder.CreateString(RuntimeJars ?? "")).Value);
+                (Frame.AggregateRuntime)Runtime, builder.CreateString(RuntimeJars ?? ""),
+                Frame.OpenRequest.CreateMetricsVector(builder, metrics)).Value);
         }
     }
 }

@@ -69,6 +69,16 @@ namespace Collektive.Bridge
             return (message.Values, message.Bytes);
         }
 
+        /// <summary>Number of <see cref="Metric"/>s: those of the session if requested, otherwise none.</summary>
+        public int MetricCount => response.MetricsLength;
+
+        /// <summary>The value of a metric after the step, or NaN and why it failed. Allocates.</summary>
+        public (double Value, string Error) Metric(int index)
+        {
+            var metric = response.Metrics(index).GetValueOrDefault();
+            return (metric.Value, metric.Error);
+        }
+
         /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
         public int Node(int index) => response.Nodes(index);
 

@@ -35,6 +35,9 @@ namespace Collektive.Bridge
         /// <summary>Whether answers contain the sizes of messages.</summary>
         public bool MeasuresMessages { get; set; }
 
+        /// <summary>Whether answers contain <see cref="StepAnswer.Metric"/>.</summary>
+        public bool Measures { get; set; }
+
         /// <summary>Directed links made or changed since the last step.</summary>
         internal GrowingArray<LinkRecord> Links { get; } = new GrowingArray<LinkRecord>();
 
@@ -115,7 +118,7 @@ namespace Collektive.Bridge
             var nodesRemovedVector = Block(builder, nodesRemoved, sizeof(int));
             builder.Finish(Frame.StepRequest.CreateStepRequest(
                 builder, tick, time, deltaTime, nodesRemovedVector, nodesAddedVector, linksRemovedVector, linksVector, dueVector,
-                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload, MeasuresMessages).Value);
+                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload, MeasuresMessages, Measures).Value);
         }
 
         private Offset<Frame.ReloadRequest> WriteReload(FlatBufferBuilder builder)

@@ -126,6 +126,9 @@ namespace Collektive.Unity
         /// <summary>By program, values of its parameters for nodes without their own values.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
 
+        /// <summary>Names of the metrics in the jars that ticks can measure.</summary>
+        internal IReadOnlyList<string> Metrics { get; set; } = new string[0];
+
         /// <summary>Returns the name of the program that a node runs.</summary>
         internal string ProgramOf(Node node) => node.Program.Length > 0 ? node.Program : ProgramName;
 
@@ -172,6 +175,7 @@ namespace Collektive.Unity
             Record = string.IsNullOrWhiteSpace(record) ? "" : Path.GetFullPath(record),
             Runtime = runtime,
             RuntimeJars = string.IsNullOrWhiteSpace(runtimeJars) ? "" : Installation.PathOf(runtimeJars),
+            Metrics = Metrics,
         };
 
         /// <summary>Returns the first error of a value with its fix, or null.</summary>

@@ -139,6 +139,9 @@ namespace Collektive.Unity
         /// <summary>Whether answers contain the sizes of messages.</summary>
         internal bool MeasuresMessages { get; set; }
 
+        /// <summary>Whether answers contain the metrics of programs.</summary>
+        internal bool Measures { get; set; }
+
         /// <summary>Number of nodes with a round in the last tick.</summary>
         internal int DueCount => due.Count;
 
@@ -318,6 +321,7 @@ namespace Collektive.Unity
                 return;
             }
             session.Request.MeasuresMessages = MeasuresMessages;
+            session.Request.Measures = Measures;
             IsPending = !session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
             isStopReported = false;
             while (IsPending && Application.isBatchMode) IsPending = !session.TryFinish(BatchWaitMs);

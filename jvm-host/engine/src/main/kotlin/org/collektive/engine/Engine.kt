@@ -1,5 +1,7 @@
 package org.collektive.engine
 
+import org.collektive.api.NetworkSnapshot
+import org.collektive.api.NodeSnapshot
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 import java.util.function.LongSupplier
@@ -26,6 +28,7 @@ public class Engine @JvmOverloads constructor(
     private val transmitters = Array(settings.threads) { Transmitter(settings.network, settings.seed, clock) }
     private val roundTask = RoundPool.Task(::runRange)
     private val deliveryTask = RoundPool.Task(::deliverRange)
+    private val workTask = RoundPool.Task<() -> Unit> { work, _, _, _, _ -> work() }
     private var turns = IntArray(0)
     private var linkCount = 0
     private var reloadedCount = 0
@@ -76,9 +79,37 @@ public class Engine @JvmOverloads constructor(
         val begin = System.nanoTime()
         runRounds(data, deadline)
         if (reloadedCount > 0) endFirstRounds()
+        if (settings.keepsAnswers) keepAnswers()
         deliver(deadline)
         result.roundNanos = System.nanoTime() - begin
         return result
+    }
+
+    /**
+     * Runs [work] once on a round thread. It must catch the exceptions of users' code.
+     *
+     * @throws RoundTimeoutException when it still runs at the [deadline] of [step]; the engine must then be closed.
+     */
+    public fun run(deadline: Long, work: () -> Unit) {
+        runOnPool(workTask, work, 1, deadline, "metrics")
+    }
+
+    /**
+     * Returns all nodes after the last [step].
+     *
+     * @param tick the input of that step.
+     * @param sensors returns the sensor data of the node `due[index]`.
+     */
+    public fun snapshot(tick: Tick, sensors: (Int) -> Any): NetworkSnapshot<Any, Any> {
+        var due = 0
+        return NetworkSnapshot(
+            clock.time,
+            List(nodes.size) { index ->
+                val node = nodes.node(index)
+                val isDue = due < tick.due.size && tick.due[due] == node.id
+                NodeSnapshot(node.id, if (isDue) sensors(due++) else null, node.answer, node.incoming.snapshot())
+            },
+        )
     }
 
     /** Ends the engine's threads: idle ones immediately, busy ones after their round. */
@@ -133,6 +164,10 @@ public class Engine @JvmOverloads constructor(
             node.endFirstRound(hasFailed = result.failure(index) != null)
             reloadedCount--
         }
+    }
+
+    private fun keepAnswers() {
+        for (index in 0 until result.size) result.answer(index)?.let { result.node(index).answer = it }
     }
 
     private fun removeNodes(tick: Tick) {
@@ -212,7 +247,7 @@ public class Engine @JvmOverloads constructor(
         }
     }
 
-    private fun <T> runOnPool(task: RoundPool.Task<T>, input: T, count: Int, deadline: Long) {
+    private fun <T> runOnPool(task: RoundPool.Task<T>, input: T, count: Int, deadline: Long, work: String = "rounds") {
         val range = if (isSequential) count else (count / (settings.threads * RANGES_PER_THREAD)).coerceIn(MIN_RANGE, MAX_RANGE)
         if (pool.run(task, input, count, range, deadline)) return
         // Abandons the pool even if memory is too low for the dump.
@@ -221,7 +256,7 @@ public class Engine @JvmOverloads constructor(
         } finally {
             pool.abandon()
         }
-        throw RoundTimeoutException(clock.tick, dump)
+        throw RoundTimeoutException(clock.tick, work, dump)
     }
 
     private fun runRange(data: RoundData, thread: RoundThread, worker: Int, begin: Int, end: Int) {
@@ -276,6 +311,6 @@ public class Engine @JvmOverloads constructor(
 /** Thrown when the answer of a program cannot be written; the message states the reason. */
 public class InvalidAnswerException(message: String) : IllegalStateException(message)
 
-/** Thrown when rounds still run at the deadline; [threads] is a dump of their stacks. */
-public class RoundTimeoutException(tick: Long, public val threads: String) :
-    IllegalStateException("tick $tick: rounds did not finish within the time limit")
+/** Thrown when rounds or other [work] still run at the deadline; [threads] is a dump of their stacks. */
+public class RoundTimeoutException(tick: Long, work: String, public val threads: String) :
+    IllegalStateException("tick $tick: $work did not finish within the time limit")

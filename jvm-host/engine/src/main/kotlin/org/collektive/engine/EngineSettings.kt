@@ -19,12 +19,14 @@ public enum class Schedule {
  * @property threads the number of threads that run rounds, 1..256; results do not depend on it.
  * @property schedule which messages the rounds of a tick read.
  * @property network the network model; ideal by default.
+ * @property keepsAnswers whether nodes keep their last answer for [Engine.snapshot].
  */
 public class EngineSettings(
     public val seed: Long,
     public val threads: Int = 1,
     public val schedule: Schedule = Schedule.LOCKSTEP,
     public val network: NetworkModel = NetworkModel(),
+    public val keepsAnswers: Boolean = false,
 ) {
     init {
         require(threads in 1..MAX_THREADS) { "the number of threads must be 1..$MAX_THREADS, but is $threads" }

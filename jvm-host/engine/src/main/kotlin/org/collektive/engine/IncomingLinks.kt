@@ -1,5 +1,6 @@
 package org.collektive.engine
 
+import org.collektive.api.LinkSnapshot
 import org.collektive.spi.Export
 import org.collektive.spi.Inbox
 
@@ -31,6 +32,9 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
 
     /** Returns the attenuation of link [index]. */
     fun attenuation(index: Int): Float = attenuations[index]
+
+    /** Returns a copy of the links. */
+    fun snapshot(): List<LinkSnapshot> = List(size) { LinkSnapshot(keys[it], lengths[it].toDouble(), attenuations[it].toDouble()) }
 
     /** Moves new exports of the senders to the channels; a no-op in an ideal network. Call it only while no sender's round runs. */
     fun collect(transmitter: Transmitter) {

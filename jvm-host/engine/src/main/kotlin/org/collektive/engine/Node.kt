@@ -21,6 +21,9 @@ internal class Node(new: NewNode, val runtime: DeviceRuntime, clock: Clock, seed
     private val device = NodeDevice(this, new.parameters, clock, seed)
     private val roundProgram = RoundProgram { aggregate, sensors -> program.round(aggregate, sensors, device) }
 
+    /** The last answer, if [EngineSettings.keepsAnswers]. */
+    var answer: Any? = null
+
     /** The tick in which this node was last ordered, and its index among the due nodes. Used by [RoundOrder]. */
     var orderedAt = 0L
     var dueIndex = -1

@@ -42,7 +42,10 @@ public class Tick {
     /** Whether the answer contains the sizes of messages. */
     public var measuresMessages: Boolean = false
 
-    /** Resets everything except [number], [time], [deltaTime] and [measuresMessages]; keeps the memory. */
+    /** Whether the answer contains the metrics of the session. */
+    public var measures: Boolean = false
+
+    /** Resets everything except [number], [time], [deltaTime] and what to measure; keeps the memory. */
     public fun clear() {
         reload = null
         nodesRemoved.clear()

@@ -54,6 +54,7 @@ internal class Step(val tick: Long) {
     var wind: Float? = null
     var reload: Path? = null
     var measuresMessages = false
+    var measures = false
 
     class Added(val id: Int, val program: String? = null, val parameters: Map<String, String> = emptyMap())
 
@@ -91,6 +92,7 @@ internal class Step(val tick: Long) {
                 builder, tick, time, deltaTime, removedVector, addedVector, unlinkedVector, linkedVector, dueVector, sensorTable, globals,
                 reloadTable,
                 measuresMessages,
+                measures,
             ),
         )
         return direct(builder)
@@ -131,16 +133,19 @@ internal fun openFrame(
     network: List<Double>? = null,
     record: String = "",
     runtime: Int = AggregateRuntime.BuiltIn,
+    metrics: List<String> = emptyList(),
 ): ByteBuffer {
     val builder = FlatBufferBuilder(1024)
     val fingerprints = types.map { TypeFingerprint.createTypeFingerprint(builder, builder.createString(it.key), it.value) }
     val networkTable = network?.let { Network.createNetwork(builder, it[0], it[1], it[2], it[3], it[4], it[5], 0.0, 1.0, 1.0) } ?: 0
     val paths = jars.map { builder.createString(it) }
+    val metricNames = metrics.map { builder.createString(it) }
     builder.finish(
         OpenRequest.createOpenRequest(
             builder, protocol, 42, threads, schedule, OpenRequest.createJarsVector(builder, paths.toIntArray()),
             builder.createString(schema), OpenRequest.createTypesVector(builder, fingerprints.toIntArray()),
             builder.createString(program), networkTable, builder.createString(record), runtime, 0,
+            OpenRequest.createMetricsVector(builder, metricNames.toIntArray()),
         ),
     )
     return direct(builder)
@@ -161,7 +166,8 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         network: List<Double>? = null,
         record: String = "",
         runtime: Int = AggregateRuntime.BuiltIn,
-    ): Long = open(openFrame(jars, program, threads, schedule, protocol, schema, types, network, record, runtime))
+        metrics: List<String> = emptyList(),
+    ): Long = open(openFrame(jars, program, threads, schedule, protocol, schema, types, network, record, runtime, metrics))
 
     fun open(request: ByteBuffer): Long = call(request) { Host.open(id, request, 0, request.capacity(), 1, answer, 10_000) }
 
@@ -182,6 +188,10 @@ internal class TestSession(private val shim: TestShim, private val id: Long = ne
         val table = response.actuators()
         return (0 until response.nodesLength()).associate { response.nodes(it) to ProbeSchema.actuator(table, it) }
     }
+
+    /** Returns value and error of each metric. */
+    fun metrics(response: StepResponse): List<Pair<Double, String?>> =
+        List(response.metricsLength()) { response.metrics(it).let { metric -> metric.value() to metric.error() } }
 
     fun errors(response: StepResponse): Map<Int, String> =
         (0 until response.errorsLength()).associate { response.errors(it).node() to response.errors(it).message() }

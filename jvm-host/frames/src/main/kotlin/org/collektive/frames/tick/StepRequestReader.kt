@@ -62,6 +62,7 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
         tick.time = request.time()
         tick.deltaTime = request.deltaTime()
         tick.measuresMessages = request.measureMessages()
+        tick.measures = request.measure()
         tick.nodesRemoved.addVector(FrameLayouts.STEP_REQUEST_NODES_REMOVED, 1)
         for (index in 0 until request.nodesAddedLength()) tick.nodesAdded.add(newNode(request.nodesAdded(node, index)))
         tick.linksRemoved.addVector(FrameLayouts.STEP_REQUEST_LINKS_REMOVED, IDS_OF_A_LINK)

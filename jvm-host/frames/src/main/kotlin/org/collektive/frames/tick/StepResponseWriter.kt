@@ -5,6 +5,7 @@ import org.collektive.engine.RoundDigest
 import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
 import org.collektive.frame.MessageSizes
+import org.collektive.frame.MetricValue
 import org.collektive.frame.ReloadResponse
 import org.collektive.frame.RoundError
 import org.collektive.frame.StepResponse
@@ -16,6 +17,9 @@ import org.collektive.spi.StoredValues
 /** The outcome of a reload: [error], or empty; the [programs] in use; and [values], or `null` if the reload failed. */
 public class ReloadOutcome(internal val error: String, internal val programs: Collection<Program>, internal val values: StoredValues?)
 
+/** A measured value, or NaN and the [error] of the metric. */
+public class MetricOutcome(internal val value: Double, internal val error: String?)
+
 /** Writes the `StepResponse` of each tick of a session, with the chained digest. */
 public class StepResponseWriter(private val buffer: AnswerBuffer) {
     private val digest = RoundDigest()
@@ -25,10 +29,18 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
      * Writes [result], whose answers [data] has packed.
      *
      * @param tick its due nodes, and whether to measure their messages.
+     * @param metrics those of the session if [tick] measures them, otherwise none.
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
      * @return the position of the response, see [AnswerBuffer.finish].
      */
-    public fun write(result: TickResult, data: UserData, tick: Tick, begin: Long, reload: ReloadOutcome?): Long {
+    public fun write(
+        result: TickResult,
+        data: UserData,
+        tick: Tick,
+        begin: Long,
+        reload: ReloadOutcome?,
+        metrics: List<MetricOutcome>,
+    ): Long {
         val builder = buffer.builder
         digest.begin(result.tick)
         val actuators = data.answers.write(result, buffer, digest)
@@ -40,6 +52,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         for (index in result.size - 1 downTo 0) if (result.failure(index) == null) builder.putInt(tick.due[index])
         val nodes = builder.endVector()
         val sizes = if (tick.measuresMessages) writeSizes(result) else 0
+        val measured = if (metrics.isEmpty()) 0 else writeMetrics(metrics)
         StepResponse.startStepResponse(builder)
         StepResponse.addTick(builder, result.tick)
         StepResponse.addDigest(builder, digest.value)
@@ -47,6 +60,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         StepResponse.addActuators(builder, actuators)
         if (errors != 0) StepResponse.addErrors(builder, errors)
         if (sizes != 0) StepResponse.addMessages(builder, sizes)
+        if (measured != 0) StepResponse.addMetrics(builder, measured)
         StepResponse.addNodeCount(builder, result.nodeCount)
         StepResponse.addLinkCount(builder, result.linkCount)
         val network = result.network
@@ -77,6 +91,12 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
             MessageSizes.createMessageSizes(builder, size.values, size.bytes)
         }
         return builder.endVector()
+    }
+
+    private fun writeMetrics(metrics: List<MetricOutcome>): Int {
+        val builder = buffer.builder
+        val tables = metrics.map { MetricValue.createMetricValue(builder, it.value, it.error?.let(builder::createString) ?: 0) }
+        return StepResponse.createMetricsVector(builder, tables.toIntArray())
     }
 
     private fun writeErrors(result: TickResult): Int {

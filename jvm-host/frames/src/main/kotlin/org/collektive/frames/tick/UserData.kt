@@ -50,5 +50,8 @@ public class UserData(private val schema: DataSchema, threads: Int) : RoundData 
 
     override fun sensors(worker: Int, index: Int): Any = views[worker].at(reader.place(index), reader.frame)
 
+    /** Returns the sensor data of the node `due[index]` in a new view, valid as long as the frame. */
+    public fun snapshot(index: Int): Any = schema.sensorView().at(reader.place(index), reader.frame)
+
     override fun pack(worker: Int, index: Int, answer: Any): String? = answers.pack(worker, index, answer)
 }

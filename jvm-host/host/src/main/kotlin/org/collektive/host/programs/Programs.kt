@@ -8,16 +8,32 @@ import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 
 /**
- * The programs of a session by name. Nodes that do not name a program run [default].
+ * The programs and metrics of a session. Nodes that do not name a program run [default].
  *
+ * @param measured names of the metrics that the session measures.
  * @property schema the schema of the user data.
  */
 internal class Programs(
-    private val byName: Map<String, LoadedProgram>,
+    functions: UserFunctions,
     val schema: DataSchema,
     val loader: JarLoader,
     private val default: String,
+    measured: List<String>,
 ) : NewNodes {
+    private val byName = functions.programs
+
+    /** The measured metrics, in the order of the session's. */
+    val metrics: List<LoadedMetric> = measured.map { name ->
+        functions.metrics[name] ?: throw HostException(
+            HostError.PROGRAM,
+            "unknown metric '$name'; " + if (functions.metrics.isEmpty()) {
+                "the jars contain no metrics: annotate the function with @Metric(\"$name\")"
+            } else {
+                "the jars contain ${functions.metrics.keys}. Correct the name, or rebuild the jars"
+            },
+        )
+    }
+
     /** The annotations of all programs, sorted by name. */
     val infos: List<Program> = byName.values.map(LoadedProgram::info)
 

@@ -17,6 +17,7 @@ internal class ProgramSource(private val library: AggregateLibrary, request: Ope
     private val schemaName = request.schema()
     private val types = request.types
     private val default = request.program().orEmpty()
+    private val measured = List(request.metricsLength(), request::metrics)
 
     /**
      * Loads the programs in [jars] with a new class loader.
@@ -29,6 +30,6 @@ internal class ProgramSource(private val library: AggregateLibrary, request: Ope
         val loader = ProgramLoader(programJars, library.loader)
         val schemas = SchemaFinder.all(loader, programJars)
         val schema = SchemaFinder.find(schemaName, types, schemas, programJars)
-        return Programs(ProgramFinder(programJars, loader, schema, schemas).find(), schema, loader, default)
+        return Programs(ProgramFinder(programJars, loader, schema, schemas).find(), schema, loader, default, measured)
     }
 }

@@ -10,9 +10,9 @@ import org.collektive.frames.AnswerBuffer
 import org.collektive.frames.MalformedFrameException
 import org.collektive.frames.data.DataSchema
 import org.collektive.frames.session.writeOpenResponse
+import org.collektive.frames.tick.MetricOutcome
 import org.collektive.frames.tick.ReloadOutcome
 import org.collektive.frames.tick.StepResponseWriter
-import org.collektive.frames.tick.UserData
 import org.collektive.host.programs.Programs
 import org.collektive.host.record.RecordWriter
 import org.collektive.host.shim.Debugger
@@ -80,11 +80,13 @@ public class Session internal constructor(
         val next = prepared?.loaded ?: loaded
         val tick = reading { next.requests.read() }
         tick.reload = prepared?.change
-        val result = runRounds(tick, next.data, limit)
+        val deadline = Debugger.asLong + limit
+        val result = failing(tick, limit) { engine.step(tick, next.data, deadline) }
         next.data.accept(tick)
         loaded = next
+        val metrics = if (tick.measures) failing(tick, limit) { measure(tick, deadline) } else emptyList()
         val outcome = prepared?.let { ReloadOutcome(it.error, next.programs.infos, result.storedValues) }
-        val place = write(result, tick, outcome, slot, answer, begin)
+        val place = write(result, tick, outcome, metrics, slot, answer, begin)
         events.end(result, frame.remaining(), place.toInt())
         return place
     }
@@ -99,8 +101,17 @@ public class Session internal constructor(
         return reload.prepare(jars, loaded).also { reading { it.loaded.requests.check(frame) } }
     }
 
-    private fun runRounds(tick: Tick, data: UserData, limit: Long): TickResult = try {
-        engine.step(tick, data, Debugger.asLong + limit)
+    private fun measure(tick: Tick, deadline: Long): List<MetricOutcome> {
+        var metrics = emptyList<MetricOutcome>()
+        engine.run(deadline) {
+            val network = engine.snapshot(tick, loaded.data::snapshot)
+            metrics = loaded.programs.metrics.map { it.measure(network) }
+        }
+        return metrics
+    }
+
+    private inline fun <T> failing(tick: Tick, limit: Long, work: () -> T): T = try {
+        work()
     } catch (e: InvalidTickException) {
         throw HostException(HostError.FRAME, e.message.orEmpty(), e)
     } catch (e: RoundTimeoutException) {
@@ -115,10 +126,18 @@ public class Session internal constructor(
         throw fail(e) { "tick ${tick.number} failed with an internal error: $e" }
     }
 
-    private fun write(result: TickResult, tick: Tick, reload: ReloadOutcome?, slot: Long, answer: ByteBuffer, begin: Long): Long = try {
+    private fun write(
+        result: TickResult,
+        tick: Tick,
+        reload: ReloadOutcome?,
+        metrics: List<MetricOutcome>,
+        slot: Long,
+        answer: ByteBuffer,
+        begin: Long,
+    ): Long = try {
         events.write()
         buffer.begin(slot, answer)
-        response.write(result, loaded.data, tick, begin, reload)
+        response.write(result, loaded.data, tick, begin, reload, metrics)
     } catch (e: Throwable) {
         throw fail(e) { "cannot write the answer of tick ${result.tick}: $e" }
     }

@@ -82,7 +82,13 @@ public object SessionOpening {
         val schedule = Schedule.entries.getOrNull(request.schedule())
             ?: throw HostException(HostError.FRAME, "unknown schedule ${request.schedule()}")
         return try {
-            EngineSettings(request.seed(), request.threads(), schedule, network(request.network()))
+            EngineSettings(
+                request.seed(),
+                request.threads(),
+                schedule,
+                network(request.network()),
+                keepsAnswers = request.metricsLength() > 0,
+            )
         } catch (e: IllegalArgumentException) {
             throw HostException(HostError.FRAME, e.message.orEmpty(), e)
         }
