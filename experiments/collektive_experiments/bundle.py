@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import subprocess
+from collections.abc import Sequence
 from typing import Any
 
 from . import files
@@ -35,16 +36,23 @@ def fingerprint(folder: str) -> str:
     return total.hexdigest()
 
 
-def prepare(scenario: str, bundle: str, trust: bool) -> None:
+def programs_jar(bundle: str, runtime: str) -> str:
+    """Returns the path of the programs for a runtime, or for that of the scenario if it is empty."""
+    return os.path.join(bundle, f"programs-{runtime.lower()}.jar" if runtime else "programs.jar")
+
+
+def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = ()) -> None:
     """
-    Makes the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code.
+    Makes the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code. Compiles the programs for
+    the scenario's runtime, or for the given ones.
     `COLLEKTIVE` is the path of the command in the checkout that builds the bundle.
     """
     work = bundle + PART
     files.make_marked(work)
     try:
         script = os.path.join(os.path.dirname(os.environ["COLLEKTIVE"]), "scripts/build/bundle.py")
-        options = [*(["--only-inputs"] if os.path.isdir(bundle) else []), *(["--trust-jvm"] if trust else [])]
+        options = [*(["--only-inputs"] if os.path.isdir(bundle) else []), *(["--trust-jvm"] if trust else []),
+                   *(f"--runtime={runtime}" for runtime in runtimes)]
         if subprocess.run(["python3", "-I", script, os.path.abspath(scenario), os.path.abspath(work), *options]).returncode != 0:
             raise ExperimentError("the scenario could not be built; the messages are above")
         write_scenario(scenario, work)

@@ -47,13 +47,13 @@ class _RemoteWorker:
         self._worker = Worker(os.getcwd(), os.path.join(self._folder.name, "worker.txt"), trust)
         self._count = 0
 
-    def run(self, settings: dict[str, Any], jvm: str, limit: float, is_repeated: bool) -> tuple[Outcome, float, bytes]:
+    def run(self, settings: dict[str, Any], process: str, limit: float, is_repeated: bool) -> tuple[Outcome, float, bytes]:
         """Returns the outcome, the duration in seconds, and the run's folder as a tar file."""
         self._count += 1
         out = os.path.join(self._folder.name, str(self._count))
         os.mkdir(out)
         began = time.monotonic()
-        outcome = self._worker.run(settings, jvm, out, limit, is_repeated)
+        outcome = self._worker.run(settings, process, out, limit, is_repeated)
         seconds = time.monotonic() - began
         packed = io.BytesIO()
         with tarfile.open(fileobj=packed, mode="w:gz") as tar:
@@ -79,7 +79,7 @@ class RayPool:
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
         """Starts the runs, grouped by JVM settings."""
         self._ended = ended
-        self._tasks.extend(sorted(tasks, key=lambda task: task[0].jvm))
+        self._tasks.extend(sorted(tasks, key=lambda task: task[0].process))
         self._thread.start()
 
     def stop(self) -> None:
@@ -102,7 +102,7 @@ class RayPool:
                 while idle and self._tasks:
                     worker, task = idle.pop(), self._tasks.popleft()
                     run, is_repeated = task
-                    running[worker.run.remote(run.settings, run.jvm, self._limit, is_repeated)] = worker, task
+                    running[worker.run.remote(run.settings, run.process, self._limit, is_repeated)] = worker, task
                 # A worker that was requested may wait for the processor of an idle one when a node is lost.
                 while idle:
                     ray.kill(idle.pop())

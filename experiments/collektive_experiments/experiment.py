@@ -16,9 +16,12 @@ VERSION = 1
 MAX_RUNS = 100_000
 MAX_PREFIX = 120
 """Length of the readable part of a folder's name. File systems allow 255 bytes."""
-FIXED = ("version", "scene", "scripts", "schema", "programs", "data", "runtime", "runtimeJars", "runtimePlugin")
+FIXED = ("version", "scene", "scripts", "schema", "programs", "data", "runtimeJars", "runtimePlugin")
 """Keys of files, which are compiled or copied once for all runs."""
 NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
+RUNTIME = "runtime"
+"""Key of the aggregate runtime, for which the bundle has programs of their own."""
+RUNTIMES = ("builtin", "collektive")
 RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 
 Values = dict[str, Any]
@@ -35,9 +38,13 @@ class Run:
     """All keys that the run sets."""
 
     @property
-    def jvm(self) -> str:
-        """The JVM settings as JSON. By default, a process starts only one JVM, so runs share a process only if these are equal."""
-        return json.dumps({key: value for key, value in self.settings.items() if key == "jvm" or key.startswith("jvm.")}, sort_keys=True)
+    def process(self) -> str:
+        """
+        The settings that a process starts with, as JSON. Runs share a process only if these are equal: by default, it starts only one JVM, and the
+        programs are compiled for one runtime.
+        """
+        keys = [key for key in self.settings if key in ("jvm", RUNTIME) or key.startswith("jvm.")]
+        return json.dumps({key: self.settings[key] for key in keys}, sort_keys=True)
 
 
 @dataclass(frozen=True)
@@ -64,6 +71,12 @@ class Experiment:
     def keys(self) -> list[str]:
         """The keys that vary."""
         return [key for key, _ in self.product + self.together]
+
+    @property
+    def runtimes(self) -> list[str]:
+        """The runtimes of the runs in lower case; empty for that of the scenario."""
+        values = dict(self.product + self.together).get(RUNTIME) or ([self.fixed[RUNTIME]] if RUNTIME in self.fixed else [])
+        return sorted({value.lower() for value in values})
 
     @property
     def count(self) -> int:
@@ -180,7 +193,7 @@ def _read_set(located: Located) -> Values:
 
 
 def reject_fixed_key(located: Located, part: str, key: str) -> None:
-    if key.split(".")[0] in FIXED:
+    if key.split(".")[0] in FIXED or (part == "tune" and key == RUNTIME):
         raise located.error(f"'{key}' cannot vary, because the sweep compiles and copies once: set it in the scenario", part, key)
     if key in NOT_FOR_RUNS or key == "outputs":
         raise located.error(f"'{key}' cannot be set in sweeps, whose runs write metrics only", part, key)
@@ -236,6 +249,10 @@ def _check(experiment: Experiment) -> None:
             if key in seen:
                 raise located.error(f"'{key}' is also in '{seen[key]}'; remove one", part, key)
             seen[key] = part
+        values = located.root.get(part, {}).get(RUNTIME, [])
+        for value in values if isinstance(values, list) else [values]:
+            if not isinstance(value, str) or value.lower() not in RUNTIMES:
+                raise located.error(f"'{part}.{RUNTIME}' is {json.dumps(value)}; it must be BuiltIn or Collektive", part, RUNTIME)
     for key, values in experiment.together:
         first = experiment.together[0]
         if len(values) != len(first[1]):

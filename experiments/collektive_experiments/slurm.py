@@ -66,7 +66,7 @@ def run_task(folder: str, index: int) -> int:
                 if store.is_complete(run):
                     continue
                 began = time.monotonic()
-                outcome = worker.run(run.settings, run.jvm, store.begin(run), job["limit"], task["repeated"])
+                outcome = worker.run(run.settings, run.process, store.begin(run), job["limit"], task["repeated"])
                 store.finish(run, outcome, time.monotonic() - began)
                 if outcome.status != "complete":
                     failed = True

@@ -63,7 +63,7 @@ class LocalPool:
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
         """Starts the runs, grouped by JVM settings."""
-        self._tasks.extend(sorted(tasks, key=lambda task: task[0].jvm))
+        self._tasks.extend(sorted(tasks, key=lambda task: task[0].process))
         self._threads = [threading.Thread(target=self._work, args=(worker, ended)) for worker in self._workers]
         for thread in self._threads:
             thread.start()
@@ -86,7 +86,7 @@ class LocalPool:
                     run, is_repeated = self._tasks.popleft()
                     self._running.add(worker)
                 began = time.monotonic()
-                outcome = worker.run(run.settings, run.jvm, self._store.begin(run), self._limit, is_repeated)
+                outcome = worker.run(run.settings, run.process, self._store.begin(run), self._limit, is_repeated)
                 with self._lock:
                     self._running.remove(worker)
                     if self._stopped:
@@ -102,7 +102,7 @@ class LocalPool:
 def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> list[Task]:
     """Creates the folder and the bundle, validates the keys, and returns the runs that are not complete."""
     store.open(experiment, resume)
-    prepare(experiment.scenario, store.bundle, trust)
+    prepare(experiment.scenario, store.bundle, trust, experiment.runtimes)
     check_keys(experiment, store, trust)
     todo = [run for run in experiment.runs() if not store.is_complete(run)]
     if len(todo) < experiment.count:
@@ -140,7 +140,7 @@ def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> fl
         try:
             for number, run in enumerate((runs[0], runs[len(runs) // 2], runs[len(runs) // 2])):
                 began = time.monotonic()
-                outcome = worker.run(run.settings, run.jvm, os.path.join(folder, str(number)), limit, is_repeated=False)
+                outcome = worker.run(run.settings, run.process, os.path.join(folder, str(number)), limit, is_repeated=False)
                 seconds.append(time.monotonic() - began)
                 if outcome.status != "complete":
                     raise ExperimentError(f"the time cannot be estimated: the trial run '{run.name}' failed ({outcome.status}: {outcome.message})")

@@ -86,7 +86,7 @@ def _distribution(located: Located, key: str, given: Any) -> optuna.distribution
 def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[], Pool], options: argparse.Namespace) -> int:
     """Executes the remaining trials, as many at once as there are jobs. Returns the exit code."""
     store.open(experiment, options.resume)
-    prepare(experiment.scenario, store.bundle, options.trust_jvm)
+    prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     _check(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
     wanted = options.trials or search.trials

@@ -1,4 +1,5 @@
 """Runs scenarios in processes of the player."""
+import glob
 import json
 import os
 import secrets
@@ -12,6 +13,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from . import files
+from .bundle import programs_jar
+from .experiment import RUNTIME
 from .programs import can_leave_state
 
 MAX_TAIL = 4000
@@ -40,8 +43,8 @@ class _Process:
     Output goes to a log. The process ends when the socket is closed.
     """
 
-    def __init__(self, bundle: str, log: str, trust: bool, jvm: str | None):
-        self.jvm = jvm
+    def __init__(self, bundle: str, log: str, trust: bool, settings: str | None):
+        self.settings = settings
         self.is_fresh = True
         self._log = log
         self._pending = b""
@@ -49,17 +52,20 @@ class _Process:
         bundle = os.path.abspath(bundle)
         jar = os.path.join(bundle, "jars/collektive-host.jar")
         with open(os.path.join(bundle, "inputs.json"), encoding="utf-8") as file:
-            inputs = json.dumps(json.load(file)["hashes"])
+            hashes = json.load(file)["hashes"]
+        start = json.loads(settings or "{}")
+        runtime = start.get(RUNTIME, "")
+        inputs = json.dumps({key: value for key, value in hashes.items() if runtime.lower() != "builtin" or key not in ("runtimeJars", "runtimePlugin")})
         self._channel, child_end = socket.socketpair()
         with child_end, files.open_log(log) as output:
             self._process = subprocess.Popen(
                 ["mono-sgen", "--debug", os.path.join(bundle, "csharp/Collektive.Player.exe"), "serve", os.path.join(bundle, "inputs/scenario.json"),
-                 "--scripts", os.path.join(bundle, "Scenario.dll"), "--jar", os.path.join(bundle, "programs.jar"),
+                 "--scripts", os.path.join(bundle, "Scenario.dll"), "--jar", programs_jar(bundle, runtime),
                  # A class path cannot contain colons.
                  "--host-jar", os.path.relpath(os.path.realpath(jar), os.path.realpath(os.path.dirname(log))),
                  "--java-home", java_home(), "--channel", str(child_end.fileno()), "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
                 stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()])
-        self._ready = "" if jvm is None else self._send({"start": True, "set": json.loads(jvm)})
+        self._ready = "" if settings is None else self._send({"start": True, "set": start})
 
     def keeps_state(self) -> bool | Outcome:
         """Waits until the process accepts runs. Returns whether its scripts may keep state between runs."""
@@ -143,22 +149,23 @@ class Worker:
         self._bundle = bundle
         self._log = log
         self._trust = trust
-        self._programs_keep_state = can_leave_state(os.path.join(bundle, "programs.jar"))
+        jars = glob.glob(os.path.join(glob.escape(bundle), "programs*.jar"))
+        self._programs_keep_state = not jars or any(can_leave_state(jar) for jar in jars)
         self._idle: _Process | None = None
         self._busy: _Process | None = None
         self._closed = False
 
-    def run(self, settings: dict[str, Any], jvm: str, out: str, limit: float, is_repeated: bool) -> Outcome:
+    def run(self, settings: dict[str, Any], process: str, out: str, limit: float, is_repeated: bool) -> Outcome:
         """
-        Runs the scenario with `out`, a new folder; `limit` is in seconds. With `is_repeated`, runs it again in a fresh process, and both results
+        Runs the scenario with `out`, a new folder, in a process with the settings of `Run.process`; `limit` is in seconds. With `is_repeated`, runs it again in a fresh process, and both results
         must be equal.
         """
-        outcome = self._run(settings, jvm, out, limit, fresh=False)
+        outcome = self._run(settings, process, out, limit, fresh=False)
         if outcome.status != "complete" or not is_repeated:
             return outcome
         second = os.path.join(out, REPEATED)
         os.mkdir(second)
-        again = self._run(settings, jvm, second, limit, fresh=True)
+        again = self._run(settings, process, second, limit, fresh=True)
         if again.status != "complete":
             return Outcome(again.status, f"in the repetition: {again.message}")
         problem = _difference(_manifest(out), _manifest(second))
@@ -187,18 +194,18 @@ class Worker:
         if process is not None:
             process.kill()
 
-    def _run(self, settings: dict[str, Any], jvm: str, out: str, limit: float, fresh: bool) -> Outcome:
+    def _run(self, settings: dict[str, Any], start: str, out: str, limit: float, fresh: bool) -> Outcome:
         process, self._idle = self._idle, None
-        if process is not None and (process.jvm != jvm or (fresh and not process.is_fresh)):
+        if process is not None and (process.settings != start or (fresh and not process.is_fresh)):
             process.end()
             process = None
-        self._busy = process = process or self._start(jvm)
+        self._busy = process = process or self._start(start)
         try:
             keeps_state = process.keeps_state()
             if isinstance(keeps_state, Outcome):
                 return keeps_state
             if keeps_state or self._programs_keep_state:
-                self._idle = self._start(jvm)
+                self._idle = self._start(start)
             process.is_fresh = False
             answer = process.request({"out": os.path.abspath(out), "set": settings}, limit)
             if isinstance(answer, Outcome):
@@ -214,8 +221,8 @@ class Worker:
                 self._busy.end()
             self._busy = None
 
-    def _start(self, jvm: str | None) -> _Process:
-        process = _Process(self._bundle, self._log, self._trust, jvm)
+    def _start(self, settings: str | None) -> _Process:
+        process = _Process(self._bundle, self._log, self._trust, settings)
         if self._closed:
             process.kill()
         return process

@@ -36,7 +36,7 @@ class FakeWorker:
 
 class FakeRun:
     def __init__(self) -> None:
-        self.jvm = ""
+        self.process = ""
         self.settings: dict[str, Any] = {}
 
 

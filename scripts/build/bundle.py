@@ -1,6 +1,7 @@
-"""bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm]: copies the inputs of a sweep's runs to a folder. Sweeps call it.
+"""bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm] [--runtime=NAME]...: copies the inputs of a sweep's runs to a folder. Sweeps call it.
 
-FOLDER/inputs has the files of the scenario's project; FOLDER/inputs.json has their paths in it, and their hashes, by the scenario's keys.
+FOLDER/programs.jar has the programs for the scenario's runtime, or programs-NAME.jar for each given runtime. FOLDER/inputs has the files of the scenario's
+project; FOLDER/inputs.json has their paths in it, and their hashes, by the scenario's keys.
 """
 import argparse
 import json
@@ -25,25 +26,30 @@ ASSEMBLIES = ("Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "Collektive
 def run(arguments: argparse.Namespace) -> int:
     folder: Path = arguments.folder
     graph.build("runtime")
-    plan = player.plan(arguments.scenario, ["--trust-jvm"] if arguments.trust_jvm else [])
-    _require_within(Path(os.path.abspath(arguments.scenario)).parent, plan.parts["schema"])
-    for key, part in plan.parts.items():
+    trust = ["--trust-jvm"] if arguments.trust_jvm else []
+    plans = {f"programs-{runtime}.jar": player.plan(arguments.scenario, ["--set", f"runtime={runtime}", *trust]) for runtime in arguments.runtime}
+    plans = plans or {"programs.jar": player.plan(arguments.scenario, trust)}
+    parts = {key: part for plan in plans.values() for key, part in plan.parts.items()}
+    _require_within(Path(os.path.abspath(arguments.scenario)).parent, parts["schema"])
+    for key, part in parts.items():
         if Path(os.path.realpath(part.path)) in Path(os.path.realpath(folder)).parents:
             raise Failure(f"the results would be inside '{part.path}', which the scenario names as '{key}': name another folder with --out")
     inputs = folder / "inputs"
-    paths = {key: str(part.copy(inputs / key).relative_to(inputs)) for key, part in plan.parts.items()}
-    for part in plan.parts.values():
+    paths = {key: str(part.copy(inputs / key).relative_to(inputs)) for key, part in parts.items()}
+    for part in parts.values():
         part.require_unchanged()
-    (folder / "inputs.json").write_text(json.dumps({"paths": paths, "hashes": plan.hashes()}))
+    (folder / "inputs.json").write_text(json.dumps({"paths": paths, "hashes": {key: part.digest for key, part in parts.items()}}))
     if arguments.only_inputs:
         return 0
-    jar, dll = plan.programs_jar(), plan.scripts_dll()
+    jars = {name: plan.programs_jar() for name, plan in plans.items()}
+    dll = next(iter(plans.values())).scripts_dll()
     for target, files in {"csharp": [*(CSHARP / name for name in ASSEMBLIES), SHIM / "libcollektive_shim.so"],
                           "jars": [HOST_JAR, LIBRARY_JAR, ADAPTER_JAR], "": [dll, dll.with_suffix(".pdb")]}.items():
         (folder / target).mkdir(exist_ok=True)
         for file in files:
             shutil.copy(file, folder / target)
-    shutil.copy(jar, folder / "programs.jar")
+    for name, jar in jars.items():
+        shutil.copy(jar, folder / name)
     return 0
 
 
@@ -61,5 +67,6 @@ if __name__ == "__main__":
     parser.add_argument("folder", type=Path)
     parser.add_argument("--only-inputs", action="store_true")
     parser.add_argument("--trust-jvm", action="store_true")
+    parser.add_argument("--runtime", action="append", default=[])
     parser.set_defaults(run=run)
     sys.exit(run_command(parser.parse_args()))

@@ -2,7 +2,9 @@
 
 The package's own library, DSL and standard library apart, stands in for Collektive's jars, and its compiler plugin for Collektive's.
 """
+import csv
 import glob
+import json
 import os
 import re
 import zipfile
@@ -88,6 +90,31 @@ class Runtimes(Project):
         self.assertIn("10 ticks without a difference", compared.stdout)
         repeated = collektive("repeat", self.path("b", "manifest.json"))
         self.assertEqual(repeated.returncode, 0, repeated.stderr)
+
+    def test_a_sweep_runs_both_runtimes_with_equal_digests(self) -> None:
+        self.switch()
+        self.change("lamps.json", '"runtime": "collektive", ', "")
+        experiment = Path(self.path("project", "both.json"))
+        experiment.write_text(json.dumps({"version": 1, "scenario": "lamps.json", "vary": {"runtime": ["BuiltIn", "Collektive"], "seed": "1-2"}}))
+        result = collektive("sweep", experiment, "--out", self.path("sweep"), "--csv")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        with open(self.path("sweep", "runs.csv")) as file:
+            rows = {(row["runtime"], row["seed"]): row for row in csv.DictReader(file)}
+        self.assertEqual(len(rows), 4)
+        for seed in "1", "2":
+            self.assertEqual(rows["BuiltIn", seed]["digest"], rows["Collektive", seed]["digest"])
+        for run, has_jars in (("BuiltIn", False), ("Collektive", True)):
+            manifest = self.manifest(glob.glob(self.path("sweep", "runs", f"runtime={run},seed=1-*"))[0])
+            self.assertEqual((manifest["scenario"]["runtime"], "runtimeJars" in manifest["inputs"]), (run, has_jars))
+        marks = {zipfile.ZipFile(jar).read("META-INF/MANIFEST.MF") for jar in glob.glob(self.path("sweep", "bundle", "programs*.jar"))}
+        self.assertEqual(len(marks), 2)
+
+    def test_a_sweep_of_an_unknown_runtime_is_refused_with_its_line(self) -> None:
+        experiment = Path(self.path("project", "both.json"))
+        experiment.write_text('{"version": 1, "scenario": "lamps.json",\n"vary": {"runtime": ["BuiltIn", "ScaFi"]}}')
+        result = collektive("sweep", experiment, "--out", self.path("sweep"))
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("both.json:2: 'vary.runtime' is \"ScaFi\"; it must be BuiltIn or Collektive", result.stderr)
 
     def test_a_record_is_replayed_on_the_other_runtime(self) -> None:
         self.completed("a")
