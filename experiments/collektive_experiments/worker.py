@@ -157,8 +157,8 @@ class Worker:
 
     def run(self, settings: dict[str, Any], process: str, out: str, limit: float, is_repeated: bool) -> Outcome:
         """
-        Runs the scenario with `out`, a new folder, in a process with the settings of `Run.process`; `limit` is in seconds. With `is_repeated`, runs it again in a fresh process, and both results
-        must be equal.
+        Runs the scenario with `out`, a new folder, in a process with the settings of `Run.process`; `limit` is in seconds. With `is_repeated`, runs it
+        again in a fresh process, and both results must be equal.
         """
         outcome = self._run(settings, process, out, limit, fresh=False)
         if outcome.status != "complete" or not is_repeated:

@@ -79,6 +79,10 @@ def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
     assert contents() == contents()
 
 
+def test_limits_may_be_negative(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["plot", str(out), "--metric", "error", "--range", "-5:-1.5"]) == 0, capsys.readouterr().err
+
+
 @pytest.mark.parametrize(("words", "message"), [
     (["--kind", "pie"], "--kind is 'pie'; it must be one of: line, box, heat, ecdf"),
     (["--style", "nature"], "--style is 'nature'; it must be one of: plain, ieee, acm"),

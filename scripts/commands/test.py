@@ -9,7 +9,7 @@ and platforms-all also for Windows, under qemu and Wine if these can be installe
 folder with scenarios.
 
 `test bare [ROOT]...` tests the last commit as root in fresh installations of debian-12, debian-13 and ubuntu-24.04, or the named ones. A system
-whose packages cannot be fetched is skipped.
+whose packages cannot be fetched is skipped. `test bare container` follows the Dockerfile in debian-12, and runs commands without a network.
 
 The last line is "N passed, N failed". The exit code is 1 if a test failed. JUnit XML files are in build/results. If the public API of the JVM side
 changed, the suite jvm prints the difference and the command that accepts it."""

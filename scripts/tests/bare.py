@@ -1,4 +1,7 @@
-"""Runs the demo and the quick tests in fresh roots of distributions, created by debootstrap and removed afterwards."""
+"""
+Runs the demo and the quick tests in fresh roots of distributions, created by debootstrap and removed afterwards. In the root `container`, follows the
+Dockerfile instead, and then runs commands without a network.
+"""
 import hashlib
 import os
 import re
@@ -13,10 +16,13 @@ from pathlib import Path
 from build import system
 from build.console import Failure, print_progress
 from build.places import BUILD, LOGS, ROOT
-from tests import bare_demo
+from tests import bare_demo, junit
 
 # Names, and debootstrap's suites.
-ROOTS = {"debian-12": "bookworm", "debian-13": "trixie", "ubuntu-24.04": "noble"}
+CONTAINER = "container"
+ROOTS = {"debian-12": "bookworm", "debian-13": "trixie", "ubuntu-24.04": "noble", CONTAINER: "bookworm"}
+DOCKERFILE = ROOT / "experiments/Dockerfile"
+STUDY = "experiments/gradients"
 # Debian has no package with Ubuntu's keys, so they come from Ubuntu's archive.
 UBUNTU_KEYRING_SHA256 = "36de43b15853ccae0028e9a767613770c704833f82586f28eb262f0311adb8a8"
 # Variables that tell clients how to reach registries.
@@ -110,17 +116,44 @@ def _test_root(name: str, work: Path, results: Path) -> int:
     print_progress(f"{name}: making the root")
     _log(name).unlink(missing_ok=True)
     _make(name, work, root)
+    code = _test_container(root, results) if name == CONTAINER else _test_distribution(name, root, results)
+    if code != 0:
+        print("".join(_log(name).read_text(errors="replace").splitlines(keepends=True)[-60:]), file=sys.stderr)
+    size = subprocess.run(["du", "-smx", root], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
+    print_progress(f"{name}: done in {time.monotonic() - began:.0f} s, {size} MB")
+    return code
+
+
+def _test_distribution(name: str, root: Path, results: Path) -> int:
     clone = root / "root/collektive"
     code = demo = _run(name, root, "./collektive", "demo")
     bare_demo.check(str(clone / "out/demo-seed1"), demo, str(results / f"{name}-demo.xml"))
     code = _run(name, root, "./collektive", "test", "--quick") or code
     for file in (clone / "build/results").glob("*/*.xml"):
         shutil.copy(file, results / f"{name}-{file.parent.name}-{file.name}")
-    if code != 0:
-        print("".join(_log(name).read_text(errors="replace").splitlines(keepends=True)[-60:]), file=sys.stderr)
-    size = subprocess.run(["du", "-smx", root], stdout=subprocess.PIPE, text=True, check=True).stdout.split()[0]
-    print_progress(f"{name}: done in {time.monotonic() - began:.0f} s, {size} MB")
     return code
+
+
+def _test_container(root: Path, results: Path) -> int:
+    """Runs the steps of the Dockerfile, then commands without a network, until one fails."""
+    commands = [(f"build step {number}", ["sh", "-c", step], True) for number, step in enumerate(_steps(DOCKERFILE.read_text()), 1)]
+    commands += [(f"{words[0]} without a network", ["./collektive", *words], False) for words in (
+        ["demo", "--overwrite"], ["run", f"{STUDY}/scenario.json", "--out", "/out/run"], ["check", STUDY],
+        ["sweep", f"{STUDY}/experiment.json", "--out", "/out/study"], ["plot", "/out/study"])]
+    cases, code = [], 0
+    for title, words, has_network in commands:
+        code = code or _run(CONTAINER, root, *words, has_network=has_network)
+        cases.append(junit.Case(title, f"it, or a step before it, ended with {code}" if code else ""))
+    figures = list((root / "out/study/figures").glob("*.pdf"))
+    cases.append(junit.Case("the study has its figures", "" if len(figures) == 6 else f"{len(figures)} figures"))
+    junit.write(str(results / f"{CONTAINER}.xml"), CONTAINER, cases)
+    return code
+
+
+def _steps(dockerfile: str) -> list[str]:
+    """Returns the commands of the RUN instructions."""
+    lines = re.sub(r"(?m)^#.*\n", "", dockerfile).replace("\\\n", "").splitlines()
+    return [line.removeprefix("RUN ") for line in lines if line.startswith("RUN ")]
 
 
 def _make(name: str, work: Path, root: Path) -> None:
@@ -196,13 +229,14 @@ def _client_variables() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if CLIENT_VARIABLES.fullmatch(name)}
 
 
-def _run(name: str, root: Path, *command: str) -> int:
-    """Runs a command in the clone inside the root, with its output in the log, and prints its steps."""
+def _run(name: str, root: Path, *command: str, has_network: bool = True) -> int:
+    """Runs a command in the clone inside the root, with its output in the log, and prints its steps. Without a network, it has the loopback interface."""
     print_progress(f"{name}: {' '.join(command)}")
     variables = [f"{key}={value}" for key, value in _client_variables().items()]
     inside = ["sh", "-c", 'cd /root/collektive && exec "$@"', "sh", *command]
-    process = subprocess.Popen(_namespace("bash", "-c", ENTER, "bare", root, *variables, *inside), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True, errors="replace")
+    network, enter = ([], ENTER) if has_network else (["unshare", "--net"], "ip link set lo up\n" + ENTER)
+    process = subprocess.Popen([*network, *_namespace("bash", "-c", enter, "bare", root, *variables, *inside)], stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
     assert process.stdout is not None
     try:
         with _log(name).open("a") as log:
