@@ -117,12 +117,14 @@ internal class RoundRecord : Export() {
 
             is AllButOne -> {
                 size.add(sent.others)
-                size.addFor(sent.id, sent.value)
+                if (sent.value != sent.others) size.addFor(sent.id, sent.value)
             }
 
             is Field<*, *> -> {
                 size.add(sent.localValue)
-                for (index in 0 until sent.neighborCount) size.addFor(sent.neighborId(index), sent.neighborValue(index))
+                for (index in 0 until sent.neighborCount) {
+                    if (sent.neighborValue(index) != sent.localValue) size.addFor(sent.neighborId(index), sent.neighborValue(index))
+                }
             }
 
             else -> size.add(sent)

@@ -22,6 +22,8 @@ import org.collektive.engine.Tick
 import org.collektive.mailbox.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
 import org.collektive.spi.DeviceRuntimes
+import org.collektive.spi.Export
+import org.collektive.spi.MessageSize
 import org.collektive.testkit.Network
 import org.junit.jupiter.api.DynamicTest
 import org.junit.jupiter.api.Test
@@ -88,7 +90,7 @@ class PerNeighbourTest {
     )
 
     @TestFactory
-    fun `both runtimes give the same answers while nodes and links are removed and restored`(): List<DynamicTest> =
+    fun `both runtimes give the same answers and message sizes while nodes and links come and go`(): List<DynamicTest> =
         programs.flatMap { (name, program) ->
             Schedule.entries.flatMap { schedule ->
                 networks.mapIndexed { index, network ->
@@ -155,8 +157,15 @@ class PerNeighbourTest {
             val due = nodes.filter { random.nextInt(10) < 7 }
             due.forEach(tick.due::add)
             val result = engine.step(tick, Numbers(due.map { random.nextInt(50) }), System.nanoTime() + LIMIT)
-            (0 until result.size).map { "$number ${result.id(it)}: ${result.failure(it) ?: result.answer(it)}" }
+            (0 until result.size).map {
+                "$number ${result.id(it)}: ${result.failure(it) ?: result.answer(it)}, ${sizeOf(result.export(it))}"
+            }
         }
+    }
+
+    private fun sizeOf(export: Export?): String = MessageSize().let { size ->
+        export?.measure(size)
+        "${size.values} values in ${size.bytes} bytes"
     }
 
     private class Numbers(private val numbers: List<Int>) : RoundData {
