@@ -19,7 +19,7 @@ add_subdirectory("unity/Headless~/NativePhysics" physics EXCLUDE_FROM_ALL)
 # Mono looks for native libraries beside the assembly that calls them.
 set_target_properties(collektive_physics PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${COLLEKTIVE_BUILD}/csharp")
 
-# Metrics are SQL, possibly of strangers: without extensions, other databases and files.
+# Metrics are SQL, possibly untrusted, so extensions, other databases and files are disabled.
 add_library(collektive_sqlite SHARED EXCLUDE_FROM_ALL "unity/Headless~/NativeSqlite/insert.c" "${COLLEKTIVE_BUILD}/sqlite/sqlite3.c")
 target_include_directories(collektive_sqlite SYSTEM PRIVATE "${COLLEKTIVE_BUILD}/sqlite")
 target_compile_definitions(collektive_sqlite PRIVATE SQLITE_DQS=0 SQLITE_THREADSAFE=0 SQLITE_TEMP_STORE=3 SQLITE_MAX_ATTACHED=0

@@ -114,7 +114,7 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     for request in requests:
         for name, figure, caption in draw(results, request):
             if name in drawn:
-                raise request.fail("metric", f"and the other options describe a figure that exists: '{name}'; remove one")
+                raise request.fail("metric", f"and the other options describe an existing figure: '{name}'; remove one")
             drawn[name] = _render(figure, caption, STYLES[request.style], request.fail)
     if not options:
         for metric in metrics or [*results.metrics, *results.convergence_times]:

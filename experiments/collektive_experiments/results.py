@@ -54,7 +54,7 @@ class Results:
         return [name for name in self.runs.columns if name.startswith(CONVERGED)]
 
     def censored(self, metric: str) -> "pd.Series[bool]":
-        """Returns for each complete run whether it has no convergence time but a bound of it. Other metrics are never censored."""
+        """Returns for each complete run whether only a lower bound of its convergence time is known. Other metrics are never censored."""
         values = self.complete[metric]
         return values.isna() & self.values(metric).notna()
 

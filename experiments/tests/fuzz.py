@@ -248,7 +248,7 @@ def mutate(chance: random.Random, content: bytes, path: Path) -> None:
         except ExperimentError:
             code, errors = run_command("sweep", str(path), "--out", str(path.parent / "none"))
             require(code == 1 and errors.startswith("collektive: ") and errors.count("\n") == 1, f"not one line: {errors}")
-            require(not (path.parent / "none").exists(), "a wrong experiment has created its folder")
+            require(not (path.parent / "none").exists(), "an invalid experiment created its folder")
 
 
 def try_case(case: Case, folder: Path) -> None:
@@ -261,14 +261,14 @@ def try_case(case: Case, folder: Path) -> None:
         path.write_text(case.text(), encoding="utf-8")
         code, errors = run_command(*words, *more)
         require(code == int(fails) and "Traceback" not in errors, f"exit code {code}: {errors}")
-        require(not any(name.endswith(".part") for name in os.listdir(out / "runs")), "an unfinished folder is left")
+        require(not any(name.endswith(".part") for name in os.listdir(out / "runs")), "an unfinished folder was left behind")
         check(case, out)
         return errors
 
     sweep()
     if chance.random() < 0.5:
         count = damage(chance, out)
-        require(sweep("--resume").count("is damaged; repeating the run") == count, f"not {count} runs were damaged")
+        require(sweep("--resume").count("is damaged; repeating the run") == count, f"the number of damaged runs is not {count}")
     if chance.random() < 0.4 and case.grow():
         fails = any(case.settings(values)["fields.fate"] for values in case.runs())
         sweep("--resume")
@@ -278,8 +278,8 @@ def try_case(case: Case, folder: Path) -> None:
         require(code == int(not is_any_complete), f"plot: exit code {code}: {errors}")
         if is_any_complete:
             page = (out / "figures.html").read_text(encoding="utf-8")
-            require("<script" not in page and "Content-Security-Policy" in page, "the page is not safe")
-            require({path.parent for path in out.glob("**/*.svg")} == {out / "figures"}, "figures are elsewhere")
+            require("<script" not in page and "Content-Security-Policy" in page, "the page allows scripts")
+            require({path.parent for path in out.glob("**/*.svg")} == {out / "figures"}, "figures are outside the folder figures")
     mutate(chance, case.text().encode(), folder / "changed.json")
 
 
@@ -309,7 +309,7 @@ def check_folders(out: Path) -> None:
         else:
             record = json.loads((folder / "run.json").read_text())
             for name, digest in record["files"].items():
-                require(hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest, f"{folder / name} is not what was measured")
+                require(hashlib.sha256((folder / name).read_bytes()).hexdigest() == digest, f"{folder / name} differs from its recorded hash")
     for table in out.glob("*.parquet"):
         pd.read_parquet(table)
 
@@ -334,7 +334,7 @@ def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
 
 
 def fuzz(seconds: float, seed: int, findings: Path, report: Callable[[str], None] = print) -> int:
-    """Tries experiments for so long, and at least one; returns the number of findings."""
+    """Tries experiments for a number of seconds, and at least one. Returns the number of findings."""
     end, count, found = time.monotonic() + seconds, 0, 0
     while count == 0 or time.monotonic() < end:
         case = Case(random.Random(f"{seed}/{count}"))

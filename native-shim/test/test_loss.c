@@ -62,7 +62,7 @@ static void *hang(void *result) {
     return NULL;
 }
 
-void waiting_callers_learn_of_the_loss(void) {
+void waiting_callers_return_after_a_loss(void) {
     pthread_t threads[4];
     int32_t results[4];
     start_with_session();

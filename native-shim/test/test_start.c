@@ -290,7 +290,7 @@ void options_refused_by_child(void) {
     check_start_still_works();
 }
 
-void options_that_make_the_jvm_talk(void) { CHECK_OK(start(OPTIONS("-verbose:class"))); }
+void options_that_make_the_jvm_print(void) { CHECK_OK(start(OPTIONS("-verbose:class"))); }
 
 void jvm_log_in_a_file(void) {
     char option[128], line[1024];

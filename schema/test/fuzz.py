@@ -231,7 +231,7 @@ def main() -> None:
         folder = os.path.join(work, "batch")
         made, refused, findings = batch(folder, seed, 60)
         totals = [totals[0] + made, totals[1] + refused]
-        print(f"seed {seed}: {made} made, {refused} refused, {len(findings)} findings", flush=True)
+        print(f"seed {seed}: {made} accepted, {refused} rejected, {len(findings)} findings", flush=True)
         for case, text in findings:
             found += 1
             kept = os.path.join(work, "findings", f"{seed}-{case}")
@@ -239,7 +239,7 @@ def main() -> None:
             shutil.copytree(os.path.join(folder, "cases", case if case != "all" else ""), kept)
             print(f"{kept}:\n{text}", flush=True)
         seed += 1
-    print(f"Done {sum(totals)} runs: {totals[0]} made, {totals[1]} refused, {found} findings")
+    print(f"Done {sum(totals)} runs: {totals[0]} accepted, {totals[1]} rejected, {found} findings")
     sys.exit(found > 0)
 
 

@@ -2,10 +2,10 @@
 
 `maven.py STAMP [--tests] MODULE...` packages modules and those that they depend on, with their compiled tests on request, then touches STAMP.
 
-Maven has no incremental build of several modules that is sound: Kotlin's own does not see that another module has changed. So this script
+Maven has no reliable incremental build across modules, because Kotlin's does not detect changes in other modules. So this script
 compares the inputs of each module with those of its last build: its sources, its POM, the files that the POM names, and the ABI of the modules that
-it depends on, which Kotlin's build tools hash. A step that is not needed carries a mark while Maven runs, by which a profile of the parent POM skips
-it; the outputs of others are removed first.
+it depends on, which Kotlin's build tools hash. While Maven runs, unneeded steps are marked, and a profile of the parent POM skips
+them. The outputs of the other steps are removed first.
 """
 import hashlib
 import os

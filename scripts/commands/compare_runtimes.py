@@ -148,7 +148,7 @@ def _compare(function: str, processes: tuple[RuntimeProcess, RuntimeProcess], ru
         count += 1
         rounds += sum(len(tick.due) for tick in candidate.ticks)
         if found is not None:
-            smallest = _shrunk(candidate, lambda smaller: _difference(function, processes, smaller))
+            smallest = _shrink(candidate, lambda smaller: _difference(function, processes, smaller))
             _print(function, smallest, _difference(function, processes, smallest) or found)
             return 1
     print(f"{function}: no difference in {count} runs, {rounds} rounds")
@@ -170,7 +170,7 @@ def _same(a: str, b: str) -> bool:
     return all(abs(x - y) <= TOLERANCE * max(abs(x), abs(y)) for x, y in pairs)
 
 
-def _shrunk(candidate: Run, difference: Callable[[Run], Difference | None]) -> Run:
+def _shrink(candidate: Run, difference: Callable[[Run], Difference | None]) -> Run:
     """Removes ticks, nodes, links and rounds as long as a difference remains."""
     found = difference(candidate)
     while found is not None:

@@ -48,9 +48,9 @@ def check(folder: str, code: int, results: str) -> None:
     """Checks the results of a demo that ended with a code, and writes RESULTS.xml."""
     demo = Demo(folder, code)
     junit.write(results, "demo", [
-        case("it ends with 0", demo.ended),
+        case("the exit code is 0", demo.ended),
         case("its manifest has 500 nodes, 1200 ticks and no error", demo.manifest),
-        case("its metrics have their rows", demo.metrics),
+        case("metrics.csv has all rows", demo.metrics),
         case("it has three pictures", demo.pictures),
         case("it has a replay page", demo.page),
     ])

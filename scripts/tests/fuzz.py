@@ -1,8 +1,8 @@
 """Fuzzes all code that reads untrusted input.
 
 `fuzz.py SECONDS RESULTS.xml` fuzzes scenario files, for the suite fuzz; `fuzz.py --each [NAME]... [MINUTES [SEED]]` runs all fuzzers, or those named,
-for so long each. Corpora are kept in the repository: the suites replay them, and each input that showed a defect is one of their cases. What
-fuzzing learns stays in build/fuzz for the next time.
+each for MINUTES. Corpora are kept in the repository: the suites replay them, and each input that showed a defect is one of their cases. New
+inputs that fuzzing finds stay in build/fuzz for the next run.
 """
 import os
 import re
@@ -82,7 +82,7 @@ def run_each(words: list[str]) -> None:
         if name not in FUZZERS:
             raise Failure(f"test --fuzz: unknown fuzzer '{name}'; known: {' '.join(FUZZERS)}")
     if words != names + numbers or len(numbers) > 2 or not all(re.fullmatch(r"\d+", number) for number in numbers) or numbers[:1] == ["0"]:
-        raise Failure("test --fuzz: name whole minutes, and a seed (see ./collektive test --help)")
+        raise Failure("test --fuzz: give a whole number of minutes, and a seed (see ./collektive test --help)")
     seconds = 60 * int(numbers[0] if numbers else 5)
     seed = int(numbers[1]) if len(numbers) > 1 else int(time.time())
     names = names or list(FUZZERS)

@@ -1,7 +1,7 @@
 """Runs a suite: `suite.py RESULTS [--lock] -- COMMAND...`.
 
-RESULTS becomes a folder. With --lock the outputs of the build are locked for use until the suite ends. The command runs in a process group of its
-own: when CTest kills this process after the suite's time limit, all of the suite ends.
+RESULTS becomes a folder. With --lock the outputs of the build are locked for use until the suite ends. The command runs in its own process group,
+so the whole suite ends when CTest kills this process after the time limit.
 """
 import sys
 from pathlib import Path

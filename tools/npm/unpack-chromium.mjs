@@ -12,7 +12,7 @@ for (const archive of readdirSync(folder).filter((name) => name.endsWith('.br'))
   if (name.endsWith('.tar')) execFileSync('tar', ['--extract', '--no-same-owner', '--directory', folder], { input: content });
   else writeFileSync(resolve(folder, name), content, { mode: 0o755 });
 }
-// Its own fonts.conf names folders of the service for which the package is intended.
+// The package's own fonts.conf names folders of AWS Lambda.
 writeFileSync(resolve(folder, 'fonts.conf'), `<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "fonts.dtd">
 <fontconfig>

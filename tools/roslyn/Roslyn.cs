@@ -1,4 +1,4 @@
-// The C# compiler as a Mono program: the `csc` of the SDK package needs a .NET runtime with OpenSSL 1.1, Roslyn itself does not.
+// The C# compiler as a Mono program: the `csc` of the SDK package needs a .NET runtime with OpenSSL 1.1, but Roslyn itself does not.
 // Usage: the arguments of csc.
 using System;
 using System.Collections.Generic;

@@ -25,7 +25,7 @@ def problems(assets: Assets) -> Iterator[str]:
         try:
             present = {document.class_id for document in unity_yaml.read(os.path.join(assets.root, scene))}
         except unity_yaml.UnityYamlError:
-            # The checks of references report this.
+            # references.py reports this error.
             continue
         for name in sorted(names):
             if missing := PRIMITIVES[name] - present:

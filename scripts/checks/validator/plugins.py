@@ -27,7 +27,7 @@ class Library(NamedTuple):
 
 
 def problems(libraries: Iterable[Library]) -> Iterator[str]:
-    """Yields a line for each two libraries that can be in one player and have one path there."""
+    """Yields a line for each pair of libraries that would have the same path in a player."""
     for one, other in itertools.combinations(libraries, 2):
         if Path(one.path).name != Path(other.path).name:
             continue

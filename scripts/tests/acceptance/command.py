@@ -83,7 +83,7 @@ class Folder(unittest.TestCase):
         """Waits until holds() is true, for at most a minute."""
         end = time.monotonic() + 60
         while not holds():
-            self.assertLess(time.monotonic(), end, "it does not come true")
+            self.assertLess(time.monotonic(), end, "the condition was not met within a minute")
             time.sleep(0.05)
 
     def manifest(self, out):

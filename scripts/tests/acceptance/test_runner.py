@@ -43,11 +43,11 @@ class TestRunnerTest(Folder):
     def test_an_unsupported_attribute_is_a_failure(self) -> None:
         code, verdict, output = self.run_fixture('[Theory] public void Fails() => Assert.Fail("no");')
         self.assertEqual((code, verdict), (1, "1 passed, 1 failed"))
-        self.assertIn("Fixture.Fails: this runner does not know [TheoryAttribute]", output)
+        self.assertIn("Fixture.Fails: this runner does not support [TheoryAttribute]", output)
 
     def test_a_category_can_be_skipped(self) -> None:
         test = '[Test, Category("Slow")] public void Fails() => Assert.Fail("no");'
         code, verdict, output = self.run_fixture(test, "--without", "Other", "--without", "Slow")
         self.assertEqual((code, verdict), (0, "1 passed, 0 failed"))
-        self.assertIn("1 tests of category Slow are left out", output)
+        self.assertIn("1 tests of category Slow were skipped", output)
         self.assertEqual(self.run_fixture(test)[:2], (1, "1 passed, 1 failed"))

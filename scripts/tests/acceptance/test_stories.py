@@ -65,10 +65,10 @@ def test_tutorials_work_as_written(page, folder) -> None:
             line = missing(block.text, printed)
             assert line is None, f"{page} shows a line that is not printed: {line}\n{printed}"
     if page.endswith("tutorial-first-swarm.md"):
-        see_neighbours(os.path.join(folder, "out", "replay.html"))
+        count_neighbours(os.path.join(folder, "out", "replay.html"))
 
 
-def see_neighbours(page) -> None:
+def count_neighbours(page) -> None:
     """Counts neighbours, which colour the replay of nodes without numbers in their answers."""
     _, nodes, links = replay.read(page)[1][-1]
     for node, (*_, value) in nodes.items():

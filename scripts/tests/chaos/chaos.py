@@ -170,7 +170,7 @@ class Trial:
         elif content(os.path.join(kept, "manifest.json")) == content(os.path.join(self.reference["folder"], "manifest.json")):
             found = {**digest_of(self.path("out")), **(digest_of(self.path("out", "earlier.part")) if os.path.isdir(self.path("out", "earlier.part")) else {})}
             if not self.reference["files"].items() <= found.items():
-                self.problems.append("the earlier results are not whole")
+                self.problems.append("the earlier results are incomplete")
         return code, output, self.path("out")
 
     def wait_for_the_last(self) -> list[str]:
@@ -242,20 +242,20 @@ def broken(out: str, code: int, reference: dict[str, Any]) -> list[str]:
     try:
         manifest = json.loads(content(path))
     except ValueError:
-        return ["the manifest is not whole"]
+        return ["the manifest is incomplete"]
     problems = []
     page = os.path.join(out, "replay.html")
     if os.path.exists(page) and not content(page).rstrip().endswith(b"</html>"):
-        problems.append("the page is not whole")
+        problems.append("the page is incomplete")
     if manifest["outcome"] != "complete":
         return [*problems, f"exit code 0, and the run is '{manifest['outcome']}'"] if code == 0 else problems
     rows = content(os.path.join(out, "metrics.csv")).splitlines() if os.path.exists(os.path.join(out, "metrics.csv")) else []
     record = os.path.join(out, "run.clkrec")
-    for what, is_so in [("digest", manifest.get("digest") == reference["digest"]), ("ticks", manifest.get("ticks") == TICKS),
+    for what, is_valid in [("digest", manifest.get("digest") == reference["digest"]), ("ticks", manifest.get("ticks") == TICKS),
                         ("rows of metrics", len(rows) == SECONDS + 2), ("page", os.path.exists(page)),
                         ("record", os.path.exists(record) and content(record)[-12:-8] == b"END ")]:
-        if not is_so:
-            problems.append(f"complete, but not its {what}")
+        if not is_valid:
+            problems.append(f"complete, but without the expected {what}")
     return problems
 
 
@@ -329,7 +329,7 @@ def main() -> int:
                 print("  " + "\n    ".join("; ".join(outcome.problems).splitlines()), flush=True)
             cases += [junit.Case(f"{kind} {number}", "; ".join(outcome.problems)) for number, outcome in enumerate(outcomes)]
         after = subprocess.run([COLLEKTIVE, "run", reference["scenario"], "--out", reference["folder"], "--overwrite"], capture_output=True, text=True)
-        cases.append(junit.Case("a run after all", "" if after.returncode == 0 else after.stderr or "failed"))
+        cases.append(junit.Case("a final undisturbed run", "" if after.returncode == 0 else after.stderr or "failed"))
     return junit.report(given.results, "chaos", cases)
 
 

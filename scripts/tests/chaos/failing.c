@@ -1,5 +1,5 @@
 /*
- * Lets one call fail that creates, writes, renames, deletes or syncs a file, or starts a program: to be preloaded (LD_PRELOAD) into a command and
+ * Makes one call fail that creates, writes, renames, deletes or syncs a file, or starts a program: to be preloaded (LD_PRELOAD) into a command and
  * all of its processes.
  *
  * FAILING_CALLS names a file of 8 bytes that counts these calls in all processes. The call with the number FAILING_AT fails: with EIO, or with

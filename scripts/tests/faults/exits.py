@@ -57,7 +57,7 @@ def scenario(places: dict[str, Any], folder: str, seconds: int, placement: str, 
 def recording_problem(path: str) -> str:
     """Returns the error in a flight recording, or an empty text. Unfinished chunks have no length in their header."""
     if not os.path.exists(path):
-        return "there is no flight recording"
+        return "the flight recording is missing"
     with open(path, "rb") as file:
         data = file.read()
     at = 0
@@ -98,7 +98,7 @@ def run(places: dict[str, Any], kind: str, index: int) -> str:
         if code != expected:
             wrong.append(f"exit code {code} instead of {expected}")
         if b"did not end" in text:
-            wrong.append("the JVM did not go down in order")
+            wrong.append("the JVM did not shut down cleanly")
         problem = recording_problem(os.path.join(folder, "record.jfr"))
         if problem:
             wrong.append(problem)
@@ -121,7 +121,7 @@ def main() -> None:
     parser.add_argument("--results")
     arguments = parser.parse_args()
     runs, kinds = arguments.runs, arguments.kinds
-    places = files.everywhere()
+    places = files.all_runtimes()
     # Background jobs of shells ignore SIGINT, and children inherit that unless this process has a handler.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     cases = []
@@ -131,7 +131,7 @@ def main() -> None:
             outcomes = [future.result() for future in futures]
             cases += [junit.Case(f"{kind}, run {index}", problem) for index, problem in enumerate(outcomes)]
             problems = [problem for problem in outcomes if problem]
-            print(f"{kind:17} {runs - len(problems):4} of {runs} runs right", flush=True)
+            print(f"{kind:17} {runs - len(problems):4} of {runs} runs passed", flush=True)
             for problem, count in collections.Counter(problems).most_common(5):
                 print(f"  {count} times: {problem}")
     sys.exit(junit.report(arguments.results, "exits", cases))

@@ -133,9 +133,9 @@ class Trial:
         if best != self.fault["works"]:
             wrong.append(f"works afterwards: {last}")
         if "reads" in self.fault and not read:
-            wrong.append("the user reads nothing of it")
+            wrong.append("the expected message was not printed")
         if best == "next tick" and "next play" not in last:
-            wrong.append("no next play")
+            wrong.append("the next play did not start")
         if not last.endswith("C#"):
             wrong.append("C# does not work afterwards")
         if state != ("Stopped" if best != "restart" else "None" if self.own else "Lost"):
@@ -162,18 +162,18 @@ def main() -> None:
     parser.add_argument("--results")
     arguments = parser.parse_args()
     words = " ".join(arguments.words)
-    places = files.everywhere() if arguments.all else files.newest()
+    places = files.all_runtimes() if arguments.all else files.newest_jdk()
     with open(os.path.join(HERE, "faults.json")) as file:
         faults = json.load(file)
     faults = [fault for fault in faults if words in fault["fault"]]
     if not faults:
-        sys.stderr.write(f"collektive: no fault of faults.json has '{words}' in its name\n")
+        sys.stderr.write(f"collektive: the name of no fault in faults.json contains '{words}'\n")
         sys.exit(2)
     kinds = [(*kind, placement) for placement in PLACEMENTS for kind in itertools.product(places["runtimes"], places["jdks"])]
     print("Columns: " + ", ".join(f"{index + 1} = {runtime} with {os.path.basename(jdk)}, {placement}"
                                   for index, (runtime, jdk, placement) in enumerate(kinds)) +
-          '. "ok": the process survived, and what is said here came true.\n')
-    head = f"{'fault':52} " + " ".join(f"{index + 1:>2}" for index in range(len(kinds))) + f" {'works afterwards':16}  the user reads"
+          '. "ok": the process survived and behaved as listed.\n')
+    head = f"{'fault':52} " + " ".join(f"{index + 1:>2}" for index in range(len(kinds))) + f" {'works afterwards':16}  message"
     print(head + "\n" + "-" * len(head))
     cases = []
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:

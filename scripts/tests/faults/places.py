@@ -18,11 +18,11 @@ def places(runtimes: list[str], jdks: list[Path]) -> dict[str, Any]:
     return {name: str(file) for name, file in files.items()} | {"runtimes": runtimes, "jdks": [str(home) for home in jdks], "jobs": 2}
 
 
-def newest() -> dict[str, Any]:
+def newest_jdk() -> dict[str, Any]:
     """Returns the places for trials on Mono with the JDK that runs simulations."""
     return places(RUNTIMES[:1], [jdk.find_jdk()])
 
 
-def everywhere() -> dict[str, Any]:
+def all_runtimes() -> dict[str, Any]:
     """Returns the places for trials on every runtime and JDK."""
     return places(RUNTIMES, jdk.test_jdks())

@@ -17,7 +17,7 @@ HERE = os.environ["COLLEKTIVE_JDK"]
 FOREIGN = "Programmgröße 場"
 
 
-def start(platform: str, home: str, case: str = "options_that_make_the_jvm_talk", **variables: str) -> tuple[int, str]:
+def start(platform: str, home: str, case: str = "options_that_make_the_jvm_print", **variables: str) -> tuple[int, str]:
     """Starts a JVM with the platform's native library. Returns the exit code, 0 for success, and the output."""
     program = os.path.join(CROSS, platform, "shim_test.exe" if platform == "win-x64" else "test/shim_test")
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all", "CLK_TEST_JAVA_HOME": home, **variables}

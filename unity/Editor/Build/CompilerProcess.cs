@@ -16,7 +16,7 @@ namespace Collektive.Unity.Editor
     {
         private const string Folder = "Library/Collektive/Compiler";
 
-        /// <summary>Of the session state: the process, when it started, and the tools that it has loaded.</summary>
+        /// <summary>Key in the session state: the process, its start time, and the tools that it has loaded.</summary>
         private const string Key = "Collektive.Compiler";
 
         /// <summary>Oldest Java that writes an archive of loaded classes by itself.</summary>
@@ -54,7 +54,7 @@ namespace Collektive.Unity.Editor
             return name;
         }
 
-        /// <summary>Takes the answer to a request.</summary>
+        /// <summary>Returns the answer to a request.</summary>
         /// <returns>False while the process still works on it.</returns>
         /// <exception cref="ToolException">The process ended without an answer.</exception>
         internal static bool TryTake(string name, out int code, out string output)
@@ -103,7 +103,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Returns the running process, or null. Another process may have got its number.</summary>
+        /// <summary>Returns the running process, or null. Another process may have reused its id.</summary>
         private static Process Find()
         {
             var stored = Stored();

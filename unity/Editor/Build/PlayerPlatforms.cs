@@ -15,7 +15,7 @@ namespace Collektive.Unity.Editor
             if (platforms == null)
                 return "Collektive does not support " + target + (architecture.Length > 0 ? " on " + architecture : "")
                     + ": select Windows or Linux on x64, Linux on ARM64 or macOS in the build settings, or remove the Simulation Manager from the scene";
-            // The package has no library for Linux on ARM64, because Unity before 6000.5 would copy it over that for x64.
+            // The package has no library for Linux on ARM64, because Unity before 6000.5 would overwrite the x64 library with it.
             if (platforms[0] == "linux-arm64" && !File.Exists(Installation.ToPhysical("Packages/org.collektive.unity.jvm.linux-arm64/package.json")))
                 return "players for Linux on ARM64 need the native library in org.collektive.unity.jvm.linux-arm64, for Unity 6000.5 or newer: "
                     + "install this package";

@@ -9,7 +9,7 @@ namespace Collektive.Unity.Editor
 {
     /// <summary>
     /// Builds the jars of programs, and the C# of their schemas, one after the other in the <see cref="CompilerProcess"/> while the editor goes on. The
-    /// Progress window shows the current build. For the main thread.
+    /// Progress window shows the current build. Call it from the main thread only.
     /// </summary>
     internal static class ProgramBuild
     {
@@ -18,7 +18,7 @@ namespace Collektive.Unity.Editor
 
         private const int PollMs = 10;
 
-        /// <summary>Of the session state: the jar whose build a reload of code interrupted.</summary>
+        /// <summary>Key in the session state: the jar whose build a code reload interrupted.</summary>
         private const string CurrentKey = "Collektive.Build";
 
         private const string Work = "Library/Collektive/Build";

@@ -36,7 +36,7 @@ namespace Collektive.Unity.Editor
                     RedirectStandardError = true,
                 },
             };
-            // Both streams are read as they come: a full pipe would stop the program.
+            // Both streams are read continuously, because a full pipe would block the program.
             process.OutputDataReceived += (_, line) => Append(output, line.Data);
             process.ErrorDataReceived += (_, line) => Append(output, line.Data);
             try

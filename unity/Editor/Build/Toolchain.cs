@@ -9,7 +9,7 @@ namespace Collektive.Unity.Editor
 {
     /// <summary>
     /// The tools that build schemas and programs. The package ships flatc, the code generator and the compiler plugin; a JDK and the Kotlin
-    /// compiler are the user's own.
+    /// compiler must be installed separately.
     /// </summary>
     internal static class Toolchain
     {

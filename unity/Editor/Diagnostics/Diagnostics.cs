@@ -66,7 +66,7 @@ namespace Collektive.Unity.Editor
             return rows;
         }
 
-        /// <summary>How old the node's last answer is.</summary>
+        /// <summary>Returns a heading with the tick of the node's last answer.</summary>
         internal static string TitleOf(Node node) => node.AnswerTick == 0 ? "No answer yet" : "Answer of tick " + node.AnswerTick;
 
         /// <summary>The last answer of the node's program; empty when it gave none yet.</summary>

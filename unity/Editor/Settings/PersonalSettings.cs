@@ -19,7 +19,7 @@ namespace Collektive.Unity.Editor
 
         /// <summary>Moves the paths that earlier versions kept in the project settings, once.</summary>
         [InitializeOnLoadMethod]
-        private static void TakeOver()
+        private static void MigratePaths()
         {
             var old = ProjectSettings.instance;
             if (old.jdk.Length + old.kotlin.Length + old.sourceCheckout.Length == 0) return;

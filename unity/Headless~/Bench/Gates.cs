@@ -26,17 +26,17 @@ namespace Collektive.Headless.Bench
             if (crossing != null) AtMost(output, "crossing, us", crossing.Median, 15);
             var ownCrossing = Find(rows, "crossing", "own-process", 0, 1);
             var own10000 = Find(rows, "tick", "own-process", 10000, 2);
-            if (crossing != null && ownCrossing != null) AtMost(output, "crossing to its own process, us more", ownCrossing.Median - crossing.Median, 3);
-            if (at10000 != null && own10000 != null) AtMost(output, "own process to this one at 10,000", own10000.Median / at10000.Median, 1.05);
+            if (crossing != null && ownCrossing != null) AtMost(output, "extra cost of a separate process, us", ownCrossing.Median - crossing.Median, 3);
+            if (at10000 != null && own10000 != null) AtMost(output, "separate process / in-process, 10,000", own10000.Median / at10000.Median, 1.05);
             if (at10000 != null) AtMost(output, "tick at 10,000 nodes, us", at10000.Median, 3500);
             if (at50000 != null) AtMost(output, "tick at 50,000 nodes, us", at50000.Median, 20000);
-            if (at10000 != null && loops != null) AtMost(output, "times hand-written at 10,000", at10000.Median / loops.Median, 15);
-            if (at10000 != null && at500 != null) AtMost(output, "cost per node, 10,000 to 500", at10000.Median / 20 / at500.Median, 1.5);
+            if (at10000 != null && loops != null) AtMost(output, "tick / hand-written loops, 10,000", at10000.Median / loops.Median, 15);
+            if (at10000 != null && at500 != null) AtMost(output, "cost per node, 10,000 / 500", at10000.Median / 20 / at500.Median, 1.5);
             if (at10000 != null && single != null)
             {
-                AtLeast(output, "two threads to one at 10,000", single.Median / at10000.Median, 1.6);
-                Part(output, "  its rounds alone", single.Rounds / at10000.Rounds);
-                Part(output, "  time of one thread outside rounds, us", at10000.Median - at10000.Rounds);
+                AtLeast(output, "speed-up by two threads, 10,000", single.Median / at10000.Median, 1.6);
+                Part(output, "  speed-up of the rounds alone", single.Rounds / at10000.Rounds);
+                Part(output, "  time outside rounds, us", at10000.Median - at10000.Rounds);
             }
             foreach (var row in rows)
             {

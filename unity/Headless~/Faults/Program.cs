@@ -54,7 +54,7 @@ namespace Collektive.Headless.Faults
             if (!works) works = Jvm.State == JvmState.Running ? Report("next session", Play(faulty.With(good), "none", "none"))
                 : Report("next start", Play(good, "none", "none"));
             else works = Report("next tick", true) && Report("next play", Play(faulty, "none", "none"));
-            var csharp = Acts.CSharpWorks();
+            var csharp = ManagedFaults.CSharpWorks();
             try
             {
                 Jvm.Stop(StopLimitMs);

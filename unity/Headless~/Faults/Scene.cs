@@ -46,7 +46,7 @@ namespace Collektive.Headless.Faults
             Frames(3);
             if (manager.Failure.Length > 0 || good.Last.Value != 3 || bad.Last.Value != 3) return false;
             trigger.Value = 1;
-            Acts.Run(act, manager, trigger);
+            ManagedFaults.Run(act, manager, trigger);
             Frames(1);
             trigger.Value = 0;
             var before = (good.Last.Value, bad.Last.Value);

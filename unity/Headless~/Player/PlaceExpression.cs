@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>An expression in SQL of a node's id, its position in metres (x, y, z) and the simulated time. Not thread-safe.</summary>
+    /// <summary>An SQL expression over a node's id, its position in metres (x, y, z) and the simulated time. Not thread-safe.</summary>
     public sealed class PlaceExpression : IDisposable
     {
         private const string Before = "SELECT (";

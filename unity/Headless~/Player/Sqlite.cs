@@ -79,9 +79,9 @@ namespace Collektive.Headless
             return new Statement(this, statement);
         }
 
-        /// <summary>Prepares a query of a user's, restricted to reading.</summary>
+        /// <summary>Prepares a user's query, restricted to reading.</summary>
         /// <param name="columns">Gets the names of the columns of the table that the query reads.</param>
-        /// <param name="parameters">The number of parameters in our part of the query.</param>
+        /// <param name="parameters">Number of parameters in the player's part of the query.</param>
         /// <exception cref="SqlException">The text is not one query with one column, or its action is not allowed.</exception>
         internal Statement PrepareQuery(string sql, ISet<string> columns, int parameters = 0)
         {

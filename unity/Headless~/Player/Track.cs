@@ -8,7 +8,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The way of a node through places at times, or its only place.</summary>
+    /// <summary>The path of a node: its positions over time, or a single position.</summary>
     public sealed class Track
     {
         private const double EarthRadius = 6371008.8;

@@ -168,7 +168,7 @@ async function testSample(test, tab) {
   await resize(tab, { width: 1280, height: 720 });
   if (await tab.locator('#charts').isHidden()) await tab.click('#charts-shown');
 
-  await test('charts have room for all digits, and units', async () => {
+  await test('chart labels are not cut off and have units', async () => {
     const texts = await tab.evaluate(() => window.texts);
     assert.ok(texts.some(({ text }) => text.includes('00,000')), 'no large number');
     assert.deepEqual(texts.filter(({ left }) => left < 0), []);
@@ -212,7 +212,7 @@ async function testSample(test, tab) {
     assert.deepEqual(heights.map((height) => Math.round((height * most) / 100)), counts);
   });
 
-  await test('the selected node has its values over time and its directions', async () => {
+  await test('the selected node shows a chart and the directions of its links', async () => {
     await tab.evaluate(() => window.replay.select(5));
     await tab.locator('#history figure').waitFor();
     for (const frame of [10, 150]) {
@@ -226,7 +226,7 @@ async function testSample(test, tab) {
     assert.deepEqual(words, ['3', 'from 4', 'to 6']);
   });
 
-  await test('the camera goes near a node to follow it', async () => {
+  await test('following a node moves the camera close to it', async () => {
     const far = await placesOf(tab, 5);
     await tab.check('#follow');
     const near = await placesOf(tab, 5);
@@ -243,15 +243,15 @@ async function testSample(test, tab) {
     assert.ok(await tab.locator('#selection').isHidden(), 'it does not deselect');
   });
 
-  await test('the focus of the view has a hint instead of a frame around the page', async () => {
+  await test('a focused view shows a hint instead of an outline', async () => {
     await tab.focus('#field');
     await tab.keyboard.press('Shift+Tab');
     assert.equal(await tab.evaluate(() => document.activeElement.id), 'canvas');
     assert.equal(await tab.locator('#canvas').evaluate((view) => getComputedStyle(view).outlineStyle), 'none');
-    assert.ok(await tab.locator('#hint').isVisible(), 'nothing shows the focus');
+    assert.ok(await tab.locator('#hint').isVisible(), 'the hint is hidden');
   });
 
-  await test('the legend covers nothing of the arena', async () => {
+  await test('the legend does not cover the arena', async () => {
     await tab.keyboard.press('r');
     for (const [width, height] of [[1280, 720], [400, 800]]) {
       await resize(tab, { width, height });
@@ -294,7 +294,7 @@ async function testSample(test, tab) {
     }
     assert.equal((await state(tab)).other.nodes, await tab.innerText('#other-counts').then((text) => parseInt(text.replace(',', ''), 10)));
     const [left, right] = await tab.$$eval('.side', (sides) => sides.map((side) => side.getBoundingClientRect()));
-    assert.ok(left.x + left.width <= right.x && right.x + right.width <= 1000, 'one covers the other');
+    assert.ok(left.x + left.width <= right.x && right.x + right.width <= 1000, 'the views overlap');
     const second = () => tab.evaluate(() => document.querySelectorAll('.side canvas')[1].toDataURL());
     const [firstBefore, secondBefore] = [await canvas(tab), await second()];
     await tab.mouse.move(right.x + 100, 200);
@@ -317,10 +317,10 @@ async function testSample(test, tab) {
       return window.replay.seek(150);
     });
     assert.equal(await tab.locator('.side').count(), 1);
-    assert.equal(await canvas(tab), alone, 'the view of one run does not come back');
+    assert.equal(await canvas(tab), alone, 'the single view is not restored');
   });
 
-  await test('a file that is not a replay page gives a message', async () => {
+  await test('a file that is not a replay page is rejected with a message', async () => {
     await tab.setInputFiles('#other-file', expected);
     await tab.locator('#compare-error').waitFor();
     assert.match(await tab.innerText('#compare-error'), /not a replay page/);
@@ -343,7 +343,7 @@ await suite('replay page', async (page) => {
     const { nodes, links } = await state(tab);
 
     if (expected) {
-      await test('frames hold what was written', async () => {
+      await test('frames contain the written data', async () => {
         for (const wanted of JSON.parse(readFileSync(expected, 'utf8'))) {
           await seek(tab, wanted.frame);
           const found = await tab.evaluate(() => window.replay.state());
@@ -362,7 +362,7 @@ await suite('replay page', async (page) => {
       });
       if (nodes >= 9000) {
         // Half the time of a picture in a browser with a graphics card. Drawing is not counted, because this browser uses the processor.
-        await test('each of sixty pictures a second costs the script little', async () => {
+        await test('scripts take under 6 ms per frame at 60 frames per second', async () => {
           const { mean, greatest } = await tab.evaluate(async () => {
             let [sum, most] = [0, 0];
             for (let picture = 0; picture < 240; picture++) {
@@ -379,7 +379,7 @@ await suite('replay page', async (page) => {
           assert.ok(mean < 6, `${mean.toFixed(2)} ms`);
         });
 
-        await test('a frame of a large run is the same from both sides', async () => {
+        await test('a frame of a large run is the same after seeking forwards or backwards', async () => {
           const found = await tab.evaluate(async ([wanted, last]) => {
             const texts = [];
             for (const from of [0, wanted - 1, last, wanted + 1]) {
@@ -397,22 +397,22 @@ await suite('replay page', async (page) => {
           assert.ok(found > 200, `${found} colours`);
         });
 
-        await test('the selected node is seen among thousands', async () => {
+        await test('the selected node is visible among thousands', async () => {
           const before = await pixels(tab, ACCENT);
           await tab.evaluate(() => window.replay.select(4001));
           const marked = (await pixels(tab, ACCENT)).count - before.count;
           assert.ok(marked > 60, `${marked} pixels`);
         });
 
-        await test('its values over time appear soon', async () => {
+        await test('the chart of the selected node appears within five seconds', async () => {
           await tab.locator('#history figure').waitFor({ state: 'attached', timeout: 5000 });
         });
       } else await testSample(test, tab);
       await test('no error, no warning, nothing fetched', async () => assert.deepEqual(complaints, []));
-      await test('the page is there soon', async () => {
+      await test('the page loads within six seconds', async () => {
         // Two seconds in a browser with a graphics card on an idle machine.
         assert.ok(loaded < 6000, `${loaded.toFixed(0)} ms`);
-        console.log(`      there after ${loaded.toFixed(0)} ms`);
+        console.log(`      loaded in ${loaded.toFixed(0)} ms`);
       });
       return;
     }
@@ -427,16 +427,16 @@ await suite('replay page', async (page) => {
     const plays = (await state(tab)).time >= 1;
 
     if (plays) {
-      await test('play moves the time, pause stops it', async () => {
+      await test('play advances the time and pause stops it', async () => {
         await tab.selectOption('#speed', '0.25');
         await seek(tab, 0);
         const start = (await state(tab)).time;
         await tab.click('#play');
-        await eventually(tab, (now) => now.time > start, 'time stands still');
+        await eventually(tab, (now) => now.time > start, 'the time does not advance');
         await tab.click('#play');
         const paused = await state(tab);
         await tab.waitForTimeout(300);
-        assert.ok(!paused.playing && (await state(tab)).time === paused.time, 'time goes on');
+        assert.ok(!paused.playing && (await state(tab)).time === paused.time, 'the time still advances');
       });
 
       await test('the run stops at its end and starts again', async () => {
@@ -472,7 +472,7 @@ await suite('replay page', async (page) => {
         assert.ok(nodes === 0 || (await canvas(tab)) !== first, 'first and last frame look the same');
       });
 
-      await test('a frame is the same whichever way it is reached', async () => {
+      await test('a frame does not depend on how it was reached', async () => {
         const all = (order) => tab.evaluate(async ([indices, wanted]) => {
           let found;
           for (const i of indices) {
@@ -496,7 +496,7 @@ await suite('replay page', async (page) => {
         console.log(`      ${each.toFixed(2)} ms a seek, ${frames} frames, ${nodes} nodes and ${links} links in the middle`);
       });
 
-      await test('keys', async () => {
+      await test('keyboard shortcuts work', async () => {
         await tab.evaluate(() => document.activeElement.blur());
         await seek(tab, 0);
         await tab.keyboard.press('ArrowRight');
@@ -525,12 +525,12 @@ await suite('replay page', async (page) => {
         const hidden = await canvas(tab);
         await tab.check('#links');
         assert.ok(shown !== hidden, 'the picture stays the same');
-        assert.ok(shown === await canvas(tab), 'the links do not come back');
+        assert.ok(shown === await canvas(tab), 'the links are not shown again');
       });
     }
 
     if (nodes > 0) {
-      await test('a node is found by its id, with its neighbours, and let go', async () => {
+      await test('a node is selected by its id, shows its neighbours, and is deselected', async () => {
         await seek(tab, middle);
         const { id, neighbours } = await tab.evaluate(() => {
           const { nodes: all, links: pairs } = window.replay.state();
@@ -598,12 +598,12 @@ await suite('replay page', async (page) => {
         assert.notEqual(await canvas(tab), plasma, 'range');
         assert.match(await tab.innerText('#ticks'), /1,000/);
         await tab.click('#fit');
-        assert.equal(await canvas(tab), plasma, 'the range of now');
+        assert.equal(await canvas(tab), plasma, 'the range of the current frame');
         await tab.click('#colouring summary');
         await tab.selectOption('#field', { index: 0 });
       });
 
-      await test('keys select the nodes one after another, and a neighbour by its button', async () => {
+      await test('keys step through the nodes, and a button selects a neighbour', async () => {
         await tab.evaluate(() => document.activeElement.blur());
         const ids = await tab.evaluate(() => window.replay.state().nodes.map(({ id }) => id).sort((a, b) => a - b));
         const selected = () => tab.innerText('#selected-name');
@@ -623,7 +623,7 @@ await suite('replay page', async (page) => {
       });
 
       if (links > 0) {
-        await test('only the links of the selected node', async () => {
+        await test('links can be limited to those of the selected node', async () => {
           const all = await canvas(tab);
           await tab.uncheck('#links');
           const none = await canvas(tab);
@@ -644,7 +644,7 @@ await suite('replay page', async (page) => {
     }
 
     if (plays && nodes > 0) {
-      await test('trails show where the nodes came from', async () => {
+      await test('trails show earlier positions of the nodes', async () => {
         await seek(tab, frames - 1);
         const without = await canvas(tab);
         await tab.check('#trails');
@@ -671,7 +671,7 @@ await suite('replay page', async (page) => {
         await tab.keyboard.press('r');
       });
 
-      await test('the steps go by one frame', async () => {
+      await test('the step buttons move by one frame', async () => {
         await seek(tab, 1);
         await tab.click('#step-on');
         await arrives(tab, 2, 'not the next frame');
@@ -710,7 +710,7 @@ await suite('replay page', async (page) => {
       assert.deepEqual([bytes.readUInt32BE(0), bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [0x89504e47, 800, 500]);
     });
 
-    await test('Tab reaches everything and is nowhere caught', async () => {
+    await test('Tab reaches every control and is never trapped', async () => {
       await tab.evaluate(() => document.activeElement.blur());
       const wanted = await tab.evaluate(() => [...document.querySelectorAll('canvas[tabindex], button, select, input, summary')]
         .filter((each) => each.checkVisibility()).map(({ id, tagName }) => id || tagName));
@@ -743,7 +743,7 @@ await suite('replay page', async (page) => {
 
     await resize(tab, { width: 1280, height: 720 });
 
-    await test('the mouse turns the view and R brings it back', async () => {
+    await test('dragging turns the view and R resets it', async () => {
       await seek(tab, middle);
       await tab.keyboard.press('r');
       await tab.waitForTimeout(300);
@@ -785,16 +785,16 @@ await suite('replay page', async (page) => {
     await close();
   }
 
-  await test('data cut short gives a clear message', () =>
+  await test('truncated data is reported', () =>
     expectMessage(withData('short', (data) => data.slice(0, data.length >> 1)), /damaged or truncated/));
   for (const [part, from, to] of [['header', 0, 0.01], ['recording', 0.4, 0.6]]) {
-    await test(`a wrong letter in the ${part} gives a clear message`, () => expectMessage(withData(part, (data) => {
+    await test(`a corrupt character in the ${part} is reported`, () => expectMessage(withData(part, (data) => {
       const at = data.indexOf('A', from * data.length);
       assert.ok(at >= 0 && at < to * data.length, 'A is missing');
       return `${data.slice(0, at)}B${data.slice(at + 1)}`;
     }), /damaged or truncated/));
   }
-  await test('invalid data gives a clear message', () => expectMessage(withData('text', () => 'not base64!'), /damaged or truncated/));
-  await test('the empty template gives a clear message', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /does not contain a run/));
-  await test('without WebGL there is a clear message', () => expectMessage(file, /3D graphics/, { in: blind }));
+  await test('invalid data is reported', () => expectMessage(withData('text', () => 'not base64!'), /damaged or truncated/));
+  await test('the empty template is reported', () => expectMessage(withData('empty', () => '@@' + 'REPLAY@@'), /does not contain a run/));
+  await test('missing WebGL support is reported', () => expectMessage(file, /3D graphics/, { in: blind }));
 });

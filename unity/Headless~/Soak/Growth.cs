@@ -20,7 +20,7 @@ namespace Collektive.Headless.Soak
         internal void Add(double[] sample) => samples.Add(sample);
 
         /// <summary>Prints a table, and writes the results as JUnit XML to <paramref name="file"/> unless it is null.</summary>
-        /// <returns>Whether no measure has grown too much.</returns>
+        /// <returns>Whether all measures stayed within their limits.</returns>
         internal bool Report(string file)
         {
             if (samples.Count < 3) throw new InvalidOperationException("too short: " + samples.Count + " samples instead of at least 3; use more seconds");

@@ -46,7 +46,7 @@ namespace Collektive.Standard
         /// <summary>Corners of a polygon as [x, z]; empty for a rectangle.</summary>
         public List<float[]> polygon = new List<float[]>();
 
-        /// <summary>A CSV, GeoJSON or GPX file in the scenario's folder of data, of File.</summary>
+        /// <summary>A CSV, GeoJSON or GPX file in the scenario's data folder, for the kind File.</summary>
         public string file = "";
     }
 
@@ -113,10 +113,10 @@ namespace Collektive.Standard
     {
         public NeighbourhoodKind kind = NeighbourhoodKind.Radius;
 
-        /// <summary>Radius of Radius and LineOfSight in metres.</summary>
+        /// <summary>Radius in metres, for Radius and LineOfSight.</summary>
         public float radius = 4;
 
-        /// <summary>Number of neighbours of Nearest.</summary>
+        /// <summary>Number of neighbours, for Nearest.</summary>
         public int count = 8;
     }
 

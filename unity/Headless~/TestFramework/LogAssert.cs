@@ -41,7 +41,7 @@ namespace UnityEngine.TestTools
         public static void End()
         {
             Application.logMessageReceived -= Receive;
-            if (Expected.Count > 0) throw new LogAssertException("expected in the log, but did not come: " + Expected[0].Type + ": " + Expected[0].Text);
+            if (Expected.Count > 0) throw new LogAssertException("missing from the log: " + Expected[0].Type + ": " + Expected[0].Text);
             NoUnexpectedReceived();
         }
 

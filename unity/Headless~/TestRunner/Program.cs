@@ -68,7 +68,7 @@ static class Program
                 foreach (TestCaseAttribute testCase in cases) Run(type, method, testCase, filter);
             }
         }
-        foreach (var category in leftOut) Console.WriteLine($"{category.Value} tests of category {category.Key} are left out");
+        foreach (var category in leftOut) Console.WriteLine($"{category.Value} tests of category {category.Key} were skipped");
         Console.WriteLine($"{passed} passed, {failed} failed");
         if (file != null)
         {
@@ -140,7 +140,7 @@ static class Program
             var type = attribute.GetType();
             if (type.Namespace != typeof(TestAttribute).Namespace && type.Namespace != typeof(UnityTestAttribute).Namespace || known.Contains(type)) continue;
             Report((member as Type ?? member.DeclaringType).FullName, $"{name} has [{type.Name}]", Stopwatch.StartNew(),
-                new NotSupportedException($"{name}: this runner does not know [{type.Name}], so the test would not run as it asks"));
+                new NotSupportedException($"{name}: this runner does not support [{type.Name}], so the test might run differently"));
         }
     }
 

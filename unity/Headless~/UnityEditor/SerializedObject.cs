@@ -116,7 +116,7 @@ namespace UnityEditor
 
         public void DeleteArrayElementAtIndex(int index) => Change(list => list.RemoveAt(index));
 
-        /// A copy of the one before it.
+        /// Inserts a copy of the previous element.
         object NewElement(object before)
         {
             var type = SerializedFields.ElementOf(Type);

@@ -84,7 +84,7 @@ namespace Collektive.Samples.Rescue
         public override void Measure(double[] values)
         {
             values[0] = values[1] = values[2] = 0;
-            Reach();
+            FindReached();
             var found = new bool[Casualties.Length];
             var connected = new bool[Casualties.Length];
             foreach (var node in manager.Nodes)
@@ -155,7 +155,7 @@ namespace Collektive.Samples.Rescue
         }
 
         /// <summary>Finds the robots that links between robots of channels join with the base.</summary>
-        private void Reach()
+        private void FindReached()
         {
             reached.Clear();
             reached.Add(station.Id);

@@ -23,7 +23,7 @@ public fun Aggregate<Int>.fault(sensors: SensorData, device: Device): ActuatorDa
     return ActuatorData(rounds.toFloat())
 }
 
-private val hoard = ArrayList<Any>()
+private val retainedObjects = ArrayList<Any>()
 
 private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
     when (fault) {
@@ -31,9 +31,9 @@ private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
 
         "throw" -> error("thirteen")
 
-        "throw-without-words" -> throw Speechless()
+        "throw-without-words" -> throw ExceptionWithoutMessage()
 
-        "record-much" -> repeat(300_000) { Noise(it).commit() }
+        "record-much" -> repeat(300_000) { BulkEvent(it).commit() }
 
         "assert" -> throw AssertionError("never true")
 
@@ -75,11 +75,11 @@ private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
 
         "exit-hook" -> Runtime.getRuntime().addShutdownHook(Thread { while (true) Thread.onSpinWait() })
 
-        "threads" -> repeat(300) { staying { sleep(Long.MAX_VALUE) } }
+        "threads" -> repeat(300) { startNonDaemonThread { sleep(Long.MAX_VALUE) } }
 
         "thread-pool" -> Executors.newFixedThreadPool(4).also { pool -> repeat(4) { pool.submit {} } }
 
-        "busy-thread" -> staying { while (true) Thread.onSpinWait() }
+        "busy-thread" -> startNonDaemonThread { while (true) Thread.onSpinWait() }
 
         "thread-throws" -> thread { error("in a thread") }.join()
 
@@ -104,13 +104,13 @@ private fun Aggregate<Int>.misbehave(fault: String, sensors: SensorData) {
 }
 
 /** Starts a thread that the JVM waits for when it ends. */
-private fun staying(work: () -> Unit) {
+private fun startNonDaemonThread(work: () -> Unit) {
     Thread(work).apply { isDaemon = false }.start()
 }
 
-private class Noise(@JvmField val number: Int) : Event()
+private class BulkEvent(@JvmField val number: Int) : Event()
 
-private class Speechless : RuntimeException() {
+private class ExceptionWithoutMessage : RuntimeException() {
     override val message: String get() = error("no words")
     override fun toString(): String = error("no words")
 }
@@ -124,7 +124,7 @@ private fun fillHeap(): Nothing {
     var size = 1 shl 22
     while (true) {
         try {
-            hoard.add(ByteArray(size))
+            retainedObjects.add(ByteArray(size))
         } catch (full: OutOfMemoryError) {
             if (size == 16) throw full
             size /= 2

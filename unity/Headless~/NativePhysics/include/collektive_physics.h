@@ -51,7 +51,7 @@ PHYSICS_API const char *physics_error(void);
 
 /* ---- Worlds ---- */
 
-/* Creates an empty world that uses `threads` threads (1 or more, including the calling one). NULL without memory. */
+/* Creates an empty world that uses `threads` threads (1 or more, including the calling one). Returns NULL if out of memory. */
 PHYSICS_API physics_world *physics_world_create(int32_t threads);
 
 /* Frees the world and its actors, but not meshes. */
@@ -67,7 +67,7 @@ PHYSICS_API void physics_ignore_pair(physics_world *world, uint32_t identity, ui
 
 enum { PHYSICS_STATIC = 0, PHYSICS_DYNAMIC = 1 };
 
-/* Makes an actor. A dynamic one has mass 1, gravity on, linear damping 0, angular damping 0.05, Unity's other defaults, and is awake. */
+/* Creates an actor. A dynamic one has mass 1, gravity on, linear damping 0, angular damping 0.05, Unity's other defaults, and is awake. */
 PHYSICS_API int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_pose *pose);
 
 /* Removes an actor with its shapes. Its touches end without reports. */
@@ -114,7 +114,7 @@ typedef struct {
  * not kinematic). */
 PHYSICS_API int32_t physics_shape_create(physics_world *world, int32_t actor, const physics_shape *shape);
 
-/* Changes everything about a shape but its trigger flag. Returns 0, with physics_error set, when the geometry is impossible; nothing changes then. */
+/* Changes all properties of a shape except its trigger flag. Returns 0, with physics_error set, when the geometry is impossible; nothing changes then. */
 PHYSICS_API int32_t physics_shape_change(physics_world *world, int32_t shape, const physics_shape *to);
 
 /* Removes a shape. Its touches end without a report. */
@@ -125,7 +125,7 @@ PHYSICS_API void physics_shape_bounds(physics_world *world, int32_t shape, physi
 
 /* ---- Meshes ---- */
 
-/* Makes a mesh of points and triangles (three indices each). A convex one is the hull around the points, of at most 255 corners; a concave one has
+/* Creates a mesh from points and triangles (three indices each). A convex one is the hull around the points, of at most 255 corners; a concave one has
  * no inside. NULL, with physics_error set, when the hull or mesh cannot be built. Any thread may call this. */
 PHYSICS_API physics_mesh *physics_mesh_create(const physics_vector *points, int32_t point_count, const int32_t *indices,
                                               int32_t index_count, int32_t convex);
@@ -146,12 +146,12 @@ typedef struct {
     int32_t collide;                   /* whether the two actors collide */
     int32_t use_limits, use_motor;     /* of a hinge */
     float least, most;                 /* angles of a hinge with limits; distances of a spring */
-    float motor_velocity, motor_force; /* rad/s; at most so many N m */
+    float motor_velocity, motor_force; /* rad/s; maximum torque in N m */
     float spring, damper,
         target; /* N/m and N s/m, or N m/rad and N m s/rad; the angle of a hinge's spring, the tolerance of a spring's distance */
 } physics_joint;
 
-/* Makes a joint without waking bodies. PHYSICS_NONE, with physics_error set, when it is impossible. A joint ends with either actor, or when it breaks. */
+/* Creates a joint without waking bodies. Returns PHYSICS_NONE and sets physics_error on failure. A joint is destroyed with either actor, or when it breaks. */
 PHYSICS_API int32_t physics_joint_create(physics_world *world, const physics_joint *joint);
 
 PHYSICS_API void physics_joint_destroy(physics_world *world, int32_t joint);
@@ -224,12 +224,12 @@ PHYSICS_API void physics_apply(physics_world *world, const physics_command *comm
 
 /* Applies commands and moves the world by `seconds` (above 0). Returns 0, with physics_error set and nothing moved, when more shapes are in one
  * place than memory allows pairs of. `motions` has an item for each handle of a body; the bodies that move or fall asleep are written, with
- * the step's number. A body whose motion became infinite is put back where it was, at rest, and named in physics_error. */
+ * the step's number. A body whose motion became infinite is reset to its last pose, stopped, and reported in physics_error. */
 PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *commands, int32_t count, float seconds,
                                  const physics_vector *gravity, int32_t number, physics_motion *motions, physics_result *result);
 
 /* ---- Queries ----
- * They see shapes where the last step or POSE command put them. `layers` is a mask; triggers are seen only on request. */
+ * They see shapes where the last step or POSE command put them. `layers` is a mask; triggers are included only on request. */
 
 typedef struct {
     uint32_t layers;
@@ -274,7 +274,7 @@ PHYSICS_API int32_t physics_overlap(physics_world *world, const physics_geometry
 PHYSICS_API void physics_begin_overlaps(physics_world *world, const physics_sphere *spheres, const physics_filter *filters, int32_t count,
                                         int32_t *shapes, int32_t capacity);
 
-/* Finds what the other threads have not found, and returns when all is done. */
+/* Processes the remaining spheres and returns when all results are complete. */
 PHYSICS_API void physics_finish_overlaps(physics_world *world);
 
 /* Moves a geometry along a ray from its pose. Shapes that it overlaps at the start are not hit. Returns the number of hits: the nearest one with a

@@ -16,7 +16,7 @@ physics_mesh *physics_mesh_create(const physics_vector *points, int32_t point_co
         }
     for (int32_t index = 0; index < index_count; index++)
         if (indices[index] < 0 || indices[index] >= point_count) {
-            fail("A triangle of a mesh names a point that it does not have.");
+            fail("A triangle of a mesh has a vertex index out of range.");
             return nullptr;
         }
     PxPhysics &engine = physics();
@@ -41,7 +41,7 @@ physics_mesh *physics_mesh_create(const physics_vector *points, int32_t point_co
         description.triangles.data = indices;
         parameters.midphaseDesc = PxMeshMidPhase::eBVH34;
         if (description.isValid()) made = PxCreateTriangleMesh(parameters, description, engine.getPhysicsInsertionCallback());
-        if (!made) fail("The mesh has no triangles that a collider could have.");
+        if (!made) fail("The mesh has no valid triangles.");
     }
     return made ? new physics_mesh{made, convex != 0} : nullptr;
 }

@@ -60,7 +60,7 @@ void physics_world::apply(const physics_command &command) {
     const bool posed = command.kind == PHYSICS_POSE || command.kind == PHYSICS_TARGET || command.kind == PHYSICS_INERTIA;
     if (!actor) return;
     if (!all_finite(command.value, posed ? 7 : 3)) {
-        fail("A command's value is not finite: it was left out.");
+        fail("A command with a value that is not finite was ignored.");
         return;
     }
     const float *value = command.value;
@@ -312,13 +312,13 @@ void physics_world::collect_motions(int32_t step, physics_motion *motions) {
     });
     if (infinite)
         for (const int32_t handle : moved)
-            if (!is_finite(motions[handle])) put_back(handle, motions[handle]);
+            if (!is_finite(motions[handle])) reset_body(handle, motions[handle]);
 }
 
-void physics_world::put_back(int32_t handle, physics_motion &motion) {
+void physics_world::reset_body(int32_t handle, physics_motion &motion) {
     const Actor &actor = actors[handle];
     PxRigidDynamic &body = *actor.body();
-    fail("A body's motion became infinite: it was put back where it was, at rest.");
+    fail("A body's motion became infinite: it was reset to its last pose and stopped.");
     body.setGlobalPose(actor.last_pose);
     if (!(body.getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
         body.setLinearVelocity(PxVec3(0.0f));
@@ -342,7 +342,7 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
     world->masses_stale = false;
     if (world->placed > FEW_PLACED && world->crowded()) {
         fail("More than " + std::to_string(MAX_PAIRS) +
-             " pairs of colliders overlap in one place: physics does not step. Spread the objects out.");
+             " pairs of colliders overlap in one place: the physics step was skipped. Spread the objects out.");
         return 0;
     }
     world->placed = 0;

@@ -14,7 +14,7 @@ namespace {
 const int LOOKS = 1000;
 const int TURNS_AT_ONCE = 64;
 
-// Hints to the core that it waits for a write of another core.
+// Hints to the core that this thread is waiting for another core's write.
 void pause() {
 #if defined(__x86_64__)
     __builtin_ia32_pause();

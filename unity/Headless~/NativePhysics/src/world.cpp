@@ -327,7 +327,7 @@ int32_t physics_shape_create(physics_world *world, int32_t owner, const physics_
     PxRigidDynamic *body = actor->body();
     const bool concave = geometry.getType() == PxGeometryType::eTRIANGLEMESH;
     if (concave && body && !(body->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC)) {
-        fail("A mesh that is not convex cannot be a shape of a body that is not kinematic.");
+        fail("A concave mesh cannot be a shape of a body that is not kinematic.");
         return PHYSICS_NONE;
     }
     PxShape *made = physics().createShape(geometry.any(), *world->material(from->material), true,
@@ -362,7 +362,7 @@ int32_t physics_shape_change(physics_world *world, int32_t handle, const physics
         return 0;
     }
     if (geometry.getType() != shape->shape->getGeometry().getType()) {
-        fail("A shape keeps its kind of geometry.");
+        fail("The kind of geometry of a shape cannot be changed.");
         return 0;
     }
     const PxFilterData before = shape->shape->getSimulationFilterData();

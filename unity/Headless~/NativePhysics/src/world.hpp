@@ -148,7 +148,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     void apply_all(const physics_command *commands, int32_t count);
     bool crowded();
     void collect_motions(int32_t step, physics_motion *motions);
-    void put_back(int32_t handle, physics_motion &motion);
+    void reset_body(int32_t handle, physics_motion &motion);
     void collect_overlaps();
     void add_touch(int32_t a, int32_t b, int32_t phase, bool trigger);
 

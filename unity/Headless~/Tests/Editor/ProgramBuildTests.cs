@@ -185,7 +185,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Logged(Jar + " is older than its sources"), Is.StringStarting("Warning: "));
 
             ProjectSettings.instance.whenProgramsFail = WhenProgramsFail.Ask;
-            Assert.That(Play(), Is.False, "nobody answers in batch mode");
+            Assert.That(Play(), Is.False, "batch mode shows no dialog");
             Loop.IsBatchMode = false;
             foreach (var answer in new[] { false, true })
             {
@@ -198,7 +198,7 @@ namespace Collektive.Headless.Tests.Editor
                 Assert.That(Play(), Is.EqualTo(answer));
                 Assert.That(asked, Is.StringContaining("The programs of " + Schema + " were not compiled"));
             }
-            // Cancelling the wait is no consent.
+            // Cancelling the wait does not count as consent.
             Project.CancelsWaiting = true;
             Project.Answer = message => false;
             Assert.That(Play(), Is.False);

@@ -266,7 +266,7 @@ namespace Collektive.Headless.Tests
                 ofNode[a]++;
                 ofNode[b]++;
             }
-            Assert.Greater(ofNode.Min(), 90, "each node keeps its share of 150 of 399");
+            Assert.Greater(ofNode.Min(), 90, "each node keeps 150 of its 399 links");
         }
 
         [Test]
@@ -311,7 +311,7 @@ namespace Collektive.Headless.Tests
                 }
             });
             var size = 0.75 * (new FileInfo(page).Length - Before.Length - After.Length);
-            Assert.Less(size / (Nodes * Frames), 4.5, "bytes a node and frame, before base64");
+            Assert.Less(size / (Nodes * Frames), 4.5, "bytes per node and frame, before base64");
         }
 
         [Test]

@@ -23,7 +23,7 @@ namespace UnityEditor.Headless
 
         internal static bool IsImportable(string path) => ImporterOf(path) != null;
 
-        /// The asset, imported if it was not yet; null if no importer is for the file.
+        /// Returns the asset, importing it if needed; null if no importer handles the file.
         internal static ImportedAsset Of(string path)
         {
             var key = KeyOf(path);

@@ -31,7 +31,7 @@ namespace UnityEditor.Headless
 
         static readonly Dictionary<string, string> PackagePaths = new Dictionary<string, string>();
 
-        /// Takes back all changes of fields in inspectors and settings by the last event, as Edit > Undo does.
+        /// Reverts all changes of fields in inspectors and settings by the last event, as Edit > Undo does.
         public static void PerformUndo()
         {
             var cause = UndoSteps.Peek().Cause;
@@ -63,7 +63,7 @@ namespace UnityEditor.Headless
                 paths[GuidIn(meta)] = prefix + meta.Substring(folder.Length, meta.Length - folder.Length - ".meta".Length).Replace('\\', '/');
         }
 
-        /// Of an asset, which gets a meta file if it has none; empty if it does not exist.
+        /// Returns the GUID of an asset, after creating a missing meta file; empty if the asset does not exist.
         internal static string GuidOf(string asset)
         {
             var meta = FileOf(asset) + ".meta";

@@ -30,7 +30,7 @@ namespace UnityEditor.Headless
             foreach (var field in FieldsOf(Root)) values[field.Name] = Copy(field.GetValue(target));
         }
 
-        /// Writes what differs, which Undo can take back.
+        /// Writes the changed fields, so that Undo can revert them.
         internal bool Apply()
         {
             var before = new Dictionary<FieldInfo, object>();

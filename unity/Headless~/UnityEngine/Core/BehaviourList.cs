@@ -33,7 +33,7 @@ namespace UnityEngine
 
         readonly List<Entry> entries = new List<Entry>();
         readonly List<Entry> added = new List<Entry>();
-        bool sawStale;
+        bool hasStale;
 
         public bool HasNew => added.Count > 0;
 
@@ -42,8 +42,8 @@ namespace UnityEngine
         /// Starts a pass. Passes of one list cannot be nested.
         public int Begin()
         {
-            if (sawStale) entries.RemoveAll(Stale);
-            sawStale = false;
+            if (hasStale) entries.RemoveAll(Stale);
+            hasStale = false;
             if (added.Count > 0)
             {
                 added.RemoveAll(Stale);
@@ -67,7 +67,7 @@ namespace UnityEngine
                     script = entry.Script;
                     return true;
                 }
-                sawStale = true;
+                hasStale = true;
             }
             script = null;
             return false;

@@ -52,7 +52,7 @@ namespace UnityEngine
             get => ownLayer;
             set
             {
-                if (value < 0 || value > 31) throw new ArgumentOutOfRangeException(nameof(layer), value, "A layer is 0 to 31.");
+                if (value < 0 || value > 31) throw new ArgumentOutOfRangeException(nameof(layer), value, "A layer must be from 0 to 31.");
                 ownLayer = value;
                 RefreshColliders();
             }

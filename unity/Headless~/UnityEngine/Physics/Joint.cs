@@ -94,7 +94,7 @@ namespace UnityEngine
             Describe(ref joint);
             PhysicsWorld.Flush();
             Handle = Physx.physics_joint_create(PhysicsWorld.Handle, &joint);
-            if (Handle == Physx.None) Debug.LogError($"The joint of '{NameImpl}' connects nothing: {Physx.Error()}", this);
+            if (Handle == Physx.None) Debug.LogError($"The joint of '{NameImpl}' could not be created: {Physx.Error()}", this);
         }
 
         internal void Drop()

@@ -42,7 +42,7 @@ namespace UnityEngine
                 Debug.LogError("Physics.Simulate(...) was called but simulation mode is not set to Script. Ignoring.");
                 return;
             }
-            if (step < 0f) throw new ArgumentOutOfRangeException(nameof(step), step, "A step is 0 s or longer.");
+            if (step < 0f) throw new ArgumentOutOfRangeException(nameof(step), step, "A step must be 0 s or longer.");
             PhysicsWorld.Step(step);
         }
 

@@ -47,7 +47,7 @@ namespace UnityEngine
             try
             {
                 if (Physx.physics_version() != Physx.Version)
-                    throw new NotSupportedException("libcollektive_physics.so is of another version than this player: run ./collektive clean and build again.");
+                    throw new NotSupportedException("libcollektive_physics.so and this player differ in version: run ./collektive clean and build again.");
             }
             catch (DllNotFoundException exception)
             {
@@ -55,7 +55,7 @@ namespace UnityEngine
                     exception);
             }
             world = Physx.physics_world_create(Math.Max(1, Threads));
-            if (world == IntPtr.Zero) throw new OutOfMemoryException("PhysX could not make a world: " + Physx.Error());
+            if (world == IntPtr.Zero) throw new OutOfMemoryException("PhysX could not create a world: " + Physx.Error());
             return world;
         }
 

@@ -11,7 +11,7 @@ namespace UnityEngine
         {
             internal int Number;
             internal int MaxHits;
-            // Of a batch of rays; otherwise of spheres.
+            // Whether the batch contains rays; otherwise it contains spheres.
             internal NativeArray<RaycastCommand> Rays;
             internal NativeArray<RaycastHit> RayHits;
             internal NativeArray<OverlapSphereCommand> Spheres;

@@ -66,7 +66,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Checks what <see cref="Start"/> would: files, refused options and, in a child process of some 50 to 200 ms, the options.
+        /// Checks what <see cref="Start"/> would: files, refused options and, in a child process that takes 50 to 200 ms, the options.
         /// Options that pass are not tried again at the start.
         /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>

@@ -6,7 +6,7 @@ namespace Collektive.Bridge
     /// <summary>The command line of a JVM, built from <see cref="JvmSettings"/> for this machine.</summary>
     internal sealed class JvmLaunch
     {
-        /// <summary>Makes a launch of the JRE or JDK at <paramref name="home"/> with the host's jar.</summary>
+        /// <summary>Creates the command line for the JRE or JDK at <paramref name="home"/> with the host's jar.</summary>
         public JvmLaunch(string home, string classPath, IReadOnlyList<string> options)
         {
             Home = home ?? throw new ArgumentNullException(nameof(home));

@@ -3,7 +3,7 @@ namespace Collektive.Bridge
     /// <summary>A problem of the JVM settings, as a message for users.</summary>
     internal readonly struct JvmProblem
     {
-        /// <summary>Makes a problem of the setting <paramref name="key"/>.</summary>
+        /// <summary>Creates a problem of the setting <paramref name="key"/>.</summary>
         internal JvmProblem(string key, string message)
         {
             Key = key;

@@ -61,7 +61,7 @@ namespace Collektive.Bridge
             }
             catch (BridgeException error)
             {
-                Add(JvmSetting.Blamed(error.Message, settings).Key, error.Message);
+                Add(JvmSetting.FindByErrorMessage(error.Message, settings).Key, error.Message);
             }
         }
 

@@ -129,7 +129,7 @@ namespace Collektive.Bridge
         /// <summary>The field's value.</summary>
         internal object Get(JvmSettings settings) => field.GetValue(settings);
 
-        /// <summary>Gives the field a value of <see cref="Type"/>.</summary>
+        /// <summary>Sets the field to a value of <see cref="Type"/>.</summary>
         internal void Set(JvmSettings settings, object value) => field.SetValue(settings, value);
 
         /// <summary>Returns the value in effect in the running JVM.</summary>
@@ -150,17 +150,17 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Returns the setting that a JVM's error message is about, or the flags if no other matches.</summary>
-        internal static JvmSetting Blamed(string complaint, JvmSettings settings)
+        internal static JvmSetting FindByErrorMessage(string message, JvmSettings settings)
         {
             foreach (var flag in settings.flags)
             {
-                if (!string.IsNullOrWhiteSpace(flag) && complaint.Contains(Core(flag))) return Find(nameof(JvmSettings.flags));
+                if (!string.IsNullOrWhiteSpace(flag) && message.Contains(Core(flag))) return Find(nameof(JvmSettings.flags));
             }
             foreach (var setting in All)
             {
                 foreach (var mark in setting.Marks)
                 {
-                    if (complaint.Contains(mark)) return setting;
+                    if (message.Contains(mark)) return setting;
                 }
             }
             return Find(nameof(JvmSettings.flags));

@@ -142,7 +142,7 @@ namespace Collektive.Bridge
             return problems;
         }
 
-        /// <summary>The words for the JVM at <paramref name="javaHome"/>; its archive of classes is kept in <paramref name="cacheFolder"/>.</summary>
+        /// <summary>The options for the JVM at <paramref name="javaHome"/>; its archive of classes is kept in <paramref name="cacheFolder"/>.</summary>
         internal JvmLaunch ToLaunch(string javaHome, string hostJar, string cacheFolder)
         {
             var options = new List<string>();
@@ -196,8 +196,8 @@ namespace Collektive.Bridge
 
         /// <summary>
         /// The JVM writes the archive when it ends, and makes a new one when the JVM itself has changed. It never replaces one of another host jar at the
-        /// same place, nor one without a header, which a JVM leaves that is killed while it writes. So the jar's size and time are part of the name, and
-        /// what is of no use is removed.
+        /// same place, nor one without a header, which a JVM killed while writing leaves behind. So the jar's size and time are part of the name, and
+        /// unusable archives are removed.
         /// </summary>
         /// <returns>The reason why no archive is used, or an empty text.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
@@ -208,7 +208,7 @@ namespace Collektive.Bridge
             try
             {
                 Directory.CreateDirectory(cacheFolder);
-                foreach (var archive in Directory.GetFiles(cacheFolder, place + "*.jsa")) RemoveUseless(archive, file);
+                foreach (var archive in Directory.GetFiles(cacheFolder, place + "*.jsa")) RemoveUnusable(archive, file);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
@@ -231,7 +231,7 @@ namespace Collektive.Bridge
         /// <summary>
         /// Checks the header of an archive: another JVM may be writing it. This JVM then starts without it, and the next one writes it again.
         /// </summary>
-        private static void RemoveUseless(string archive, string wanted)
+        private static void RemoveUnusable(string archive, string wanted)
         {
             try
             {

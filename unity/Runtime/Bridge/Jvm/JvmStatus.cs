@@ -92,7 +92,7 @@ namespace Collektive.Bridge
         /// <summary>Recordings and dumps written so far.</summary>
         public int RecordingsWritten { get; }
 
-        /// <summary>A flag of the JVM as it is in effect; null for one that this JVM does not know.</summary>
+        /// <summary>Effective value of a JVM flag; null if this JVM does not have the flag.</summary>
         internal string Flag(string name) => flags.TryGetValue(name, out var value) ? value : null;
 
         internal bool Has(string option)

@@ -18,7 +18,7 @@ namespace Collektive.Unity
         internal string Flush(StepRequest request)
         {
             if (pending.Count == 0) return null;
-            // Users' code may set more, which is for the next tick.
+            // The user's code may set more data, for the next tick.
             (pending, writing) = (writing, pending);
             request.GlobalsChanged = true;
             string problem = null;

@@ -45,7 +45,7 @@ namespace Collektive.Unity
                     continue;
                 }
                 if (ReferenceEquals(part.BatchedIn, this)) part.BatchedIn = null;
-                // The last one has had its turn.
+                // The last part was already visited.
                 parts[i] = parts[parts.Count - 1];
                 parts.RemoveAt(parts.Count - 1);
             }

@@ -19,7 +19,7 @@ namespace org.collektive.schema
         /// <summary>Field <c>a</c>.</summary>
         public float A;
 
-        /// <summary>Makes a value of its fields.</summary>
+        /// <summary>Creates a value from its fields.</summary>
         public ColorValue(float r, float g, float b, float a)
         {
             R = r;

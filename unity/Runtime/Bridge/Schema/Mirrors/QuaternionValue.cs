@@ -19,7 +19,7 @@ namespace org.collektive.schema
         /// <summary>Field <c>w</c>.</summary>
         public float W;
 
-        /// <summary>Makes a value of its fields.</summary>
+        /// <summary>Creates a value from its fields.</summary>
         public QuaternionValue(float x, float y, float z, float w)
         {
             X = x;

@@ -13,7 +13,7 @@ namespace org.collektive.schema
         /// <summary>Field <c>y</c>.</summary>
         public float Y;
 
-        /// <summary>Makes a value of its fields.</summary>
+        /// <summary>Creates a value from its fields.</summary>
         public Vector2Value(float x, float y)
         {
             X = x;

@@ -16,7 +16,7 @@ namespace org.collektive.schema
         /// <summary>Field <c>z</c>.</summary>
         public float Z;
 
-        /// <summary>Makes a value of its fields.</summary>
+        /// <summary>Creates a value from its fields.</summary>
         public Vector3Value(float x, float y, float z)
         {
             X = x;

@@ -3,7 +3,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Moves the node towards the program's target, at most at its maximum speed. A Rigidbody is driven by its velocity; its fall is left to
+    /// Moves the node towards the program's target, at most at its maximum speed. A Rigidbody is driven by its velocity; its vertical motion is left to
     /// gravity if the body uses it. A kinematic body and a node without a body are moved by position. A subclass selects
     /// the field of the schema's data that is the target.
     /// </summary>

@@ -77,7 +77,7 @@ namespace Collektive.Unity
         protected sealed override void Sense(ref TData data)
         {
             var queries = Node.Simulation.Queries;
-            // Not when another sensor has changed the fan since.
+            // Not batched if another sensor has changed the fan since.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections;
             if (!isBatched) UpdateDirections();
             var centre = Node.Position;

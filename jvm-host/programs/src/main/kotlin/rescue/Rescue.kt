@@ -35,13 +35,13 @@ public fun Aggregate<Int>.rescue(sensors: SensorData, device: Device): ActuatorD
     val staysWithCasualty = staysWith(sensors.casualty())
     val toBase = distanceTo(sensors.base(), metric)
     val width = device.parameters.double("width")
-    val onWays = (0 until device.parameters.int("casualties")).count { casualty ->
-        alignedOn(casualty) { isOnWay(toBase, staysWithCasualty && sensors.casualty() == casualty, metric, width) }
+    val pathCount = (0 until device.parameters.int("casualties")).count { casualty ->
+        alignedOn(casualty) { isOnPath(toBase, staysWithCasualty && sensors.casualty() == casualty, metric, width) }
     }
     val role = when {
         sensors.base() -> BASE
         staysWithCasualty -> WITH_CASUALTY
-        onWays > 0 -> CHANNEL
+        pathCount > 0 -> CHANNEL
         else -> EXPLORER
     }
     val others = neighboring(Other(here, toBase)).neighbors.list.map { it.value }
@@ -59,14 +59,14 @@ public fun Aggregate<Int>.rescue(sensors: SensorData, device: Device): ActuatorD
     )
 }
 
-/** Whether this robot is on the shortest way from a casualty to the base, or close to it. The robot with the casualty broadcasts how long that is. */
-private fun Aggregate<Int>.isOnWay(toBase: Double, isWithIt: Boolean, metric: Field<Int, Double>, width: Double): Boolean {
+/** Whether this robot is on or near the shortest path from a casualty to the base. The robot with the casualty broadcasts its length. */
+private fun Aggregate<Int>.isOnPath(toBase: Double, isWithIt: Boolean, metric: Field<Int, Double>, width: Double): Boolean {
     val way = toBase + distanceTo(isWithIt, metric)
     val length = gradientCast(isWithIt, toBase, metric)
     return way.isFinite() && way <= length + width
 }
 
-/** Whether this robot stays with the casualty that it sees: of neighbours that see the same one, the robot with the least id does. */
+/** Whether this robot stays with the casualty that it sees. Of neighbours that see the same one, the robot with the lowest id stays. */
 private fun Aggregate<Int>.staysWith(casualty: Int): Boolean {
     val seen = neighboring(casualty)
     return casualty >= 0 && seen.neighbors.list.none { (id, theirs) -> theirs == casualty && id < localId }
@@ -129,14 +129,14 @@ private const val CHANNEL = 1
 private const val WITH_CASUALTY = 2
 private const val BASE = 3
 
-/** Weight of a robot's own heading, and radians by which it turns in a round at most, to either side. */
+/** Weight of a robot's own heading, and the range of its random turn per round in radians, half to either side. */
 private const val HEADING_WEIGHT = 0.5
 private const val TURN = 0.6
 
-/** How much more a robot keeps away from those nearer to the base than from others. */
+/** Factor by which robots nearer to the base repel more strongly than others. */
 private const val OUTWARDS = 5.0
 
-/** Metres from the centre of a robot below which it gives way to what does not, and the weight of that. */
+/** Distance in metres from a robot's centre below which it avoids obstacles, and the weight of the avoidance. */
 private const val MIN_DISTANCE = 1.3
 private const val PUSH = 3.0
 private const val TOO_SMALL = 1e-6

@@ -44,7 +44,7 @@ class CrowdTest {
         val walkers =
             mapOf(0 to Walker(Point2D(-0.6 to 0.0), Point2D(10.0 to 0.0)), 1 to Walker(Point2D(0.6 to 0.0), Point2D(-10.0 to 0.0)))
         val (left, right) = walk(walkers) { it.ticks(2) }.values.map { it.velocity.onGround() }
-        assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "$left: on, but slower, and to the right, which is -z")
+        assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "$left: forward, but slower, and to the right, which is -z")
         assertEquals(-left.first to -left.second, right, "the same seen from the other side")
     }
 
@@ -52,8 +52,12 @@ class CrowdTest {
     fun `a near wall repels a walker`() {
         val (x, _) = alone(Point2D(10.0 to 0.0), Point2D(0.3 to 0.0)).onGround()
         assertTrue(x < 0, "$x")
-        assertEquals(1.4f to 0f, alone(Point2D(10.0 to 0.0), Point2D(1.5 to 0.0)).onGround(), "1.25 m from its skin")
-        assertEquals(1.4f to 0f, alone(Point2D(10.0 to 0.0), Point2D(0.0 to 0.0)).onGround(), "what is at its own centre has no direction")
+        assertEquals(1.4f to 0f, alone(Point2D(10.0 to 0.0), Point2D(1.5 to 0.0)).onGround(), "1.25 m from its surface")
+        assertEquals(
+            1.4f to 0f,
+            alone(Point2D(10.0 to 0.0), Point2D(0.0 to 0.0)).onGround(),
+            "an obstacle at the walker's centre has no direction",
+        )
     }
 
     @Test

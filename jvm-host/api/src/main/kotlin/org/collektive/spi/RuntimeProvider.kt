@@ -2,7 +2,7 @@ package org.collektive.spi
 
 /** An implementation of the Collektive API. The host finds it with `ServiceLoader` in the library jars of a session. */
 public interface RuntimeProvider {
-    /** Its name in settings, manifests and records. */
+    /** The name in settings, manifests and records. */
     public val name: String
 
     /** Creates the devices of one session; [rule] rejects values that its programs must not share. */

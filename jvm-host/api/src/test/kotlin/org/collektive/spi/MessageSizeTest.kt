@@ -21,7 +21,7 @@ class MessageSizeTest {
     private class Ring(var next: Ring? = null)
 
     @Test
-    fun `each type has its bytes`() {
+    fun `each type has its documented size`() {
         val sizes = listOf(
             null to 1, true to 1, 3.toByte() to 1, 'x' to 2, 3.toShort() to 2, 3 to 4, 3f to 4, Colour.RED to 4, 3L to 8, 3.0 to 8,
             Unit to 0,
@@ -37,14 +37,14 @@ class MessageSizeTest {
     }
 
     @Test
-    fun `classes of the JDK have the bytes of their text`() {
+    fun `objects of the JDK have the size of their text`() {
         val size = MessageSize()
         size.add(java.time.Duration.ofSeconds(1))
         assertEquals(MessageSize.PATH_BYTES + 4 + "PT1S".length, size.bytes)
     }
 
     @Test
-    fun `an object in itself is counted once, and an object in two places twice`() {
+    fun `an object that contains itself is counted once, and an object in two places twice`() {
         val ring = Ring().apply { next = Ring(this) }
         val size = MessageSize()
         size.add(ring)

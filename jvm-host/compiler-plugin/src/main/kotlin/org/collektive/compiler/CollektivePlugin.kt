@@ -22,7 +22,7 @@ public class CollektivePlugin : CompilerPluginRegistrar() {
         if (!configuration.get(CollektiveOptions.ENABLED, true)) return
         FirExtensionRegistrarAdapter.registerExtension(AggregateChecks())
         IrGenerationExtension.registerExtension(AlignmentExtension())
-        // A compiler that writes a jar itself has no folder: such a jar has no index.
+        // A compiler that writes a jar directly has no output folder, so that jar has no index.
         configuration.get(JVMConfigurationKeys.OUTPUT_DIRECTORY)?.let { IrGenerationExtension.registerExtension(ProgramIndex(it)) }
     }
 }

@@ -501,7 +501,7 @@ class ChecksTest {
     }
 
     @Test
-    fun `messages name the correction`() {
+    fun `messages state the fix`() {
         val reports = Compilation.of("fun Aggregate<Int>.f() { for (i in 1..2) neighboring(i) }").reports
         assertEquals(CompilerMessageSeverity.WARNING, reports.single().severity)
         assertTrue("alignedOn(key) { ... }" in reports.single().text, reports.single().text)

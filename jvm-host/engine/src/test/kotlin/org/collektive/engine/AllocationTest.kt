@@ -9,7 +9,7 @@ import java.lang.management.ManagementFactory
 import java.util.concurrent.TimeUnit
 import kotlin.test.assertTrue
 
-/** The warm engine allocates nothing per tick. A control that allocates shows that the measurement works. */
+/** The warm engine allocates nothing per tick. A control run that allocates shows that the measurement works. */
 @Tag("slow")
 class AllocationTest {
     private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
@@ -35,7 +35,7 @@ class AllocationTest {
         for (schedule in Schedule.entries) {
             for (network in listOf(NetworkModel(), bad)) {
                 val control = bytesPerTick(schedule, network, allocates = true)
-                assertTrue(control > NODES * 32, "the control allocates at least its arrays, but only $control B were seen")
+                assertTrue(control > NODES * 32, "the control run allocates at least its arrays, but only $control B were measured")
                 val bytes = bytesPerTick(schedule, network, allocates = false)
                 assertTrue(bytes < 1, "$schedule, ${if (network.isIdeal) "ideal" else "bad"} network: $bytes B per tick")
             }

@@ -51,7 +51,7 @@ class NetworkTest {
 
     @Test
     fun `a delay starts at the tick of sending`() {
-        assertEquals(listOf(null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.5), 3), "one tick is what lockstep takes anyway")
+        assertEquals(listOf(null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.5), 3), "lockstep always takes one tick")
         assertEquals(listOf(null, null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.6), 4))
         assertEquals(listOf(null, null, null, 0.5), receivedFrom1(NetworkModel(delay = 1.5), 4))
         assertEquals(listOf(null, 0.5), receivedFrom1(NetworkModel(delay = 0.5), 2, schedule = Schedule.SEQUENTIAL))

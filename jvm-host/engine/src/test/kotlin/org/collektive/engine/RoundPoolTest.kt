@@ -12,7 +12,7 @@ import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
 class RoundPoolTest {
-    private val farOff get() = System.nanoTime() + 60_000_000_000
+    private val distantDeadline get() = System.nanoTime() + 60_000_000_000
 
     @Test
     fun `every index is processed once, for any count, range and number of threads`() {
@@ -26,7 +26,7 @@ class RoundPoolTest {
                 val task = RoundPool.Task<AtomicIntegerArray> { counts, _, _, begin, end ->
                     for (index in begin until end) counts.incrementAndGet(index)
                 }
-                assertTrue(pool.run(task, done, count, range, farOff))
+                assertTrue(pool.run(task, done, count, range, distantDeadline))
                 for (index in 0 until count) assertEquals(1, done[index], "index $index of $count in ranges of $range on $threads threads")
             }
             pool.abandon()
@@ -35,7 +35,7 @@ class RoundPoolTest {
 
     @Test
     @Timeout(60)
-    fun `a limit does not pass while its clock stands still, and passes when it goes on`() {
+    fun `a limit does not expire while its clock is stopped, and expires once the clock runs again`() {
         val debugged = AtomicBoolean(true)
         val pool = RoundPool(1, { if (debugged.get()) 0L else System.nanoTime() })
         val task = RoundPool.Task<Long> { millis, _, _, _, _ -> Thread.sleep(millis) }
@@ -70,7 +70,7 @@ class RoundPoolTest {
             if (begin == 0) othersAreDone.await() else othersAreDone.countDown()
             doneBy[begin] = worker
         }
-        assertTrue(pool.run(task, workers, 100, 1, farOff))
+        assertTrue(pool.run(task, workers, 100, 1, distantDeadline))
         pool.abandon()
         val free = 1 - workers[0]
         assertTrue((1 until 50).all { workers[it] == free }, "the share of the thread that waited")

@@ -59,7 +59,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
 
         private val ERROR = Regex("""(?m)^(?:error:)?\s*(\S.*?):(\d+): (\d+): (error|warning): (.*?)(?:, originally at: (.+):(\d+))?$""")
 
-        /** [messages] with the place of each error at the front, in the form that terminals and editors know; it is the place of the error. */
+        /** [messages] with the place of each error at the front, in the form that terminals and editors recognise. It is the place of the error. */
         fun placed(messages: String): String = ERROR.replace(messages) {
             val (file, line, column, kind, text, origin, originLine) = it.destructured
             when {

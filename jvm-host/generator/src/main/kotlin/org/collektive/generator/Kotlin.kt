@@ -99,7 +99,7 @@ internal class Kotlin(private val schema: UserSchema) {
         else -> text + suffix
     }
 
-    /** Statements that write the struct [type], which the expression [data] gives, to `target`, [offset] bytes behind `place`. */
+    /** Statements that write the struct [type], the value of the expression [data], to `target`, [offset] bytes after `place`. */
     private fun puts(type: StructType, data: String, offset: Int): List<String> = type.fields.flatMap { field ->
         val value = "$data.${member(field)}"
         val at = offset + field.offset

@@ -58,8 +58,9 @@ internal object ProgramCompiler {
 
     @OptIn(ExperimentalPathApi::class)
     private fun compile(values: Map<String, List<String>>, generatorOptions: List<String>, log: PrintStream): Int {
-        fun path(option: String) =
-            Path.of(values.getValue(option).singleOrNull() ?: throw GeneratorException("one $option is needed\n$USAGE")).toAbsolutePath()
+        fun path(option: String) = Path.of(
+            values.getValue(option).singleOrNull() ?: throw GeneratorException("exactly one $option is required\n$USAGE"),
+        ).toAbsolutePath()
         val jar = path("--jar")
         val generated = path("--work").resolve("generated")
         val classes = path("--work").resolve("classes")

@@ -225,7 +225,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** The schema's class is named after the file, and its binary form for flatc carries a name of four letters at most. */
+    /** The schema's class is named after the file, and its binary form for flatc has a name of at most four letters. */
     private fun checkFile() {
         if (!fileName.matches(file.fileName.toString())) {
             throw error(

@@ -45,7 +45,7 @@ class HostAllocationTest {
         }
         ticks(3000, false)
         val control = (1..3).minOf { ticks(500, true) }
-        assertTrue(control >= 800, "the control allocates 816 B, but only $control were seen")
+        assertTrue(control >= 800, "the control run allocates 816 B, but only $control B were measured")
         val bytes = (1..3).minOf { ticks(500, false) }
         // Only the test's own duplicate of the answer remains.
         assertTrue(bytes <= WRAPPER_BYTES, "$bytes B per tick")

@@ -24,7 +24,7 @@ internal class HostLogTest {
     fun takeOver() = log.install()
 
     @AfterTest
-    fun giveBack() {
+    fun restoreStreams() {
         System.setOut(out)
         System.setErr(err)
         Thread.setDefaultUncaughtExceptionHandler(handler)
@@ -111,7 +111,7 @@ internal class HostLogTest {
     }
 
     @Test
-    fun `closing or replacing the streams lasts until the next session`() {
+    fun `streams that a program closes or replaces are restored by the next session`() {
         System.out.close()
         println("still there")
         System.setOut(null)

@@ -187,7 +187,7 @@ class ReloadTest {
         val before = loaded()
         repeat(RELOADS) { step(jars[it % 2]) }
         step()
-        assertTrue(loaded() <= before + 20, "${loaded() - before} classes are left")
+        assertTrue(loaded() <= before + 20, "${loaded() - before} classes are still loaded")
         assertEquals("1 ${RELOADS + 24}", text(step()))
     }
 

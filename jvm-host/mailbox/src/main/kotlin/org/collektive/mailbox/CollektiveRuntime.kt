@@ -7,7 +7,7 @@ import org.collektive.spi.Inbox
 import org.collektive.spi.RuntimeProvider
 import org.collektive.spi.SharingRule
 
-/** Collektive's own runtime, as the host finds it. */
+/** Provides Collektive's own runtime to the host. */
 public class CollektiveRuntime : RuntimeProvider {
     override val name: String get() = "collektive"
 

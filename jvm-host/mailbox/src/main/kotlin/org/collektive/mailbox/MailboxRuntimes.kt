@@ -26,7 +26,7 @@ import org.collektive.spi.SharingRule
 public class MailboxRuntimes(private val rule: SharingRule = SharingRule { null }) : DeviceRuntimes {
     override fun device(id: Int): DeviceRuntime = MailboxRuntime(id, rule)
 
-    /** Devices share nothing. */
+    /** Nothing to free: devices share no state. */
     override fun freeUnused(devices: List<DeviceRuntime>) {}
 }
 
@@ -39,7 +39,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     private var newState: State = emptyMap()
     private var outbound = Messages(emptyMap(), null)
 
-    // The path of the last primitive, for the place of a failure. The API has no more information.
+    // The path of the last primitive, reported as the place of a failure. The API provides no further details.
     private var reached: Path? = null
 
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {

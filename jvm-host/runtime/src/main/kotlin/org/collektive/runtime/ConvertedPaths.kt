@@ -21,7 +21,7 @@ internal class ConvertedPaths(private val tree: PathTree, private val conversion
         return if (token === Lost) Lost else tree.enter(parent, token)
     }
 
-    /** Returns [value], which was stored or sent, converted, or [RoundRecord.Nothing]. */
+    /** Returns the converted stored or sent [value], or [RoundRecord.Nothing] if it is lost. */
     fun value(value: Any?): Any? = when (value) {
         RoundRecord.Nothing -> value
         is AllButOne -> converted(value.value, value.others) { (one, others) -> AllButOne(value.id, one, others) }

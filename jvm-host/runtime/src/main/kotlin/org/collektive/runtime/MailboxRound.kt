@@ -26,7 +26,7 @@ internal class MailboxRound<ID : Any>(
 ) : Primitives<ID, Path>() {
     private val stack = ArrayList<Any?>()
 
-    // The depths of ids of entries.
+    // The stack depths at which ids of entries were pushed.
     private val entries = ArrayList<Int>(0)
     private val visited = HashSet<Path>()
     private val newState = LinkedHashMap<Path, Any?>()

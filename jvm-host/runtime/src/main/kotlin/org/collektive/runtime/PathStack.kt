@@ -13,7 +13,7 @@ internal class PathStack(private val tree: PathTree) {
         private set
     private var resolved = 0
 
-    // The depths of ids of entries, ascending.
+    // The stack depths at which ids of entries were pushed, ascending.
     private var entries = IntArray(2)
     private var entryCount = 0
 

@@ -42,7 +42,7 @@ class ExportTest {
     fun `a link without a message aligns no device`() = assertEquals<Any?>(emptyMap<Int, Int>(), received(null))
 
     @Test
-    fun `a held export does not change`() {
+    fun `a retained export does not change`() {
         val held = List(5) { value -> send(value).also(Export::retain) }
         repeat(10) { send(100 + it) }
         for (value in held.indices) assertEquals<Any?>(mapOf(1 to value), received(held[value]))
@@ -77,7 +77,7 @@ class ExportTest {
     }
 
     @Test
-    fun `a device makes at most two exports more than are held`() {
+    fun `a device creates at most two more exports than are retained`() {
         val made = HashSet<Export>()
         val last = ArrayDeque<Export>()
         repeat(50) { value ->

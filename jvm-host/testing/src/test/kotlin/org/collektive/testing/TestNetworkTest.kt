@@ -49,7 +49,7 @@ class TestNetworkTest {
     }
 
     @Test
-    fun `the distance to the source is the length of the shortest way`() = TestNetwork().use { network ->
+    fun `the distance to the source is the length of the shortest path`() = TestNetwork().use { network ->
         network.add(0, 1, 2)
         network.link(0, 1, length = 2.5)
         network.link(1, 2, length = 3.0)
@@ -100,7 +100,7 @@ class TestNetworkTest {
     }
 
     @Test
-    fun `the seed decides the random numbers`() {
+    fun `the seed determines the random numbers`() {
         fun draw(seed: Long) = TestNetwork(seed).use {
             it.add(0)
             it.round { device -> device.random.nextLong() }
@@ -113,7 +113,7 @@ class TestNetworkTest {
     fun `a program can return null`() = onBoth { assertEquals(mapOf(0 to null, 1 to null, 2 to null), round<Int?> { null }) }
 
     @TestFactory
-    fun `a round that fails names its node, and the others have run`() = onBoth {
+    fun `the error of a failed round names its node, and the other rounds run`() = onBoth {
         val error = assertFailsWith<IllegalStateException> {
             round {
                 if (localId == 1) throw UnsupportedOperationException("not today")

@@ -31,7 +31,7 @@ public class MailboxDevices(
 ) : DeviceRuntimes {
     override fun device(id: Int): DeviceRuntime = MailboxDevice(id)
 
-    /** Devices share nothing. */
+    /** Nothing to free: devices share no state. */
     override fun freeUnused(devices: List<DeviceRuntime>) {}
 
     private inner class MailboxDevice(private val id: Int) :
@@ -64,7 +64,7 @@ public class MailboxDevices(
             outbound = Envelope(outboundMessage)
         }
 
-        override fun deliverableReceived(message: Message<Int, *>) = error("messages arrive with the inbox of a round")
+        override fun deliverableReceived(message: Message<Int, *>) = error("messages are read from the inbox, not pushed")
 
         override fun currentInbound() = inbound
     }

@@ -30,7 +30,7 @@ public class ReferenceDevices(private val isAligned: Boolean = true, private val
     override fun device(id: Int): ReferenceDevice =
         if (isAligned) AlignedDevice(id, ignoresClashes) else ReferenceDevice(id, ignoresClashes)
 
-    /** Devices share nothing. */
+    /** Nothing to free: devices share no state. */
     override fun freeUnused(devices: List<DeviceRuntime>) {}
 }
 
@@ -165,7 +165,7 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
     public var failed: Pair<ProgramPlace, Throwable>? = null
         private set
 
-    // The depths of ids of entries.
+    // The stack depths at which ids of entries were pushed.
     private val entries = ArrayList<Int>()
 
     override val place: ProgramPlace get() = ProgramPlace(localId, stack.toList())

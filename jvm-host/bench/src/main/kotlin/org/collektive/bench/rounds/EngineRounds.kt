@@ -59,7 +59,7 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
             "b" -> { senses -> distanceFromSource(senses) }
             "b2" -> { senses -> bellmanFordFromSource(senses) }
             "c" -> { senses -> followers(senses) }
-            else -> throw IllegalArgumentException("no program '$name', only a, b, b2 and c")
+            else -> throw IllegalArgumentException("unknown program '$name'; use a, b, b2 or c")
         }
 
         @Suppress("UNCHECKED_CAST")

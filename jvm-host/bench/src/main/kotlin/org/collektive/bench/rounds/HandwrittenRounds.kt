@@ -16,7 +16,7 @@ public class HandwrittenRounds(program: String, private val topology: Topology) 
     private val step = when (program) {
         "a" -> ::gradientAscent
         "b2" -> ::bellmanFord
-        else -> throw IllegalArgumentException("program '$program' has no hand-written loops; only a and b2 have")
+        else -> throw IllegalArgumentException("program '$program' has no hand-written loops; use a or b2")
     }
 
     internal val headingX = DoubleArray(size)

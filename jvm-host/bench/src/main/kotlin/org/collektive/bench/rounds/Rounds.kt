@@ -47,7 +47,7 @@ private class RoundsRow(
 
 private class Measurement(private val isQuick: Boolean) {
     private val cases = TOPOLOGIES.flatMap { topology ->
-        PROGRAMS.map { Triple(it, topology, USUAL_SIZE) } +
+        PROGRAMS.map { Triple(it, topology, DEFAULT_SIZE) } +
             HANDWRITTEN.flatMap { program -> (if (isQuick) ENDS else SIZES).map { Triple(program, topology, it) } }
     }
 
@@ -82,7 +82,7 @@ private class Measurement(private val isQuick: Boolean) {
         val TOPOLOGIES = listOf("grid8", "rgg10")
         val PROGRAMS = listOf("a", "b", "b2", "c")
         val HANDWRITTEN = listOf("a", "b2")
-        const val USUAL_SIZE = 1000
+        const val DEFAULT_SIZE = 1000
         val SIZES = listOf(500, 5_000, 50_000)
         val ENDS = listOf(500, 50_000)
     }

@@ -60,11 +60,11 @@ private class Server(private val client: SocketChannel) : ShimCalls {
 
                 LOOPS -> numbers().also { workloads[id] = Loops(Grid(number(0))) }
 
-                RUN -> run(checkNotNull(workloads[id]) { "no workload $id" }, number(0))
+                RUN -> run(checkNotNull(workloads[id]) { "unknown workload $id" }, number(0))
 
                 REPORT -> numbers(allocatedBytes())
 
-                else -> throw IllegalArgumentException("no request $kind")
+                else -> throw IllegalArgumentException("unknown request kind $kind")
             }
             while (reply.hasRemaining()) client.write(reply)
             request.clear()

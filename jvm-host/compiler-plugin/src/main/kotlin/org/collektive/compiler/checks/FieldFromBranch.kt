@@ -47,7 +47,7 @@ internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppChe
     }
 }
 
-/** Warns of a field that a `return` takes out of an arm. */
+/** Warns about a field that leaves an arm by `return`. */
 internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirReturnExpression) {

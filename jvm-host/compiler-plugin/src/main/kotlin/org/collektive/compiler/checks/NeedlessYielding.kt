@@ -28,7 +28,7 @@ internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppChec
         if (isSame && isAggregateCode()) reporter.reportOn(expression.source, AggregateDiagnostics.NEEDLESS_YIELDING)
     }
 
-    /** Whether both expressions have the same text, so that `f(x).yielding { f(x) }` returns what it keeps. */
+    /** Whether both expressions have the same text, so that `f(x).yielding { f(x) }` returns the value that it stores. */
     private fun FirExpression.isWrittenLike(other: FirExpression?): Boolean {
         val text = source?.text?.toString() ?: return false
         return text.filterNot(Char::isWhitespace).trim('(', ')') ==

@@ -50,7 +50,7 @@ class PublicApiTest {
     private companion object {
         /** Missing declarations, and the reason for each. */
         val EXCEPTIONS = mapOf(
-            "~.networking.OutboundEnvelope.Companion" to "it is empty: there is nothing to call on it",
+            "~.networking.OutboundEnvelope.Companion" to "it is empty, so programs cannot call it",
             "~.path.KotlinCryptoDigest" to "it wraps a class of a library that programs on the JVM do not need: JdkDigest has all digests",
             "~a.Aggregate.InternalAPI" to "internal by its name: the receiver of the two functions below",
             "~a.Aggregate._ serialization aware exchanging" to "internal by its receiver: programs call the extension exchanging",

@@ -29,9 +29,9 @@ enum class Topology(val nodes: Int, val place: (Int) -> Pair<Double, Double>) {
 
 /**
  * The network that the golden answers were measured on. When it is [churning], nodes move, leave and join, and 70 % of them are due in a
- * tick; otherwise nothing changes but what nodes sense. The order of random numbers is part of it.
+ * tick; otherwise only the sensor data changes. Do not change the order in which random numbers are drawn.
  */
-@CollektiveIgnore("it drives the programs")
+@CollektiveIgnore("it calls the programs")
 class GoldenNetwork(private val topology: Topology, private val churning: Boolean, runtimes: DeviceRuntimes) {
     private val random = Random(SEED * 31 + topology.name.lowercase().hashCode())
     private val network = Network(runtimes)

@@ -33,7 +33,7 @@ class GoldenTest {
             val theirs = answers.getValue(name)
             assertEquals(theirs.size, ours.size, "rounds")
             val differing = ours.indices.filter { !isSame(theirs[it], ours[it]) }
-            val examples = differing.take(3).map { "round $it: ${theirs[it]} there, ${ours[it]} here" }
+            val examples = differing.take(3).map { "round $it: expected ${theirs[it]}, found ${ours[it]}" }
             assertEquals(0, differing.size, "differing rounds of ${ours.size}: $examples")
         }
     }

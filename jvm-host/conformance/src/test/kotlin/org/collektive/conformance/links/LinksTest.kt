@@ -18,7 +18,7 @@ fun Aggregate<Int>.both(device: Device): Any? = with(device) { distances().all.t
 fun Aggregate<Int>.inBranch(device: Device): Any? = with(device) { if (localId != 1) distances().neighbors.size else -1 }
 
 /** Programs can read the lengths and attenuations that the scene gives their links. */
-@CollektiveIgnore("it drives the programs")
+@CollektiveIgnore("it calls the programs")
 class LinksTest {
     @Test
     fun `a gradient over the links' lengths needs no positions`() =

@@ -48,5 +48,5 @@ internal class FakeDevice<ID : Any>(override val localId: ID, private val aligne
         body: YieldingScope<Field<ID, Shared>, Return>,
     ): Return = noRounds()
 
-    private fun noRounds(): Nothing = throw UnsupportedOperationException("a stand-in runs no rounds")
+    private fun noRounds(): Nothing = throw UnsupportedOperationException("a fake device does not run rounds")
 }

@@ -214,7 +214,7 @@ internal class GeneratedCodeTest {
     }
 
     private fun assertContainsMatching(texts: Set<String>, pattern: Regex) =
-        assertNotNull(texts.find(pattern::matches), "none of $texts is like $pattern")
+        assertNotNull(texts.find(pattern::matches), "none of $texts matches $pattern")
 
     private companion object {
         const val BLOCK_BYTES = 104

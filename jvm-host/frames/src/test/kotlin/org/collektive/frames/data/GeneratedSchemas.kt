@@ -21,10 +21,10 @@ internal object GeneratedSchemas {
     fun of(schema: String, name: String): DataSchema =
         load(Files.writeString(Files.createTempDirectory(work, "schema").resolve("user.fbs"), schema), name)
 
-    /** The class by which flatc itself reads and writes what [type] of the schema reads or writes. */
+    /** Returns the class of flatc's object API for [type] of the schema. */
     fun flatc(schema: DataSchema, type: String): Class<*> = schema.javaClass.classLoader.loadClass("objects.$type")
 
-    /** What flatc itself reads as the [type] of the schema at [place] of [frame]. */
+    /** Reads the [type] of the schema at [place] of [frame] with flatc's object API. */
     fun unpacked(schema: DataSchema, type: String, frame: ByteBuffer, place: Int): Any {
         val reader = flatc(schema, type)
         val view = reader.getMethod("__assign", Int::class.java, ByteBuffer::class.java)

@@ -78,10 +78,10 @@ internal object Objects {
         type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
             .associateBy { it.name.removePrefix("get").lowercase() }.toSortedMap()
 
-    /** A random object of flatc's class [type] without a fault. */
+    /** Returns a valid random object of flatc's class [type]. */
     fun random(type: Class<*>, random: Random): Any = randomObject(type, random, 0)
 
-    /** A random result of programs for [schema] without a fault. */
+    /** Returns a valid random result of programs for [schema]. */
     fun randomResult(schema: DataSchema, random: Random): Any =
         randomResult(Schema.getRootAsSchema(ByteBuffer.wrap(binarySchema(schema))), schema.actuatorType, random, 0)
 
@@ -138,7 +138,7 @@ internal object Objects {
         else -> part(type)
     }
 
-    /** Whether flatc's class [type] stands for a table; its reader knows. */
+    /** Whether flatc's class [type] represents a table, according to its reader. */
     private fun isTable(type: Class<*>): Boolean =
         Table::class.java.isAssignableFrom(type.classLoader.loadClass(type.name.removeSuffix("T")))
 

@@ -39,7 +39,7 @@ internal object GeneratedCode {
         )
     }
 
-    /** Compiles the generated code in [folder] into [classes], and copies what belongs to it. */
+    /** Compiles the generated code in [folder] into [classes], and copies its resources. */
     fun compile(folder: Path, classes: Path) {
         javac(listOf(folder), classes, "-Xlint:all", "-Werror")
         val arguments = K2JVMCompilerArguments().apply {

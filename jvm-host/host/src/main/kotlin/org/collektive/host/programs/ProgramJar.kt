@@ -37,7 +37,7 @@ public class ProgramJar private constructor(public val path: String, internal va
             }
         }
 
-        /** Refuses a jar that unpacks to too much, before anything of it takes memory. */
+        /** Rejects a jar whose content is too large, before any of it is unpacked. */
         private fun requireSize(jar: JarBytes) {
             var left = MAX_BYTES
             val buffer = ByteArray(BUFFER_BYTES)

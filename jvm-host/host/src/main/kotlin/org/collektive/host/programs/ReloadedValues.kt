@@ -20,7 +20,7 @@ import java.util.IdentityHashMap
  * name and fails if its form has changed.
  */
 internal class ReloadedValues(private val old: JarLoader, private val new: JarLoader) : Conversion {
-    // Calls by their identity, without the line, which changes with the text above the call.
+    // Calls by identity, without the line number, which changes when the code above the call changes.
     private val calls = HashMap<String, String>()
 
     init {
@@ -54,7 +54,7 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         else -> throw UnknownContent
     }
 
-    /** The references in an object of a library; the JDK's own classes do not permit to read them. */
+    /** The references in an object of a library. Those in classes of the JDK cannot be read. */
     private fun fields(value: Any): List<Any?> = generateSequence<Class<*>>(value.javaClass) { it.superclass }
         .flatMap { it.declaredFields.asSequence() }
         .filter { !Modifier.isStatic(it.modifiers) && !it.type.isPrimitive }

@@ -15,20 +15,17 @@ internal class LoadedPrograms(val programs: Programs, threads: Int) {
     val requests = StepRequestReader(programs, data)
 }
 
-/** Loads new programs for the nodes of [engine]. [readJars] reads jars from their paths. */
+/**
+ * Loads new programs for the nodes of [engine].
+ *
+ * @property readJars reads jars from their paths; throws [HostException] when one cannot be read.
+ */
 internal class ProgramReload(
     private val source: ProgramSource,
     private val engine: Engine,
     private val threads: Int,
-    private val readJars: (List<String>) -> List<JarBytes>,
+    val readJars: (List<String>) -> List<JarBytes>,
 ) {
-    /**
-     * Reads the jars at [paths].
-     *
-     * @throws HostException when one cannot be read.
-     */
-    fun read(paths: List<String>): List<JarBytes> = readJars(paths)
-
     /** Loads the programs in [jars], to replace [old]. Changes nothing. */
     fun prepare(jars: List<JarBytes>, old: LoadedPrograms): PreparedReload = try {
         val programs = source.load(jars)

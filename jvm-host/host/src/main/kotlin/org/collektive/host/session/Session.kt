@@ -13,7 +13,6 @@ import org.collektive.frames.session.writeOpenResponse
 import org.collektive.frames.tick.MetricOutcome
 import org.collektive.frames.tick.ReloadOutcome
 import org.collektive.frames.tick.StepResponseWriter
-import org.collektive.host.programs.Programs
 import org.collektive.host.record.RecordWriter
 import org.collektive.host.shim.Debugger
 import org.collektive.host.shim.HostError
@@ -26,14 +25,12 @@ import java.util.concurrent.TimeUnit
 
 /** One simulation: reads its frames, runs them on its engine and writes the answers. Not thread-safe. */
 public class Session internal constructor(
-    programs: Programs,
+    private var loaded: LoadedPrograms,
     private val reload: ProgramReload,
-    threads: Int,
     private val engine: Engine,
     private val shim: ShimCalls,
     private val record: RecordWriter?,
 ) : AutoCloseable {
-    private var loaded = LoadedPrograms(programs, threads)
     private val buffer = AnswerBuffer(ShimSlots(shim))
     private val response = StepResponseWriter(buffer)
     private val events = TickEvents()
@@ -93,7 +90,7 @@ public class Session internal constructor(
 
     private fun prepare(paths: List<String>, frame: ByteBuffer): PreparedReload {
         val jars = try {
-            reload.read(paths)
+            reload.readJars(paths)
         } catch (e: HostException) {
             return PreparedReload(loaded, null, e.message.orEmpty())
         }

@@ -62,7 +62,8 @@ public object SessionOpening {
         val programs = source.load(jars)
         return Engine(settings, library.runtimes(ViewRule), Debugger).orClose { engine ->
             record().orClose { writer ->
-                Session(programs, ProgramReload(source, engine, settings.threads, readJars), settings.threads, engine, shim, writer).also {
+                val reload = ProgramReload(source, engine, settings.threads, readJars)
+                Session(LoadedPrograms(programs, settings.threads), reload, engine, shim, writer).also {
                     if (event != null) commit(event, programs, settings)
                 }
             }

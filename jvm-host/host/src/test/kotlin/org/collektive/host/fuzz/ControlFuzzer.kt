@@ -13,7 +13,7 @@ import org.collektive.host.shim.HostError
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
-/** A `ControlRequest` of any bytes is answered, or refused without an effect on the flight recorder. */
+/** Sends arbitrary bytes as a `ControlRequest`. It is either answered, or rejected without an effect on the flight recorder. */
 internal object ControlFuzzer : Fuzzer {
     private const val ANSWER_BYTES = 1 shl 16
     private val shim = TestShim()
@@ -43,7 +43,7 @@ internal object ControlFuzzer : Fuzzer {
         check(state.recordingPath() == null && state.recordingsWritten() == 0) { "a refused control started a recording" }
     }
 
-    /** Recordings would be read and written wherever the bytes say, and a collection takes a thousand times as long as all else. */
+    /** Arbitrary bytes could name any path for a recording, and a collection takes a thousand times as long as everything else. */
     private fun actsOnFiles(bytes: ByteArray): Boolean = try {
         val request = controlRequest(frameIn(direct(bytes), 0, bytes.size))
         request.collect() || request.recording() in RecordingAction.Start..RecordingAction.Stop

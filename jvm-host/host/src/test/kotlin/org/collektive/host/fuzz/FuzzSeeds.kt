@@ -14,10 +14,10 @@ internal object FuzzSeeds {
 
     private val jars = listOf(FuzzedPrograms.PATH)
 
-    // A `Map.of` has another order in each JVM.
+    // The order of a `Map.of` differs between JVM runs.
     private val types = ProbeSchema.types.toSortedMap()
 
-    /** What the network of [StepFuzzer] has done before. */
+    /** The first tick of the network of [StepFuzzer]. */
     fun firstTick(tick: Long = 1) = Step(tick).apply {
         wind = 1f
         added = (0 until 5).map { Step.Added(it) }

@@ -18,7 +18,7 @@ internal fun interface Fuzzer {
     fun run(bytes: ByteArray): Boolean
 }
 
-/** A [code] below 0 must be one of [allowed]: all others, [HostError.JAVA] above all, stand for a defect of the host. */
+/** A [code] below 0 must be one of [allowed]: all others, [HostError.JAVA] above all, indicate a bug in the host. */
 internal fun requireRefusal(code: Long, allowed: Set<HostError>, shim: TestShim) =
     check(code >= 0 || allowed.any { it.code.toLong() == code }) { "code $code: ${shim.error}" }
 
@@ -28,7 +28,7 @@ internal object FuzzedPrograms {
 
     private val placed by lazy { Files.copy(ProbeJars.harmless, Path.of(PATH).createParentDirectories(), REPLACE_EXISTING) }
 
-    /** Makes sure that it is there. */
+    /** Creates the jar if it does not exist. */
     fun place() {
         placed
     }

@@ -9,12 +9,12 @@ import org.collektive.host.TestShim
 import org.collektive.host.direct
 import org.collektive.host.shim.HostError
 
-/** An `OpenRequest` of any bytes opens a session, or is refused and leaves none behind. */
+/** Sends arbitrary bytes as an `OpenRequest`. It either opens a session, or is rejected and leaves no session open. */
 internal object OpenFuzzer : Fuzzer {
     private val shim = TestShim()
     private val refusals = setOf(HostError.HOST, HostError.FRAME, HostError.SCHEMA, HostError.PROGRAM)
 
-    /** What Jazzer calls before all inputs, without a limit: it compiles the programs. */
+    /** Called by Jazzer before the first input, without a time limit. Compiles the programs. */
     @JvmStatic
     fun fuzzerInitialize() = FuzzedPrograms.place()
 
@@ -34,11 +34,11 @@ internal object OpenFuzzer : Fuzzer {
             session.opened().programsLength()
             session.close()
         }
-        check(session.step(Step(1).bytes()) == HostError.HANDLE.code.toLong()) { "a session is left" }
+        check(session.step(Step(1).bytes()) == HostError.HANDLE.code.toLong()) { "a session was left open" }
         return code >= 0
     }
 
-    /** A record would be written wherever the bytes say. */
+    /** Arbitrary bytes could name any path for a record. */
     private fun namesRecord(bytes: ByteArray): Boolean = try {
         openRequest(frameIn(direct(bytes), 0, bytes.size)).record().orEmpty().isNotEmpty()
     } catch (_: MalformedFrameException) {

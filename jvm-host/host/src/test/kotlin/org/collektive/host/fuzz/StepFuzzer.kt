@@ -16,17 +16,17 @@ import org.collektive.host.shim.HostError
 import java.nio.ByteBuffer
 
 /**
- * A `StepRequest` of any bytes, as the second tick of a small network, runs, or is refused and changes nothing.
+ * Sends arbitrary bytes as the `StepRequest` of the second tick of a small network. It either runs, or is rejected and changes nothing.
  *
- * Two sessions get the same frames, except that only one gets the refused ones: they must stay equal. They live on from input to input,
- * since opening one takes a hundred times as long as a tick, so a frame of tick 2 is made one of the sessions' next tick.
+ * Two sessions receive the same frames, but only one of them receives the rejected ones. Both must stay equal. Opening a session takes a
+ * hundred times as long as a tick, so the sessions are reused for later inputs: the tick number of a frame is set to their next tick.
  */
 internal object StepFuzzer : Fuzzer {
     private val shim = TestShim()
     private val refusals = setOf(HostError.FRAME, HostError.PROGRAM)
-    private var pair: Twins? = null
+    private var pair: SessionPair? = null
 
-    /** What Jazzer calls before all inputs, without a limit: it compiles the programs. */
+    /** Called by Jazzer before the first input, without a time limit. Compiles the programs. */
     @JvmStatic
     fun fuzzerInitialize() = FuzzedPrograms.place()
 
@@ -38,17 +38,17 @@ internal object StepFuzzer : Fuzzer {
 
     override fun run(bytes: ByteArray): Boolean {
         FuzzedPrograms.place()
-        val twins = pair ?: Twins()
-        // After a broken rule the next input begins with others.
+        val twins = pair ?: SessionPair()
+        // After a violated rule, the next input starts with new sessions.
         pair = null
         val accepted = twins.run(bytes)
         pair = twins
         return accepted
     }
 
-    private class Twins {
+    private class SessionPair {
         private val fuzzed = opened()
-        private val spared = opened()
+        private val reference = opened()
         private var tick = 1L
         private var nodes = FuzzSeeds.firstTick().added.map(Step.Added::id)
 
@@ -64,25 +64,25 @@ internal object StepFuzzer : Fuzzer {
                 same { Step(tick).apply { due = nodes } }
                 return false
             }
-            check(spared.step(direct(frame)) >= 0) { "one session took the frame, the other refused it: ${shim.error}" }
+            check(reference.step(direct(frame)) >= 0) { "one session accepted the frame, the other rejected it: ${shim.error}" }
             tick++
             val request = StepRequest.getRootAsStepRequest(ByteBuffer.wrap(frame))
             val gone = (0 until request.nodesRemovedLength()).map(request::nodesRemoved).toSet()
             nodes = (nodes - gone + (0 until request.nodesAddedLength()).map { request.nodesAdded(it).id() }).sorted()
             same { Step(tick).apply { due = nodes } }
-            startAgain()
+            restart()
             return true
         }
 
-        private fun startAgain() {
+        private fun restart() {
             val present = nodes
             nodes = FuzzSeeds.firstTick().added.map(Step.Added::id)
             same { FuzzSeeds.firstTick(tick).apply { removed = present } }
         }
 
-        /** Both run [step] and answer the same. */
+        /** Runs [step] in both sessions and requires equal answers. */
         private fun same(step: () -> Step) {
-            check(outcome(fuzzed.ok(step())) == outcome(spared.ok(step()))) { "the sessions differ after: ${shim.error}" }
+            check(outcome(fuzzed.ok(step())) == outcome(reference.ok(step()))) { "the sessions differ after: ${shim.error}" }
             tick++
         }
 
@@ -99,7 +99,7 @@ internal object StepFuzzer : Fuzzer {
         }
     }
 
-    /** [bytes], with [tick] in place of tick 2 when they are a frame that says so. */
+    /** Returns [bytes], with the tick number replaced by [tick] if they are a frame of tick 2. */
     private fun ofTick(tick: Long, bytes: ByteArray): ByteArray {
         val copy = bytes.copyOf()
         try {
@@ -109,11 +109,11 @@ internal object StepFuzzer : Fuzzer {
             val place = if (frame.getShort(vtable) > FIRST_FIELD) frame.getShort(vtable + FIRST_FIELD).toInt() else 0
             if (place != 0 && frame.getLong(table + place) == FuzzSeeds.TICK) frame.putLong(table + place, tick)
         } catch (_: MalformedFrameException) {
-            // The host refuses it before it looks at the tick.
+            // The host rejects it before it checks the tick.
         }
         return copy
     }
 
-    /** Where vtables say where the first field is, in bytes. */
+    /** Position of the first field's offset in a vtable, in bytes. */
     private const val FIRST_FIELD = 4
 }

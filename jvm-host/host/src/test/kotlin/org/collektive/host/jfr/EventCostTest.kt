@@ -24,9 +24,9 @@ class EventCostTest {
         var tick = 2L
         val round = (1..5).minOf { nanosPer(TICKS * NODES) { repeat(TICKS) { session.ok(Step(tick++).apply { due = nodes }) } } }
         session.close()
-        println("  %.2f ns to ask, %.0f ns a round with its share of the tick: %.2f %%".format(asking, round, 100 * asking / round))
+        println("  %.2f ns per check, %.0f ns per round with its share of the tick: %.2f %%".format(asking, round, 100 * asking / round))
         assertTrue(wanted == 0L, "nothing records")
-        assertTrue(asking < round / 20, "$asking ns to ask, $round ns a round")
+        assertTrue(asking < round / 20, "a check takes $asking ns, a round $round ns")
     }
 
     private var wanted = 0L

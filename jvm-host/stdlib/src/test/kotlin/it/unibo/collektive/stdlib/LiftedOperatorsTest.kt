@@ -40,7 +40,7 @@ class LiftedOperatorsTest {
         }
     }
 
-    /** Until [function] has succeeded three times, with all kinds of values. */
+    /** Repeats until [function] has succeeded three times, with all kinds of values. */
     private fun compare(lifted: Any, function: KFunction<*>, plain: (List<Any?>) -> Any?, shape: Field<Int, Int>) {
         val types = (listOf(checkNotNull(function.extensionReceiverParameter)) + function.valueParameters).map { it.type }
         val isUnordered = function.name == "shuffled" && types.size == 1
@@ -69,7 +69,7 @@ class LiftedOperatorsTest {
                 found.exceptionOrNull()?.javaClass ==
                     expected.exceptionOrNull()?.javaClass
             }
-            // Shown here only: reflection needs milliseconds for the text of a function.
+            // Computed only on failure, because reflection takes milliseconds to print a function.
             if (!areEqual) fail("$function, trial $trial: expected $expected, found $found")
             if (expected.isSuccess && ++succeeded == 3) return
         }

@@ -6,7 +6,7 @@ import kotlin.reflect.KType
 import kotlin.reflect.KTypeParameter
 import kotlin.reflect.jvm.jvmErasure
 
-/** Makes values of types of Kotlin's library; equal seeds give equal values. Type parameters are `Int`, or what their bound says. */
+/** Makes values of types of Kotlin's library; equal seeds give equal values. Type parameters are `Int`, or their bound. */
 internal object RandomValues {
     fun of(type: KType, seed: Int): Any? = of(type, Random(seed))
 
@@ -96,7 +96,7 @@ internal object RandomValues {
 
     private data class Failure(val number: Int) : Exception("failure $number")
 
-    /** Gives one number for ever, so that it does not matter who asks first. */
+    /** Always returns the same number, so the order of the calls does not matter. */
     private class Constant(private val number: Int) : Random() {
         override fun nextBits(bitCount: Int) = number and (1 shl bitCount) - 1
     }

@@ -19,7 +19,7 @@ internal class StdlibFunctions(private val lifted: KClass<*>) {
     private val functions = HashMap<Method, KFunction<*>?>()
     private val candidates = HashMap<Pair<KClass<*>, String>, List<Pair<KCallable<*>, List<String>>>>()
 
-    /** What [function] of [lifted] does for one entry, given that entry's values of receiver and parameters. */
+    /** Returns the result of [function] of [lifted] for one entry, given that entry's values of receiver and parameters. */
     fun of(function: KFunction<*>): (List<Any?>) -> Any? {
         val types = types(function)
         val receiver = types.first().jvmErasure
@@ -44,7 +44,7 @@ internal class StdlibFunctions(private val lifted: KClass<*>) {
 
     private val isOfExtensions get() = lifted.simpleName.orEmpty().endsWith("Extensions")
 
-    /** The extensions of [receiver] whose name on the JVM begins with [name]: to find the Kotlin functions of all would take a minute. */
+    /** The extensions of [receiver] whose name on the JVM begins with [name]: resolving all Kotlin functions would take a minute. */
     private fun extensions(receiver: KClass<*>, name: String): List<KCallable<*>> {
         val file = lifted.simpleName.orEmpty().removePrefix("Fielded").removeSuffix("Extensions")
         return Class.forName("kotlin.collections.${file}Kt").methods

@@ -68,7 +68,7 @@ class CompileServerTest {
 
         for ((wrong, message) in listOf(
             listOf("--jar") to "--jar needs a value",
-            emptyList<String>() to "one --jar is needed",
+            emptyList<String>() to "exactly one --jar is required",
             words() + listOf("--colour", "red") to "unknown option --colour",
         )) {
             val answer = ask(wrong)

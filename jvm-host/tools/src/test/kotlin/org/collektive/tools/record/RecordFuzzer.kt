@@ -22,7 +22,7 @@ internal object RecordFuzzer {
         run(bytes)
     }
 
-    /** Reads it; the number of steps, or -1 when it is refused or damaged. */
+    /** Reads the record. Returns the number of steps, or -1 if it is rejected or damaged. */
     fun run(bytes: ByteArray): Int {
         file.writeBytes(sealed(bytes))
         return try {
@@ -36,7 +36,7 @@ internal object RecordFuzzer {
         }
     }
 
-    /** [bytes] with the right checksum in each chunk that is whole. */
+    /** [bytes] with the correct checksum in each complete chunk. */
     fun sealed(bytes: ByteArray): ByteArray {
         val sealed = bytes.copyOf()
         val record = ByteBuffer.wrap(sealed).order(ByteOrder.LITTLE_ENDIAN)

@@ -129,7 +129,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return received.map { if (it.id == best.id) choice.returned else taken }
     }
 
-    /** The choice among what was [received]. Takes over the [former] round's when the offers are the same, without comparing paths. */
+    /** Returns the choice among the [received] offers. If they are unchanged, reuses the [former] choice without comparing paths. */
     private fun choose(received: Field<ID, PathValue<ID, V, D>?>, former: Choice<ID, V, D>?): Choice<ID, V, D> {
         val settled = former?.takeIf { it.isAmong(received) }
         val offers = if (settled != null) settled.offers else offers(received)
@@ -141,8 +141,8 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     }
 
     /**
-     * Whether this is the choice among what was [received] too: the same offers. Values are compared by identity: settled devices of this
-     * process send the same object. Makes no offers, as a settled network asks in each round.
+     * Whether this choice was made among the same offers as those [received]. Compares values by identity, because settled devices of this
+     * process send the same object. Creates no [Offer]s, because a settled network calls it in each round.
      */
     private fun Choice<ID, V, D>.isAmong(received: Field<ID, PathValue<ID, V, D>?>): Boolean {
         if (maxDiameter != this@GradientCast.maxDiameter || offers.size != received.neighborCount) return false
@@ -169,7 +169,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return offers
     }
 
-    /** The nearest coherent one of the [offers] that were not yet considered, the first one of several; `null` without one. */
+    /** The nearest coherent one of the [offers] not yet considered, the first on ties; `null` if none is left. */
     private fun nextCoherent(offers: List<Offer<ID, V, D>>, myself: ID): Offer<ID, V, D>? {
         while (true) {
             var nearest: Offer<ID, V, D>? = null
@@ -233,8 +233,8 @@ private class Choice<ID : Any, V, D : Comparable<D>>(
 )
 
 /**
- * The offer of the neighbour [id], which is [step] away: [value], or nothing; [distance] is from the source, or the neighbour, to here: the
- * [sum], limited.
+ * The offer of the neighbour [id], which is [step] away. [value] is `null` if it offers nothing. [distance] is the limited [sum]: the
+ * distance from the source, or from the neighbour if it offers nothing, to this device.
  */
 private class Offer<ID : Any, V, D : Comparable<D>>(
     val id: ID,

@@ -67,7 +67,11 @@ class GradientCastTest {
     fun `a source that does not list itself still receives from the others`() {
         val swarm = Swarm(3).line(1.0, 1.0)
         val seen = swarm.rounds(4) { multiIntGradientCast(if (localId == 1) listOf(0) else listOf(0, 2), localId) }
-        assertEquals(mapOf(0 to mapOf(0 to 0, 2 to 0), 1 to mapOf(0 to 0), 2 to mapOf(0 to 0, 2 to 2)), seen, "1 passes nothing of 2 on")
+        assertEquals(
+            mapOf(0 to mapOf(0 to 0, 2 to 0), 1 to mapOf(0 to 0), 2 to mapOf(0 to 0, 2 to 2)),
+            seen,
+            "device 1 forwards no data of device 2",
+        )
     }
 
     @Test

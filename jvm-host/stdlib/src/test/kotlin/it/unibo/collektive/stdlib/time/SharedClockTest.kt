@@ -38,7 +38,7 @@ class SharedClockTest {
     }
 
     @Test
-    fun `a device that comes later waits from then on`() {
+    fun `a device that joins later starts its wait when it joins`() {
         val swarm = Swarm(2).line(1.0)
         var seen = emptyMap<Int, Duration>()
         for (second in 0 until 6) seen = swarm.round { sharedTimeLeftTo(at(second), 10.seconds) }

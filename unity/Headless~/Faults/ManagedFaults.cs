@@ -7,7 +7,7 @@ using UnityEngine;
 namespace Collektive.Headless.Faults
 {
     /// <summary>Faults in C# and in native libraries.</summary>
-    internal static class Acts
+    internal static class ManagedFaults
     {
         private const int SegmentationFault = 11;
         private const int KillSignal = 9;
