@@ -73,7 +73,7 @@ enum clk_error {
 #undef CLK_X
 };
 
-/* Returned instead of an error by clk_step and clk_step_wait: the step has not ended. */
+/* Returned instead of an error by clk_session_open, clk_step and clk_session_wait: the call has not ended. */
 #define CLK_PENDING 1
 
 enum clk_jvm_state {
@@ -188,7 +188,8 @@ typedef struct clk_answer {
 } clk_answer;
 
 /* Opens a session, with the request frame in the caller's slot. Sets `session` and `answer` on CLK_OK; otherwise no session was opened.
- * Returns CLK_MEMORY when 256 sessions are open. See clk_step for other errors. */
+ * Returns CLK_MEMORY when 256 sessions are open, and CLK_PENDING, with `session` set, if a debugger stops the JVM. See clk_step for other
+ * errors. */
 CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session, clk_answer *answer);
 
 /* Steps a session, with the request frame in the caller's slot. After an error the session is as it was before the call, except after
@@ -196,12 +197,12 @@ CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, 
  * is never reused: release the slot and acquire another. */
 CLK_API int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_answer *answer);
 
-/* Waits at most wait_ms, which may be 0, for a step that is pending, and returns its result or CLK_PENDING.
+/* Waits at most wait_ms, which may be 0, for an open or step that is pending, and returns its result or CLK_PENDING.
  *
- * Limits exclude the time while a debugger is attached to the JVM. A step that takes 100 ms then returns CLK_PENDING, so that the caller is not
- * blocked while the debugger stops the JVM. Until the step has ended, its slot stays in use, and all calls that need the engine thread return
- * CLK_TIMEOUT, except this one, clk_session_close and clk_jvm_stop. clk_session_open waits for the debugger, clk_control for 1 s. */
-CLK_API int32_t clk_step_wait(clk_session session, int32_t wait_ms, clk_answer *answer);
+ * Limits exclude the time while a debugger is attached to the JVM. An open or step that takes 100 ms then returns CLK_PENDING, so that the
+ * caller is not blocked while the debugger stops the JVM. Until it has ended, its slot stays in use, and all calls that need the engine thread
+ * return CLK_TIMEOUT, except this one, clk_session_close and clk_jvm_stop. clk_control waits for the debugger for 1 s. */
+CLK_API int32_t clk_session_wait(clk_session session, int32_t wait_ms, clk_answer *answer);
 
 /* Closes a session and releases its answer. If a debugger stops the JVM, the host closes the session later. Returns CLK_HANDLE if it is already
  * closed. */

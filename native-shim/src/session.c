@@ -12,8 +12,8 @@
 
 #define MAX_SESSIONS 256
 #define FIRST_ANSWER_BYTES (64 * 1024)
-#define DEBUG_STEP_MS 100  /* until a step is pending, if a debugger is attached */
-#define DEBUG_CALL_MS 1000 /* until other calls give up */
+#define DEBUG_CALL_MS 100   /* until an open or step is pending, if a debugger is attached */
+#define DEBUG_LIMIT_MS 1000 /* until other calls give up */
 
 struct session {
     uint32_t generation; /* 0 before the first use */
@@ -114,7 +114,7 @@ static int32_t work_call(void) { return sessions.call.entry == HOST_CLOSE ? host
  * a debugger postpones, the JVM is lost. */
 static int32_t await_call(int64_t until) {
     for (int64_t end = until;;) {
-        int64_t longest = prim_now() + DEBUG_STEP_MS * PRIM_MILLI; /* a debugger may attach meanwhile */
+        int64_t longest = prim_now() + DEBUG_CALL_MS * PRIM_MILLI; /* a debugger may attach meanwhile */
         if (end > longest) end = longest;
         int32_t result = child_is_used() ? child_await(&sessions.call, end) : engine_await(end);
         if (result != CLK_TIMEOUT) return result;
@@ -130,13 +130,17 @@ static int32_t await_call(int64_t until) {
     return engine_check_running();
 }
 
-/* Runs sessions.call, which the host should end by the deadline. CLK_PENDING if a debugger has stopped it, and `until` has passed. */
-static int32_t run(int64_t deadline, int64_t until) {
+/* Runs sessions.call for a session, which the host should end by the deadline. CLK_PENDING if a debugger has stopped it. */
+static int32_t run(struct session *session, int64_t deadline) {
+    int64_t now = prim_now();
+    bool may_wait = sessions.call.entry == HOST_OPEN || sessions.call.entry == HOST_STEP;
     sessions.deadline = deadline + SESSION_GRACE_MS * PRIM_MILLI;
-    sessions.limit = sessions.deadline - prim_now();
+    sessions.limit = sessions.deadline - now;
     if (sessions.call.entry == HOST_STEP) atomic_fetch_add_explicit(&sessions.steps, 1, memory_order_relaxed);
     int32_t result = child_is_used() ? child_begin(&sessions.call) : engine_begin(work_call);
-    return result == CLK_OK ? await_call(until) : result;
+    if (result == CLK_OK) result = await_call(now + (may_wait ? DEBUG_CALL_MS : DEBUG_LIMIT_MS) * PRIM_MILLI);
+    if (result == CLK_PENDING) sessions.caller = session;
+    return result;
 }
 
 /* Exchanges the answer's block. The old one is still in use. */
@@ -184,7 +188,7 @@ static int32_t call_host(enum host_entry entry, struct session *session, clk_slo
         slots_unpin(request);
         return CLK_HANDLE;
     }
-    int64_t now = prim_now(), left_ms = (deadline - now + PRIM_MILLI - 1) / PRIM_MILLI;
+    int64_t left_ms = (deadline - prim_now() + PRIM_MILLI - 1) / PRIM_MILLI;
     sessions.call = (struct host_call){.entry = entry,
                                        .session = session_handle(session),
                                        .request = request,
@@ -194,18 +198,15 @@ static int32_t call_host(enum host_entry entry, struct session *session, clk_slo
                                        .answer = own,
                                        .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms,
                                        .grow = grow_answer};
-    int64_t until = now + (entry == HOST_STEP ? DEBUG_STEP_MS : DEBUG_CALL_MS) * PRIM_MILLI;
-    int32_t result = run(deadline, entry == HOST_OPEN ? INT64_MAX : until);
-    if (result == CLK_PENDING) sessions.caller = session;
+    int32_t result = run(session, deadline);
     return result == CLK_PENDING ? result : end_call(result, answer);
 }
 
 /* Closes a session in the host. If a debugger has stopped the JVM, a later call completes it. */
 static int32_t close_session(struct session *session, int64_t deadline) {
     sessions.call = (struct host_call){.entry = HOST_CLOSE, .session = session_handle(session)};
-    int32_t result = run(deadline, prim_now() + DEBUG_CALL_MS * PRIM_MILLI);
+    int32_t result = run(session, deadline);
     if (result == CLK_PENDING) {
-        sessions.caller = session;
         session_mark_closing(session);
         return CLK_OK;
     }
@@ -223,7 +224,7 @@ static int32_t settle(int64_t deadline) {
         }
         sessions.caller = NULL;
         if (end_call(result, NULL) == CLK_JVM_LOST) return result;
-        if (sessions.call.entry == HOST_CLOSE) {
+        if (sessions.call.entry == HOST_CLOSE || (sessions.call.entry == HOST_OPEN && result != CLK_OK)) {
             session_release(session);
         } else if (session->closing) {
             close_session(session, deadline);
@@ -264,7 +265,7 @@ int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t 
     result = session_take(&taken);
     if (result == CLK_OK) {
         result = call_host(HOST_OPEN, taken, slot, offset, length, deadline, answer);
-        if (result == CLK_OK) {
+        if (result >= CLK_OK) {
             *session = session_handle(taken);
         } else if (result != CLK_JVM_LOST) {
             session_release(taken);
@@ -285,7 +286,7 @@ int32_t clk_step(clk_session session, clk_slot slot, int32_t offset, int32_t len
     return result;
 }
 
-int32_t clk_step_wait(clk_session session, int32_t wait_ms, clk_answer *answer) {
+int32_t clk_session_wait(clk_session session, int32_t wait_ms, clk_answer *answer) {
     if (wait_ms < 0) return error_set(CLK_ARGUMENT, "wait_ms is %d; it must be 0 or greater", wait_ms);
     if (check_call(0, 0, 1, answer) != CLK_OK) return CLK_ARGUMENT;
     int64_t until = prim_now() + wait_ms * PRIM_MILLI;
@@ -295,12 +296,13 @@ int32_t clk_step_wait(clk_session session, int32_t wait_ms, clk_answer *answer) 
     if (found == NULL) {
         result = CLK_HANDLE;
     } else if (sessions.caller != found) {
-        result = error_set(CLK_ARGUMENT, "the session has no pending step; call clk_step first");
+        result = error_set(CLK_ARGUMENT, "the session has no pending call; call clk_step first");
     } else {
         result = await_call(until);
         if (result != CLK_PENDING) {
             sessions.caller = NULL;
             end_call(result, answer);
+            if (sessions.call.entry == HOST_OPEN && result != CLK_OK && result != CLK_JVM_LOST) session_release(found);
         }
     }
     engine_leave();

@@ -151,10 +151,12 @@ static void write_request(enum command command, int32_t argument) {
     memcpy(request_memory.address, words, sizeof words);
 }
 
-int32_t open_session(clk_session *session) {
-    write_request(EMPTY, 0);
+int32_t open_with(clk_session *session, enum command command, int32_t argument) {
+    write_request(command, argument);
     return clk_session_open(request, 0, 8, 60000, session, &answer);
 }
+
+int32_t open_session(clk_session *session) { return open_with(session, EMPTY, 0); }
 
 int32_t step(clk_session session, enum command command, int32_t argument, int32_t limit_ms) {
     write_request(command, argument);

@@ -47,7 +47,7 @@ void start_plain(void);
 enum command {
     EMPTY, ECHO, GROW, THROW, FAIL, FAIL_SILENTLY, EXIT, HALT, SLEEP, OVERFLOW, EXHAUST, LOG, HANG, CRASH, OUTSIDE, GROW_FOREIGN,
     STAY, EXIT_ELSEWHERE, IMPLICIT_NULL, GROW_TOO_LARGE, HANG_AT_STOP, WRITE_AT_EXIT, THRASH, DEBUG, CRASH_LATER,
-    OVERFLOW_NATIVELY, DEBUG_LATER
+    OVERFLOW_NATIVELY, DEBUG_LATER, THROW_LATER
 };
 /* clang-format on */
 
@@ -56,6 +56,7 @@ extern clk_slot request;
 extern clk_memory request_memory;
 extern clk_answer answer;
 int32_t open_session(clk_session *session);
+int32_t open_with(clk_session *session, enum command command, int32_t argument);
 int32_t step(clk_session session, enum command command, int32_t argument, int32_t limit_ms);
 
 uint64_t random_next(void); /* per thread, from its seed */
@@ -91,7 +92,8 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(stop_times_out) X(stop_while_the_start_hangs) X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
     X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults) \
     X(calls_in_any_order) \
-    X(debugged_steps_are_pending) X(debugged_session_is_closed) X(debugged_jvm_is_lost) X(debugged_jvm_is_stopped) X(debugging_has_no_limit) \
+    X(debugged_steps_are_pending) X(debugged_open_is_pending) X(debugged_open_fails) X(debugged_open_is_closed) \
+    X(debugged_session_is_closed) X(debugged_jvm_is_lost) X(debugged_jvm_is_stopped) X(debugging_has_no_limit) \
     X(own_survives_kills) X(own_ends_with_its_parent) X(own_with_a_bad_launcher) X(own_without_resources) X(own_without_processes) X(own_out_of_memory) \
     X(own_needs_no_shared_memory_folder) X(own_continues_after_a_suspension) X(own_with_older_slots) \
     X(own_changes_options) X(own_reports_its_death_at_once)

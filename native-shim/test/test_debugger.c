@@ -6,16 +6,16 @@
 
 static clk_session session;
 
-static int32_t wait_for_step(void) {
+static int32_t wait_for_call(void) {
     int32_t result;
-    while ((result = clk_step_wait(session, 0, &answer)) == CLK_PENDING) sleep_ms(1);
+    while ((result = clk_session_wait(session, 0, &answer)) == CLK_PENDING) sleep_ms(1);
     return result;
 }
 
 /* On a busy machine, any step may be pending. */
 static int32_t whole_step(enum command command, int32_t argument) {
     int32_t result = step(session, command, argument, 60000);
-    return result == CLK_PENDING ? wait_for_step() : result;
+    return result == CLK_PENDING ? wait_for_call() : result;
 }
 
 /* Returns CLK_PENDING from a step that a debugger stops. */
@@ -37,25 +37,66 @@ void debugged_steps_are_pending(void) {
     clk_memory memory = {.size = sizeof memory};
     start_with_session();
     CHECK_OK(step(session, SLEEP, 300, 60000)); /* without a debugger */
-    CHECK_CODE(CLK_ARGUMENT, "no pending step", clk_step_wait(session, 0, &answer));
+    CHECK_CODE(CLK_ARGUMENT, "no pending call", clk_session_wait(session, 0, &answer));
     CHECK_CODE(CLK_PENDING, NULL, step_stopped());
-    CHECK_CODE(CLK_PENDING, NULL, clk_step_wait(session, 10, &answer));
+    CHECK_CODE(CLK_PENDING, NULL, clk_session_wait(session, 10, &answer));
     CHECK_CODE(CLK_TIMEOUT, "continue the program", step(session, EMPTY, 0, 60000));
     CHECK_CODE(CLK_TIMEOUT, "continue the program", open_session(&other));
     CHECK_CODE(CLK_TIMEOUT, "continue the program", clk_control(request, 0, 8, 60000, &answer));
     CHECK_CODE(CLK_ARGUMENT, "in use", clk_slot_grow(request, request_memory.capacity * 2, 0, &memory));
-    CHECK_CODE(CLK_ARGUMENT, "wait_ms is -1", clk_step_wait(session, -1, &answer));
-    CHECK_CODE(CLK_HANDLE, NULL, clk_step_wait(session + 1, 0, &answer));
-    CHECK_OK(wait_for_step());
+    CHECK_CODE(CLK_ARGUMENT, "wait_ms is -1", clk_session_wait(session, -1, &answer));
+    CHECK_CODE(CLK_HANDLE, NULL, clk_session_wait(session + 1, 0, &answer));
+    CHECK_OK(wait_for_call());
     CHECK(answer.length == 0 && stats().steps == 3);
-    CHECK_CODE(CLK_ARGUMENT, "no pending step", clk_step_wait(session, 0, &answer));
+    CHECK_CODE(CLK_ARGUMENT, "no pending call", clk_session_wait(session, 0, &answer));
     CHECK_OK(whole_step(GROW, 1 << 20));
     CHECK(answer.length == 1 << 20);
     /* The debugger detaches, and attaches again in a step. */
     CHECK_OK(whole_step(DEBUG, 0));
     CHECK_OK(step(session, SLEEP, 300, 60000));
     CHECK_CODE(CLK_PENDING, NULL, step(session, DEBUG_LATER, 400, 60000));
-    CHECK_OK(wait_for_step());
+    CHECK_OK(wait_for_call());
+}
+
+/* Begins to open `session` with a command that a debugger stops for a while. */
+static void open_stopped(enum command command, int32_t argument) {
+    clk_session first;
+    start_plain();
+    CHECK_OK(open_session(&first));
+    CHECK(step(first, DEBUG, 1, 60000) >= CLK_OK);
+    while (clk_session_wait(first, 100, &answer) == CLK_PENDING) {
+    }
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_PENDING, NULL, open_with(&session, command, argument));
+    CHECK(now_ns() - begin < STOPPED_MS * 1000000L && stats().sessions == 2);
+    CHECK_CODE(CLK_TIMEOUT, "continue the program", step(first, EMPTY, 0, 60000));
+}
+
+void debugged_open_is_pending(void) {
+    open_stopped(SLEEP, STOPPED_MS);
+    CHECK_CODE(CLK_TIMEOUT, "continue the program", step(session, EMPTY, 0, 60000));
+    CHECK_OK(wait_for_call());
+    CHECK_OK(whole_step(GROW, 1 << 20));
+    CHECK_OK(clk_session_close(session, 60000));
+    CHECK(stats().sessions == 1);
+}
+
+void debugged_open_fails(void) {
+    open_stopped(THROW_LATER, STOPPED_MS);
+    CHECK_CODE(CLK_JAVA, "thrown in the host", wait_for_call());
+    CHECK(stats().sessions == 1);
+    CHECK_CODE(CLK_HANDLE, NULL, clk_session_wait(session, 0, &answer));
+    CHECK_CODE(CLK_HANDLE, NULL, clk_session_close(session, 60000));
+    CHECK_OK(open_session(&session));
+}
+
+void debugged_open_is_closed(void) {
+    open_stopped(SLEEP, STOPPED_MS);
+    CHECK_OK(clk_session_close(session, 60000));
+    CHECK(stats().sessions == 1);
+    sleep_ms(STOPPED_MS);
+    CHECK_OK(open_session(&session));
+    CHECK(stats().sessions == 2 && stats().slots == 3);
 }
 
 void debugged_session_is_closed(void) {
@@ -65,7 +106,7 @@ void debugged_session_is_closed(void) {
     CHECK_OK(clk_session_close(session, 60000));
     CHECK(stats().sessions == 0);
     CHECK_CODE(CLK_HANDLE, "already closed", clk_session_close(session, 60000));
-    CHECK_CODE(CLK_HANDLE, "already closed", clk_step_wait(session, 0, &answer));
+    CHECK_CODE(CLK_HANDLE, "already closed", clk_session_wait(session, 0, &answer));
     CHECK_OK(clk_slot_release(request));
     CHECK_OK(clk_slot_acquire(100, &request, &request_memory));
     CHECK_CODE(CLK_TIMEOUT, "a debugger has stopped the JVM", open_session(&other));
@@ -79,9 +120,9 @@ void debugged_session_is_closed(void) {
 void debugged_jvm_is_lost(void) {
     start_with_session();
     CHECK_CODE(CLK_PENDING, NULL, step_stopped());
-    CHECK_OK(wait_for_step());
+    CHECK_OK(wait_for_call());
     CHECK_CODE(CLK_PENDING, NULL, step(session, CRASH_LATER, STOPPED_MS, 10));
-    CHECK_CODE(CLK_JVM_LOST, "crash", wait_for_step());
+    CHECK_CODE(CLK_JVM_LOST, "crash", wait_for_call());
     if (placement == CLK_IN_PROCESS) return;
     start_plain();
     CHECK_OK(open_session(&session));
@@ -103,5 +144,5 @@ void debugging_has_no_limit(void) {
     start_with_session();
     CHECK_OK(whole_step(DEBUG, 1));
     CHECK_CODE(CLK_PENDING, NULL, step(session, SLEEP, 11000, 10));
-    CHECK_OK(wait_for_step());
+    CHECK_OK(wait_for_call());
 }

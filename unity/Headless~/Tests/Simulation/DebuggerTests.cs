@@ -125,8 +125,7 @@ namespace Collektive.Headless.Tests.Simulation
                 Play(1);
                 Assert.That(Manager.Failure, Is.StringContaining("a debugger has stopped the JVM; continue the program"));
                 debugger.Continue();
-                var limit = Stopwatch.StartNew();
-                while (Jvm.TryGetStatus() == null && limit.ElapsedMilliseconds < LimitMs) Thread.Sleep(20);
+                AwaitJvm();
                 RestartPlay();
                 MakeRow();
                 Await(() => Manager.Tick >= 5);
@@ -148,6 +147,52 @@ namespace Collektive.Headless.Tests.Simulation
             Await(() => !Manager.Simulation.IsPending);
             Play(5);
             Assert.That(Errors, Is.Empty);
+        }
+
+        [TestCase("stop in")]
+        [TestCase("stop thread in")]
+        public void Frames_go_on_at_a_breakpoint_in_the_opening(string stop)
+        {
+            MakeRow();
+            Play(3);
+            RestartPlay();
+            MakeRow();
+            using (var debugger = new Jdb(Port, "org.collektive.host.Host.open"))
+            {
+                Stop(debugger, stop);
+                var frame = Time.frameCount;
+                Await(() => Log.Contains("JVM stopped by the debugger in the opening of the session: continue the program there"));
+                Assert.That(Time.frameCount - frame, Is.GreaterThan(30));
+                Assert.That(Manager.Tick, Is.EqualTo(0));
+                Assert.That(Dashboard.State(Manager), Is.EqualTo("JVM stopped by the debugger"));
+                debugger.Continue();
+                Await(() => Manager.Tick >= 5);
+            }
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Play_can_end_at_a_breakpoint_in_the_opening()
+        {
+            MakeRow();
+            Play(3);
+            RestartPlay();
+            MakeRow();
+            using (var debugger = new Jdb(Port, "org.collektive.host.Host.open"))
+            {
+                Stop(debugger, "stop in");
+                var clock = Stopwatch.StartNew();
+                StopPlaying();
+                Assert.That(clock.ElapsedMilliseconds, Is.LessThan(2000));
+                Assert.That(Log.Any(line => line.StartsWith("the opening of the session was not completed")), Is.True);
+                debugger.Continue();
+                AwaitJvm();
+                RestartPlay();
+                MakeRow();
+                Await(() => Manager.Tick >= 5);
+            }
+            Assert.That(Errors, Is.Empty);
+            Assert.That(ShimCounts.Sessions, Is.EqualTo(1));
         }
 
         [Test]
@@ -190,7 +235,13 @@ namespace Collektive.Headless.Tests.Simulation
             StartWithDebugPort();
         }
 
-        /// <summary>Plays until a round is at the breakpoint.</summary>
+        private static void AwaitJvm()
+        {
+            var clock = Stopwatch.StartNew();
+            while (Jvm.TryGetStatus() == null && clock.ElapsedMilliseconds < LimitMs) Thread.Sleep(20);
+        }
+
+        /// <summary>Plays until the JVM is at the breakpoint.</summary>
         private void Stop(Jdb debugger, string command)
         {
             debugger.Break(command);
@@ -219,19 +270,19 @@ namespace Collektive.Headless.Tests.Simulation
             return port;
         }
 
-        /// <summary>The JDK's debugger, with a breakpoint in the probe program `sum`.</summary>
+        /// <summary>The JDK's debugger, with a breakpoint in the probe program `sum` or another method.</summary>
         private sealed class Jdb : IDisposable
         {
-            private const string Place = "probe.ProbeKt.sum";
-
             private readonly Process process;
+            private readonly string place;
             private readonly List<string> output = new List<string>();
             private string stop = "";
             private volatile bool isContinued;
             private bool isClosed;
 
-            internal Jdb(int port)
+            internal Jdb(int port, string place = "probe.ProbeKt.sum")
             {
+                this.place = place;
                 process = Process.Start(new ProcessStartInfo(TestJvm.Home + "/bin/jdb", "-attach 127.0.0.1:" + port)
                 {
                     UseShellExecute = false, RedirectStandardInput = true, RedirectStandardOutput = true,
@@ -244,12 +295,12 @@ namespace Collektive.Headless.Tests.Simulation
                 process.BeginOutputReadLine();
             }
 
-            /// <summary>Sets the breakpoint, which a node's round soon reaches.</summary>
+            /// <summary>Sets the breakpoint, which the JVM soon reaches.</summary>
             internal void Break(string command)
             {
                 stop = command;
-                Send(command + " " + Place);
-                AwaitLine("breakpoint " + Place);
+                Send(command + " " + place);
+                AwaitLine("breakpoint " + place);
             }
 
             internal void Continue()
@@ -257,7 +308,7 @@ namespace Collektive.Headless.Tests.Simulation
                 AwaitLine("Breakpoint hit");
                 // It clears one of the breakpoints if classes of earlier sessions are still loaded.
                 isContinued = true;
-                Send("clear " + Place);
+                Send("clear " + place);
                 Resume();
             }
 

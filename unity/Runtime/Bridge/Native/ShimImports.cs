@@ -50,7 +50,7 @@ namespace Collektive.Bridge
             ulong session, ulong slot, int offset, int length, int limitMs, Answer* answer);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern int clk_step_wait(ulong session, int waitMs, Answer* answer);
+        internal static extern int clk_session_wait(ulong session, int waitMs, Answer* answer);
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int clk_session_close(ulong session, int limitMs);

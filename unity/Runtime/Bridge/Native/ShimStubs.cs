@@ -34,7 +34,7 @@ namespace Collektive.Bridge
 
         internal static int clk_step(ulong session, ulong slot, int offset, int length, int limitMs, Answer* answer) => Unsupported;
 
-        internal static int clk_step_wait(ulong session, int waitMs, Answer* answer) => Unsupported;
+        internal static int clk_session_wait(ulong session, int waitMs, Answer* answer) => Unsupported;
 
         internal static int clk_session_close(ulong session, int limitMs) => Unsupported;
 

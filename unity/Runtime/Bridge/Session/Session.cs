@@ -13,6 +13,7 @@ namespace Collektive.Bridge
     {
         private const int FirstCapacity = 64 * 1024;
         private const int ForgottenLimitMs = 1000;
+        private const int OpeningWaitMs = 1000;
 
         /// <summary>Simulated times are multiples of a nanosecond.</summary>
         private const int TimeDecimals = 9;
@@ -23,6 +24,7 @@ namespace Collektive.Bridge
         private readonly ByteBuffer answerBuffer;
         private readonly int closeLimitMs;
         private double pendingDelta;
+        private bool isPending;
         private ulong handle;
 
         private Session(SessionSettings settings, DataSchema schema)
@@ -35,7 +37,7 @@ namespace Collektive.Bridge
             builder = new FlatBufferBuilder(new ByteBuffer(slot, 0));
         }
 
-        /// <summary>The programs in the session's jars.</summary>
+        /// <summary>The programs in the session's jars; null until the session is open.</summary>
         public IReadOnlyList<ProgramInfo> Programs { get; private set; }
 
         /// <summary>The request of the next step.</summary>
@@ -50,9 +52,19 @@ namespace Collektive.Bridge
         /// <summary>Simulated seconds at the end of the last tick.</summary>
         public double Time { get; private set; }
 
-        /// <summary>Opens a session on the running JVM.</summary>
+        /// <summary>Opens a session on the running JVM. Waits while a debugger stops the JVM.</summary>
         /// <exception cref="BridgeException">A jar, a program or the schema does not fit, or no JVM runs.</exception>
         public static Session Open(SessionSettings settings, DataSchema schema)
+        {
+            var session = BeginOpen(settings, schema);
+            while (!session.TryFinish(OpeningWaitMs))
+            {
+            }
+            return session;
+        }
+
+        /// <summary>As <see cref="Open"/>, but while a debugger is attached, the session may be open only after <see cref="TryFinish"/>.</summary>
+        public static Session BeginOpen(SessionSettings settings, DataSchema schema)
         {
             var session = new Session(settings, schema);
             try
@@ -86,16 +98,38 @@ namespace Collektive.Bridge
             return TryTake(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer), answer);
         }
 
-        /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for a step that has not ended. Returns and throws as <see cref="Step"/>.</summary>
+        /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for an opening or a step that has not ended.</summary>
+        /// <returns>Whether it has ended, or none was pending.</returns>
+        /// <exception cref="BridgeException">It failed. A session that did not open has ended.</exception>
         public bool TryFinish(int waitMs)
         {
+            if (!isPending) return true;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
-            return TryTake(Shim.clk_step_wait(handle, waitMs, &answer), answer);
+            var code = Shim.clk_session_wait(handle, waitMs, &answer);
+            if (Programs != null) return TryTake(code, answer);
+            if (code < 0)
+            {
+                handle = 0;
+                slot.Release();
+            }
+            return TryTakeOpening(code, answer);
+        }
+
+        private bool TryTakeOpening(int code, Shim.Answer answer)
+        {
+            isPending = code == Shim.Pending;
+            if (isPending) return false;
+            Shim.Check(code);
+            Point(answer);
+            var response = Frame.OpenResponse.GetRootAsOpenResponse(answerBuffer);
+            Programs = ReadPrograms(response.ProgramsLength, i => response.Programs(i).GetValueOrDefault());
+            return true;
         }
 
         private bool TryTake(int code, Shim.Answer answer)
         {
-            if (code == Shim.Pending) return false;
+            isPending = code == Shim.Pending;
+            if (isPending) return false;
             Shim.Check(code);
             Tick++;
             // Without the rounding errors of the sum.
@@ -144,13 +178,11 @@ namespace Collektive.Bridge
             settings.Write(builder, schema);
             var offset = builder.DataBuffer.Position;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
-            ulong opened;
-            Shim.Check(Shim.clk_session_open(
-                slot.Slot, offset, builder.DataBuffer.Length - offset, settings.OpenLimitMs, &opened, &answer));
+            ulong opened = 0;
+            var code = Shim.clk_session_open(
+                slot.Slot, offset, builder.DataBuffer.Length - offset, settings.OpenLimitMs, &opened, &answer);
             handle = opened;
-            Point(answer);
-            var response = Frame.OpenResponse.GetRootAsOpenResponse(answerBuffer);
-            Programs = ReadPrograms(response.ProgramsLength, i => response.Programs(i).GetValueOrDefault());
+            TryTakeOpening(code, answer);
         }
 
         private static ProgramInfo[] ReadPrograms(int count, Func<int, Frame.ProgramInfo> read)

@@ -8,16 +8,16 @@ namespace Collektive.Unity
     {
         private const int StopLimitMs = 5000;
 
-        /// <summary>Checks the settings, starts the JVM if none runs, and opens a session on it.</summary>
+        /// <summary>Checks the settings, starts the JVM if none runs, and begins to open a session on it.</summary>
         /// <param name="context">What a click on a message selects.</param>
         /// <exception cref="BridgeException">The settings are wrong, or the JVM or the session did not start.</exception>
-        internal static Session Open(SimulationSettings settings, Object context)
+        internal static Session Begin(SimulationSettings settings, Object context)
         {
             var problem = Jvm.FindProblem() ?? settings.FindProblem() ?? settings.FindLibraryProblem();
             if (problem != null) throw new BridgeException(BridgeError.Argument, problem);
             var schema = Schemas.Find(settings.SchemaName);
             StartJvm(settings.jvm == null ? new JvmSettings() : settings.jvm.settings, context);
-            return Session.Open(settings.ToSession(), schema);
+            return Session.BeginOpen(settings.ToSession(), schema);
         }
 
         /// <summary>Stops a JVM in a separate process after its session, unless the settings keep it.</summary>

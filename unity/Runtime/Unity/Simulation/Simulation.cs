@@ -32,6 +32,7 @@ namespace Collektive.Unity
         private bool isTicking;
         private bool isReloadRequested;
         private bool isStopReported;
+        private long pendingSince;
         private (long Start, long RulesEnd, long SenseEnd) begun;
         private bool hasWarnedMovedCollider;
 
@@ -60,7 +61,9 @@ namespace Collektive.Unity
         /// <summary>Whether the session is open.</summary>
         internal bool IsOpen { get; private set; }
 
-        /// <summary>Whether a debugger stops the JVM in the tick in progress, which the next <see cref="TryTick"/> continues.</summary>
+        /// <summary>
+        /// Whether a debugger stops the JVM in the tick in progress, which the next <see cref="TryTick"/> continues, or in <see cref="TryOpen"/>.
+        /// </summary>
         internal bool IsPending { get; private set; }
 
         /// <summary>The error that ended the simulation, or an empty text.</summary>
@@ -148,18 +151,20 @@ namespace Collektive.Unity
         /// <summary>Id of the node whose sensor data has that index in <see cref="SensorData"/>.</summary>
         internal int DueId(int index) => due.Items[index].Id;
 
-        /// <summary>Starts the JVM if needed, and opens a session.</summary>
-        /// <returns>False if the simulation failed. It is not opened again, because each later frame would fail.</returns>
+        /// <summary>Starts the JVM if needed, and opens a session, or continues to open the one that is pending.</summary>
+        /// <returns>False if it is pending, or if the simulation failed. It is not opened again, because each later frame would fail.</returns>
         internal bool TryOpen()
         {
             try
             {
-                Log = new JvmLog(Manager);
-                session = SessionStart.Open(Settings, Manager);
-                IsOpen = true;
+                Log = Log ?? new JvmLog(Manager);
+                if (!IsPending) session = SessionStart.Begin(Settings, Manager);
+                Finish();
+                IsOpen = !IsPending;
             }
             catch (Exception error)
             {
+                IsPending = false;
                 Fail(error, "the start failed: ");
             }
             return IsOpen;
@@ -224,7 +229,7 @@ namespace Collektive.Unity
         internal void End()
         {
             for (var i = Nodes.Count - 1; i >= 0; i--) Remove(Nodes[i]);
-            if (IsPending) Debug.LogWarning("tick " + TickInProgress + " was not completed, because a debugger stops the JVM: continue the program there, "
+            if (IsPending) Debug.LogWarning(PendingCall + " was not completed, because a debugger stops the JVM: continue the program there, "
                 + "or detach the debugger, before the next Play", Manager);
             IsPending = false;
             IsOpen = false;
@@ -311,29 +316,45 @@ namespace Collektive.Unity
             begun.SenseEnd = Stopwatch.GetTimestamp();
         }
 
-        /// <summary>Makes the one call into the JVM. While a debugger stops the JVM, a batch run waits, and others draw frames.</summary>
+        /// <summary>Makes the one call into the JVM.</summary>
         private void Step()
         {
-            if (IsPending)
+            if (!IsPending)
             {
-                IsPending = !session.TryFinish(0);
-                ReportStop();
-                return;
+                session.Request.MeasuresMessages = MeasuresMessages;
+                session.Request.Measures = Measures;
+                session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
             }
-            session.Request.MeasuresMessages = MeasuresMessages;
-            session.Request.Measures = Measures;
-            IsPending = !session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
-            isStopReported = false;
-            while (IsPending && Application.isBatchMode) IsPending = !session.TryFinish(BatchWaitMs);
+            Finish();
         }
 
-        /// <summary>Not for a tick that is only slow.</summary>
-        private void ReportStop()
+        /// <summary>Ends the call. While a debugger stops the JVM, a batch run waits, and others draw frames.</summary>
+        private void Finish()
         {
-            if (isStopReported || !IsPending || Stopwatch.GetTimestamp() - begun.SenseEnd < ReportedStopSeconds * Stopwatch.Frequency) return;
-            isStopReported = true;
-            Debug.Log("JVM stopped by the debugger in tick " + TickInProgress + ": continue the program there", Manager);
+            var isNew = !IsPending;
+            var waitMs = Application.isBatchMode ? BatchWaitMs : 0;
+            do
+            {
+                IsPending = !session.TryFinish(waitMs);
+            }
+            while (IsPending && Application.isBatchMode);
+            if (IsPending) ReportStop(isNew);
         }
+
+        /// <summary>Not for a call that is only slow.</summary>
+        private void ReportStop(bool isNew)
+        {
+            if (isNew)
+            {
+                pendingSince = Stopwatch.GetTimestamp();
+                isStopReported = false;
+            }
+            if (isStopReported || Stopwatch.GetTimestamp() - pendingSince < ReportedStopSeconds * Stopwatch.Frequency) return;
+            isStopReported = true;
+            Debug.Log("JVM stopped by the debugger in " + PendingCall + ": continue the program there", Manager);
+        }
+
+        private string PendingCall => IsOpen ? "tick " + TickInProgress : "the opening of the session";
 
         /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>
         private void FlushChanges()

@@ -38,6 +38,7 @@ final class Host {
     private static final int CRASH_LATER = 24;
     private static final int OVERFLOW_NATIVELY = 25;
     private static final int DEBUG_LATER = 26;
+    private static final int THROW_LATER = 27;
 
     private static boolean stays;
     private static volatile boolean hangs;
@@ -75,6 +76,9 @@ final class Host {
                 return echo(request, offset + 8, length - 8, slot, answer);
             case GROW:
                 return grow(argument, slot, answer);
+            case THROW_LATER:
+                Thread.sleep(argument);
+                // falls through
             case THROW:
                 throw new IllegalStateException("thrown in the host: \u00E4\u20AC\uD83D\uDE80");
             case FAIL:
