@@ -1,6 +1,6 @@
 /*
  * The beginning of the memory that the process of the caller (the parent) shares with the JVM's own process (the child). Any number of blocks
- * of slots follow. One side at a time owns all fields except `debugged` and `log`: the child from `request` to `done`, otherwise the parent.
+ * of slots follow. One side at a time owns all fields except `state` and `log`: the child from `request` to `done`, otherwise the parent.
  *
  *   parent: fills in `call`                   posts `request`, waits for `done`
  *   child:  runs it, fills in the result      posts `done`, waits for `request`
@@ -32,17 +32,11 @@ struct channel {
     uint32_t version; /* CLK_VERSION; checked by the child, with the size */
     uint32_t size;
     prim_semaphore request, done;
-    struct {
-        int32_t entry; /* of enum host_entry; HOST_STOP uses only limit_ms */
-        int32_t offset, length, limit_ms;
-        uint64_t session, slot;
-        struct channel_block request, answer;
-    } call;
-    int32_t result; /* CLK_OK, an error with its text, or one of the values above */
-    int32_t answer_offset, answer_length;
+    struct host_call call; /* its pointers are valid only in the process that set them; HOST_STOP uses only limit_ms */
+    struct channel_block call_request, call_answer;
+    int32_t result;            /* CLK_OK, an error with its text, or one of the values above */
     int32_t capacity;          /* of CHANNEL_GROW */
-    uint64_t wrapped;          /* direct ByteBuffers created by this child */
-    atomic_bool debugged;      /* written by the child at any time; see host_share_debugged */
+    struct host_state state;   /* written by the child at any time */
     char text[ERROR_CAPACITY]; /* error, or the version after the start */
     struct log_ring log;       /* written by the child, read by the parent at any time */
 };

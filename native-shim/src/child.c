@@ -27,28 +27,17 @@ static struct {
     atomic_bool stopping;   /* the end of the child is expected */
     prim_semaphore started; /* posted when the child has started, or cannot start */
     prim_semaphore ended;   /* posted when the child has ended */
-    prim_once once;
-    prim_mutex killing; /* held to kill or reap `process` */
+    prim_mutex killing;     /* held to kill or reap `process` */
     prim_child process;
     _Atomic int32_t id;          /* 0 if the child could not start */
     char reason[ERROR_CAPACITY]; /* why it did not start, or how it ended */
-    _Atomic uint64_t wrapped;
-} child = {.once = PRIM_ONCE_INIT, .killing = PRIM_MUTEX_INIT};
-
-static void init(void) {
-    prim_semaphore_init(&child.started, 0);
-    prim_semaphore_init(&child.ended, 0);
-}
+} child = {.killing = PRIM_MUTEX_INIT};
 
 bool child_is_used(void) { return atomic_load_explicit(&child.used, memory_order_relaxed); }
 
 void child_use(bool used) { atomic_store(&child.used, used); }
 
 int32_t child_process(void) { return child_is_used() ? atomic_load(&child.id) : 0; }
-
-bool child_is_alive(void) { return atomic_load(&child.alive); }
-
-uint64_t child_wrapped(void) { return atomic_load_explicit(&child.wrapped, memory_order_relaxed); }
 
 /* ---- The child's thread ---------------------------------------------------------------------------------------------- */
 
@@ -83,8 +72,14 @@ static int reap(void) {
     return status;
 }
 
-void child_announce(void) {
+static void announce(void) {
     if (engine_state() == CLK_STATE_RUNNING && !atomic_load(&child.stopping)) engine_lose("%s", child.reason);
+}
+
+bool child_is_alive(void) {
+    bool alive = atomic_load(&child.alive);
+    if (!alive) announce();
+    return alive;
 }
 
 /* Announces the loss before `alive` changes, so that a call that finds the child dead finds the reason, and again after that, because the start
@@ -98,9 +93,9 @@ static void child_main(void) {
     if (!launched) return;
     while (prim_child_read(&child.process, INT64_MAX, output, sizeof output)) log_jvm_text(CLK_LOG_INFO, output);
     describe_end(reap());
-    child_announce();
+    announce();
     atomic_store(&child.alive, false);
-    child_announce();
+    announce();
     prim_semaphore_post(&child.channel->done);
     prim_semaphore_post(&child.ended);
 }
@@ -151,8 +146,7 @@ static void reset_channel(void) {
     prim_semaphore_share(&channel->done);
     channel->version = CLK_VERSION;
     channel->size = sizeof *channel;
-    channel->wrapped = 0;
-    atomic_store(&channel->debugged, false);
+    atomic_store(&channel->state.debugged, false);
     channel->result = CHANNEL_SILENT;
     atomic_store(&child.stopping, false);
 }
@@ -161,8 +155,10 @@ static int32_t share_memory(void) {
     if (child.channel != NULL) return CLK_OK;
     child.channel = (struct channel *)(void *)slots_share(CHANNEL_BYTES);
     if (child.channel == NULL) return CLK_MEMORY;
+    prim_semaphore_init(&child.started, 0);
+    prim_semaphore_init(&child.ended, 0);
     log_share(&child.channel->log, false);
-    host_share_debugged(&child.channel->debugged);
+    host_share(&child.channel->state);
     return CLK_OK;
 }
 
@@ -188,7 +184,6 @@ static int32_t await_start(int64_t deadline) {
 }
 
 int32_t child_start(const struct launch *launch, int64_t deadline, char *version, int32_t capacity) {
-    prim_run_once(&child.once, init);
     int32_t result = share_memory();
     if (result == CLK_OK) result = fill_arguments(launch);
     if (result != CLK_OK) return result;
@@ -217,8 +212,7 @@ static struct channel_block place_of(const struct block *block) {
 
 static int32_t finish(struct host_call *call) {
     struct channel *channel = child.channel;
-    int32_t result = channel->result, offset = channel->answer_offset, length = channel->answer_length;
-    atomic_fetch_add_explicit(&child.wrapped, channel->wrapped, memory_order_relaxed);
+    int32_t result = channel->result, offset = channel->call.answer_offset, length = channel->call.answer_length;
     if (result > 0) return error_set(CLK_HOST, "the JVM's process returned an unknown result, %d; restart the JVM", result);
     if (result != CLK_OK) return channel_error(result);
     if (call->entry == HOST_CLOSE) return CLK_OK;
@@ -231,19 +225,14 @@ static int32_t finish(struct host_call *call) {
 
 int32_t child_begin(const struct host_call *call) {
     struct channel *channel = child.channel;
-    channel->call.entry = (int32_t)call->entry;
-    channel->call.session = call->session;
+    channel->call = *call;
     if (call->entry < HOST_CALLS) {
         if (call->request->offset == 0 || call->answer->offset == 0) {
             return error_set(CLK_ARGUMENT,
                              "the slot was acquired before the first JVM in a separate process started; release it and acquire another");
         }
-        channel->call.slot = call->slot;
-        channel->call.offset = call->offset;
-        channel->call.length = call->length;
-        channel->call.limit_ms = call->limit_ms;
-        channel->call.request = place_of(call->request);
-        channel->call.answer = place_of(call->answer);
+        channel->call_request = place_of(call->request);
+        channel->call_answer = place_of(call->answer);
     }
     prim_semaphore_post(&channel->request);
     return CLK_OK;
@@ -252,13 +241,10 @@ int32_t child_begin(const struct host_call *call) {
 int32_t child_await(struct host_call *call, int64_t deadline) {
     struct channel *channel = child.channel;
     while (prim_semaphore_wait_until(&channel->done, deadline)) {
-        if (!child_is_alive()) {
-            child_announce();
-            return engine_check_running();
-        }
+        if (!child_is_alive()) return engine_check_running();
         if (channel->result != CHANNEL_GROW || call->entry >= HOST_CALLS) return finish(call);
         bool grown = call->grow(call, channel->capacity);
-        if (grown) channel->call.answer = place_of(call->answer);
+        if (grown) channel->call_answer = place_of(call->answer);
         if (!grown) text_export(error_last(), channel->text, ERROR_CAPACITY);
         channel->result = grown ? CLK_OK : CLK_MEMORY;
         prim_semaphore_post(&channel->request);

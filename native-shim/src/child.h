@@ -17,11 +17,8 @@ void child_use(bool used);
 /* Starts the child and copies the host's version. Call child_end after an error. */
 int32_t child_start(const struct launch *launch, int64_t deadline, char *version, int32_t capacity);
 
-/* Returns whether the child still runs. Any thread. */
+/* Returns whether the child still runs. If it has ended unexpectedly, sets the state from running to lost. */
 bool child_is_alive(void);
-
-/* Sets the state from running to lost if the child has ended unexpectedly. Only for a child that is not alive. */
-void child_announce(void);
 
 /* Begins a call like host_run and host_close. */
 int32_t child_begin(const struct host_call *call);
@@ -37,8 +34,4 @@ int32_t child_end(void);
 
 /* Returns the process id of the last start's child, or 0 if it was one in this process. Any thread. */
 int32_t child_process(void);
-
-/* Returns the number of direct ByteBuffers that the children created. Any thread. */
-uint64_t child_wrapped(void);
-
 #endif

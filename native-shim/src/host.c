@@ -8,7 +8,7 @@
 
 #define COUNT(array) ((jint)(sizeof(array) / sizeof(array)[0]))
 
-/* Engine thread only, except `wrapped` and `security_exception`, which does not change after the start. */
+/* Engine thread only, except `security_exception`, which does not change after the start. */
 static struct {
     JNIEnv *env; /* of the engine thread */
     jclass host;
@@ -17,17 +17,16 @@ static struct {
     jclass security_exception;
     struct host_call *running; /* NULL between calls */
     bool has_error_text;       /* the running call has called Shim.error */
-    _Atomic uint64_t wrapped;
 } java;
 
-static atomic_bool own_debugged;
-static atomic_bool *debugged = &own_debugged;
+static struct host_state own;
+static struct host_state *state = &own;
 
-bool host_is_debugged(void) { return atomic_load(debugged); }
+bool host_is_debugged(void) { return atomic_load(&state->debugged); }
 
-void host_share_debugged(atomic_bool *shared) { debugged = shared; }
+uint64_t host_wrapped(void) { return atomic_load_explicit(&state->wrapped, memory_order_relaxed); }
 
-uint64_t host_wrapped(void) { return atomic_load_explicit(&java.wrapped, memory_order_relaxed); }
+void host_share(struct host_state *shared) { state = shared; }
 
 /* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
 
@@ -100,7 +99,7 @@ static bool wrap(JNIEnv *env, struct block *block) {
         if (!(*env)->ExceptionCheck(env)) throw_new(env, "java/lang/OutOfMemoryError", "cannot create a JNI global reference");
         return false;
     }
-    atomic_fetch_add_explicit(&java.wrapped, 1, memory_order_relaxed);
+    atomic_fetch_add_explicit(&state->wrapped, 1, memory_order_relaxed);
     return true;
 }
 
@@ -156,7 +155,7 @@ static void JNICALL shim_log(JNIEnv *env, jclass class, jint level, jbyteArray u
 static void JNICALL shim_debugger(JNIEnv *env, jclass class, jboolean attached) {
     (void)env;
     (void)class;
-    atomic_store(debugged, attached == JNI_TRUE);
+    atomic_store(&state->debugged, attached == JNI_TRUE);
 }
 
 /* ---- Natives of java.lang.Shutdown ----------------------------------------------------------------------------------- */

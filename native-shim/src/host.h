@@ -55,10 +55,14 @@ bool host_run_exit_hooks(void);
 /* Returns whether a debugger is attached to the JVM, as Shim.debugger last reported. Any thread. */
 bool host_is_debugged(void);
 
-/* Keeps that in memory of both processes. Before the start of the JVM. */
-void host_share_debugged(atomic_bool *shared);
-
-/* Returns the number of direct ByteBuffers created since the start. Any thread. */
+/* Returns the number of direct ByteBuffers created. Any thread. */
 uint64_t host_wrapped(void);
+
+/* Keeps both in memory of both processes. Before the start of the JVM. */
+struct host_state {
+    atomic_bool debugged;
+    _Atomic uint64_t wrapped;
+};
+void host_share(struct host_state *shared);
 
 #endif

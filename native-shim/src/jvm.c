@@ -180,12 +180,9 @@ static void describe(char *description) {
     prim_unlock(&jvm.describing);
 }
 
-/* Needs the turn. The child may end before the state is RUNNING; then its end is the loss. */
-static int32_t start_child(const clk_jvm_config *config, int64_t deadline) {
-    launch_free(&jvm.launch);
-    int32_t result = launch_prepare(&jvm.launch, config, deadline);
-    if (result != CLK_OK) return result;
-    result = child_start(&jvm.launch, deadline, jvm.version, sizeof jvm.version);
+/* Needs the turn. The child may end before the state is RUNNING. */
+static int32_t start_child(int64_t deadline) {
+    int32_t result = child_start(&jvm.launch, deadline, jvm.version, sizeof jvm.version);
     if (result != CLK_OK) {
         char why[ERROR_CAPACITY];
         text_export(error_last(), why, sizeof why);
@@ -194,18 +191,15 @@ static int32_t start_child(const clk_jvm_config *config, int64_t deadline) {
     }
     describe(launch_description(&jvm.launch, jvm.version));
     engine_set_state(CLK_STATE_RUNNING);
-    if (!child_is_alive()) child_announce();
+    child_is_alive(); /* otherwise its end is the loss */
     return CLK_OK;
 }
 
 /* Needs the turn, and state NONE. */
-static int32_t start(const clk_jvm_config *config, int64_t deadline) {
-    launch_free(&jvm.launch);
-    int32_t result = launch_prepare(&jvm.launch, config, deadline);
-    if (result != CLK_OK) return result;
-    result = engine_run(work_start, deadline);
+static int32_t start_here(int64_t deadline, int32_t limit_ms) {
+    int32_t result = engine_run(work_start, deadline);
     if (result == CLK_TIMEOUT) {
-        engine_lose("it did not start within %d ms", config->start_limit_ms);
+        engine_lose("it did not start within %d ms", limit_ms);
     } else if (result == CLK_JVM_LOST) {
         result = error_set(CLK_JVM_START, "%s", error_last());
     } else if (result != CLK_OK && atomic_load(&jvm.creating)) {
@@ -215,6 +209,15 @@ static int32_t start(const clk_jvm_config *config, int64_t deadline) {
     if (atomic_load(&jvm.creating)) describe(launch_description(&jvm.launch, result == CLK_OK ? jvm.version : ""));
     if (result == CLK_OK) engine_set_state(CLK_STATE_RUNNING);
     return result;
+}
+
+/* Needs the turn, and state NONE. */
+static int32_t start(const clk_jvm_config *config, int64_t deadline) {
+    launch_free(&jvm.launch);
+    child_use(config->placement == CLK_OWN_PROCESS);
+    int32_t result = launch_prepare(&jvm.launch, config, deadline);
+    if (result != CLK_OK) return result;
+    return child_is_used() ? start_child(deadline) : start_here(deadline, config->start_limit_ms);
 }
 
 static int32_t check(const clk_jvm_config *config, int64_t deadline) {
@@ -291,8 +294,7 @@ static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) 
         log_format(CLK_LOG_WARNING, "%s", error_last());
     int32_t result = end_child();
     if (result != CLK_OK) return result;
-    child_use(config->placement == CLK_OWN_PROCESS);
-    return without_option_variables(child_is_used() ? start_child : start, config, deadline);
+    return without_option_variables(start, config, deadline);
 }
 
 static int32_t check_only(const clk_jvm_config *config, int64_t deadline) { return without_option_variables(check, config, deadline); }

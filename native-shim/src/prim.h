@@ -55,7 +55,6 @@ typedef pthread_once_t prim_once;
 #endif
 typedef struct {
     _Atomic uint32_t count, waiting;
-    bool shared;
 } prim_semaphore;
 #endif
 
@@ -137,10 +136,9 @@ void prim_free(void *memory);
 
 /* Reserves the mapping, or returns the one of an earlier call. From one thread at a time. NULL on failure, with the reason in `why`. */
 uint8_t *prim_shared_reserve(char *why, size_t why_size);
-/* Commits memory, so that no later access fails; new memory is zero. False if out of memory. Offset and size are multiples of 4096. */
-bool prim_shared_commit(uint64_t offset, uint64_t bytes);
-/* Returns memory to the system until it is committed again. False if the system cannot do that: it stays committed. */
-bool prim_shared_discard(uint64_t offset, uint64_t bytes);
+/* Commits memory, so that no later access fails; new memory is zero. Or returns it to the system until it is committed again. False if out of
+ * memory, or if the system cannot return it: it stays committed. Offset and size are multiples of 4096. */
+bool prim_shared_commit(uint64_t offset, uint64_t bytes, bool committed);
 
 /* ---- Files and libraries --------------------------------------------------------------------------------------------- */
 

@@ -26,13 +26,15 @@
 #if defined(__APPLE__)
 #include <crt_externs.h>
 #include <xlocale.h>
-#define CLOSE_ON_EXEC 0 /* until move_up */
+#define CLOSE_ON_EXEC 0 /* until move_up: a process that another thread spawns meanwhile delays the end of the output */
+#define make_pipe(ends) pipe(ends)
 #define environ (*_NSGetEnviron())
 #else
 #include <linux/memfd.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #define CLOSE_ON_EXEC SOCK_CLOEXEC
+#define make_pipe(ends) pipe2(ends, O_CLOEXEC)
 extern char **environ;
 #endif
 
@@ -157,23 +159,11 @@ uint8_t *prim_shared_reserve(char *why, size_t why_size) {
 }
 
 /* macOS commits a page at its first access. */
-bool prim_shared_commit(uint64_t offset, uint64_t bytes) {
+bool prim_shared_commit(uint64_t offset, uint64_t bytes, bool committed) {
 #if defined(__APPLE__)
-    (void)offset;
-    (void)bytes;
-    return true;
+    return committed && offset + bytes <= PRIM_SHARED_BYTES;
 #else
-    return fallocate(shared, 0, (off_t)offset, (off_t)bytes) == 0;
-#endif
-}
-
-bool prim_shared_discard(uint64_t offset, uint64_t bytes) {
-#if defined(__APPLE__)
-    (void)offset;
-    (void)bytes;
-    return false;
-#else
-    return fallocate(shared, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, (off_t)offset, (off_t)bytes) == 0;
+    return fallocate(shared, committed ? 0 : FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, (off_t)offset, (off_t)bytes) == 0;
 #endif
 }
 
@@ -341,21 +331,12 @@ static int spawn(char *const argv[], const int descriptors[], int count, pid_t *
     return error;
 }
 
-/* Without pipe2, a process that another thread spawns meanwhile inherits the pipe, which delays the end of the output. */
-static bool make_pipe(int ends[2]) {
-#if defined(__APPLE__)
-    return pipe(ends) == 0 && fcntl(ends[0], F_SETFD, FD_CLOEXEC) == 0 && fcntl(ends[1], F_SETFD, FD_CLOEXEC) == 0;
-#else
-    return pipe2(ends, O_CLOEXEC) == 0;
-#endif
-}
-
 /* The descriptors of the child after its two outputs. Its end of the connection `life` closes when it ends, and the parent's when that ends. */
 enum { CHILD_LIFE = 3, CHILD_MEMORY = 4 };
 
-/* Like make_pipe, or with two ends that see each other close. No end is one of the child's descriptors. */
+/* Makes a pipe, or a connection whose ends see each other close. No end is one of the child's descriptors. */
 static bool make_ends(int ends[2], bool is_pipe) {
-    if (is_pipe ? !make_pipe(ends) : socketpair(AF_UNIX, SOCK_STREAM | CLOSE_ON_EXEC, 0, ends) != 0) return false;
+    if ((is_pipe ? make_pipe(ends) : socketpair(AF_UNIX, SOCK_STREAM | CLOSE_ON_EXEC, 0, ends)) != 0) return false;
     ends[0] = move_up(ends[0]);
     ends[1] = move_up(ends[1]);
     return ends[0] >= 0 && ends[1] >= 0;

@@ -1,4 +1,4 @@
-/* A semaphore on a futex, which macOS calls ulock. macOS has no unnamed POSIX semaphores, and glibc's only wait on the monotonic clock,
+/* A semaphore on a futex, which macOS calls ulock, for threads of any process. macOS has no unnamed POSIX semaphores, and glibc's only wait on the monotonic clock,
  * sem_clockwait, needs glibc 2.30. */
 #define _GNU_SOURCE /* syscall */
 #include <stdatomic.h>
@@ -8,19 +8,16 @@
 /* The system's own locks use these functions; the public os_sync_wait_on_address needs macOS 14.4. */
 int __ulock_wait(uint32_t operation, void *address, uint64_t value, uint32_t timeout_us);
 int __ulock_wake(uint32_t operation, void *address, uint64_t value);
-#define COMPARE_AND_WAIT 1
 #define COMPARE_AND_WAIT_SHARED 3
 #define LONGEST_WAIT_NANOS INT64_C(1000000000)
 
-static uint32_t operation_of(const prim_semaphore *semaphore) { return semaphore->shared ? COMPARE_AND_WAIT_SHARED : COMPARE_AND_WAIT; }
-
-static void wake(prim_semaphore *semaphore) { __ulock_wake(operation_of(semaphore), &semaphore->count, 0); }
+static void wake(prim_semaphore *semaphore) { __ulock_wake(COMPARE_AND_WAIT_SHARED, &semaphore->count, 0); }
 
 static void sleep_while_zero(prim_semaphore *semaphore, int64_t deadline) {
     int64_t left = deadline - prim_now();
     if (left <= 0) return; /* 0 would mean no limit */
     int64_t wait = left < LONGEST_WAIT_NANOS ? left : LONGEST_WAIT_NANOS;
-    __ulock_wait(operation_of(semaphore), &semaphore->count, 0, (uint32_t)(wait / 1000 + 1));
+    __ulock_wait(COMPARE_AND_WAIT_SHARED, &semaphore->count, 0, (uint32_t)(wait / 1000 + 1));
 }
 #else
 #include <linux/futex.h>
@@ -30,27 +27,21 @@ static void sleep_while_zero(prim_semaphore *semaphore, int64_t deadline) {
 
 #define NANOS_PER_SECOND INT64_C(1000000000)
 
-static int scope_of(const prim_semaphore *semaphore) { return semaphore->shared ? 0 : FUTEX_PRIVATE_FLAG; }
-
-static void wake(prim_semaphore *semaphore) { syscall(SYS_futex, &semaphore->count, FUTEX_WAKE | scope_of(semaphore), 1, NULL, NULL, 0); }
+static void wake(prim_semaphore *semaphore) { syscall(SYS_futex, &semaphore->count, FUTEX_WAKE, 1, NULL, NULL, 0); }
 
 static void sleep_while_zero(prim_semaphore *semaphore, int64_t deadline) {
     struct timespec until = {.tv_sec = (time_t)(deadline / NANOS_PER_SECOND), .tv_nsec = (long)(deadline % NANOS_PER_SECOND)};
     struct timespec *limit = deadline == INT64_MAX ? NULL : &until;
-    syscall(SYS_futex, &semaphore->count, FUTEX_WAIT_BITSET | scope_of(semaphore), 0, limit, NULL, FUTEX_BITSET_MATCH_ANY);
+    syscall(SYS_futex, &semaphore->count, FUTEX_WAIT_BITSET, 0, limit, NULL, FUTEX_BITSET_MATCH_ANY);
 }
 #endif
 
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) {
     atomic_init(&semaphore->count, count);
     atomic_init(&semaphore->waiting, 0);
-    semaphore->shared = false;
 }
 
-void prim_semaphore_share(prim_semaphore *semaphore) {
-    prim_semaphore_init(semaphore, 0);
-    semaphore->shared = true;
-}
+void prim_semaphore_share(prim_semaphore *semaphore) { prim_semaphore_init(semaphore, 0); }
 
 void prim_semaphore_post(prim_semaphore *semaphore) {
     atomic_fetch_add(&semaphore->count, 1);

@@ -49,22 +49,20 @@ static void to_utf8_in_place(UINT code_page, char *text, size_t size) {
 
 static UINT jvm_code_page(void) { return GetACP(); }
 
-char *prim_jvm_text(const char *text) {
+static char *jvm_text(const char *text, BOOL *lost) {
     wchar_t *wide = wide_of(CP_UTF8, text);
-    BOOL lost = FALSE;
-    char *converted = wide != NULL ? narrow_of(jvm_code_page(), wide, &lost) : NULL;
+    char *converted = wide != NULL ? narrow_of(jvm_code_page(), wide, lost) : NULL;
     free(wide);
     return converted;
 }
 
+char *prim_jvm_text(const char *text) { return jvm_text(text, &(BOOL){FALSE}); }
+
 bool prim_jvm_can_decode(const char *text) {
-    wchar_t *wide = wide_of(CP_UTF8, text);
     BOOL lost = FALSE;
-    char *converted = wide != NULL ? narrow_of(jvm_code_page(), wide, &lost) : NULL;
-    bool decodable = converted != NULL && !lost;
+    char *converted = jvm_text(text, &lost);
     free(converted);
-    free(wide);
-    return decodable;
+    return converted != NULL && !lost;
 }
 
 /* ---- Time ------------------------------------------------------------------------------------------------------------ */
@@ -224,15 +222,9 @@ uint8_t *prim_shared_reserve(char *why, size_t why_size) {
     return section_view;
 }
 
-bool prim_shared_commit(uint64_t offset, uint64_t bytes) {
-    return VirtualAlloc(section_view + offset, bytes, MEM_COMMIT, PAGE_READWRITE) != NULL;
-}
-
 /* Windows cannot decommit parts of a section. */
-bool prim_shared_discard(uint64_t offset, uint64_t bytes) {
-    (void)offset;
-    (void)bytes;
-    return false;
+bool prim_shared_commit(uint64_t offset, uint64_t bytes, bool committed) {
+    return committed && VirtualAlloc(section_view + offset, bytes, MEM_COMMIT, PAGE_READWRITE) != NULL;
 }
 
 /* ---- Files and libraries --------------------------------------------------------------------------------------------- */

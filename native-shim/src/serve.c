@@ -15,7 +15,6 @@ static struct {
     uint8_t *memory;
     struct channel *channel;
     struct block **blocks; /* by offset / CHANNEL_ALIGNMENT, created at their first use */
-    uint64_t reported;     /* of host_wrapped() */
 } serve;
 
 /* Returns this process's view of a block, whose ByteBuffer is created once. NULL if out of memory, with the last error set. */
@@ -33,10 +32,7 @@ static struct block *block_at(const struct channel_block *place) {
 
 /* The parent must never see a result of the past, so the fields are set before each `done`. */
 static void answer(int32_t result) {
-    uint64_t wrapped = host_wrapped();
     serve.channel->result = result;
-    serve.channel->wrapped = wrapped - serve.reported;
-    serve.reported = wrapped;
     if (result < 0) text_export(error_last(), serve.channel->text, ERROR_CAPACITY);
     prim_semaphore_post(&serve.channel->done);
 }
@@ -51,27 +47,17 @@ static bool grow(struct host_call *call, int32_t capacity) {
         error_set(CLK_MEMORY, "%s", serve.channel->text);
         return false;
     }
-    struct block *block = block_at(&serve.channel->call.answer);
+    struct block *block = block_at(&serve.channel->call_answer);
     if (block != NULL) call->answer = block;
     return block != NULL;
 }
 
 static int32_t run(void) {
-    const struct channel *channel = serve.channel;
-    struct host_call call = {.entry = (enum host_entry)channel->call.entry,
-                             .session = channel->call.session,
-                             .request = block_at(&channel->call.request),
-                             .answer = block_at(&channel->call.answer),
-                             .offset = channel->call.offset,
-                             .length = channel->call.length,
-                             .slot = channel->call.slot,
-                             .limit_ms = channel->call.limit_ms,
-                             .grow = grow};
-    if (call.request == NULL || call.answer == NULL) return CLK_MEMORY;
-    int32_t result = host_run(&call);
-    serve.channel->answer_offset = call.answer_offset;
-    serve.channel->answer_length = call.answer_length;
-    return result;
+    struct host_call *call = &serve.channel->call;
+    call->request = block_at(&serve.channel->call_request);
+    call->answer = block_at(&serve.channel->call_answer);
+    call->grow = grow;
+    return call->request != NULL && call->answer != NULL ? host_run(call) : CLK_MEMORY;
 }
 
 /* When it returns, DestroyJavaVM waits for the other threads. If some of a program's do not end, this ends the process after the hooks. */
@@ -98,7 +84,7 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
         return;
     }
     log_share(&serve.channel->log, true);
-    host_share_debugged(&serve.channel->debugged);
+    host_share(&serve.channel->state);
     engine_adopt();
     int32_t result = host_start(env, serve.channel->text, ERROR_CAPACITY);
     answer(result);

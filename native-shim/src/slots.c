@@ -82,7 +82,7 @@ static struct block *block_take(int32_t capacity) {
     } else {
         block = pool.shared != NULL ? shared_create(class) : private_create(class);
     }
-    if (block != NULL && !block->counted && block->offset != 0 && !prim_shared_commit(block->offset, (uint64_t)block->capacity)) {
+    if (block != NULL && !block->counted && block->offset != 0 && !prim_shared_commit(block->offset, (uint64_t)block->capacity, true)) {
         block_keep(block);
         block = NULL;
     }
@@ -101,7 +101,7 @@ static void block_release(struct block *block) {
     bool is_shared = block->offset != 0;
     bool fits = pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES && is_shared == (pool.shared != NULL);
     block->abandoned = false;
-    block->counted = fits || (is_shared && !prim_shared_discard(block->offset, (uint64_t)block->capacity));
+    block->counted = fits || (is_shared && !prim_shared_commit(block->offset, (uint64_t)block->capacity, false));
     if (!block->counted) pool.bytes -= (uint64_t)block->capacity;
     if (is_shared || fits) {
         block_keep(block);
@@ -273,7 +273,7 @@ uint8_t *slots_share(uint64_t reserved) {
     prim_lock(&pool.mutex);
     if (pool.shared == NULL) {
         uint8_t *shared = prim_shared_reserve(why, sizeof why);
-        if (shared == NULL || !prim_shared_commit(0, reserved)) {
+        if (shared == NULL || !prim_shared_commit(0, reserved, true)) {
             error_set(CLK_MEMORY, "cannot share memory with the JVM's process: %s; free memory, or run the JVM in this process",
                       shared == NULL ? why : "out of memory");
         } else {

@@ -16,7 +16,7 @@ int32_t clk_get_stats(clk_stats *stats) {
                      .sessions = session_count(),
                      .process = child_process(),
                      .steps = session_steps(),
-                     .wrapped = host_wrapped() + child_wrapped(),
+                     .wrapped = host_wrapped(),
                      .logs_dropped = log_dropped(),
                      .signal_repairs = engine_signal_repairs()};
     slots_count(&now.slots, &now.slot_bytes);
