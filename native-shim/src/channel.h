@@ -22,23 +22,17 @@
 
 #define CHANNEL_ALIGNMENT 4096
 
-/* A block of a slot. */
-struct channel_block {
-    uint64_t offset; /* in the shared memory, a multiple of CHANNEL_ALIGNMENT */
-    int32_t capacity;
-};
-
 struct channel {
     uint32_t version; /* CLK_VERSION; checked by the child, with the size */
     uint32_t size;
     prim_semaphore request, done;
-    struct host_call call; /* its pointers are valid only in the process that set them; HOST_STOP uses only limit_ms */
-    struct channel_block call_request, call_answer;
-    int32_t result;            /* CLK_OK, an error with its text, or one of the values above */
-    int32_t capacity;          /* of CHANNEL_GROW */
-    struct host_state state;   /* written by the child at any time */
-    char text[ERROR_CAPACITY]; /* error, or the version after the start */
-    struct log_ring log;       /* written by the child, read by the parent at any time */
+    struct host_call call;                    /* its pointers are valid only in the process that set them; HOST_STOP uses only limit_ms */
+    struct block request_block, answer_block; /* copies of its blocks, of which only `offset` and `capacity` count */
+    int32_t result;                           /* CLK_OK, an error with its text, or one of the values above */
+    int32_t capacity;                         /* of CHANNEL_GROW */
+    struct host_state state;                  /* written by the child at any time */
+    char text[ERROR_CAPACITY];                /* error, or the version after the start */
+    struct log_ring log;                      /* written by the child, read by the parent at any time */
 };
 
 #define CHANNEL_BYTES ((sizeof(struct channel) + CHANNEL_ALIGNMENT - 1) / CHANNEL_ALIGNMENT * CHANNEL_ALIGNMENT)

@@ -24,10 +24,8 @@ static struct {
     char **arguments;        /* of the child; NULL without one */
     atomic_bool used;
     atomic_bool alive;
-    atomic_bool stopping;   /* the end of the child is expected */
-    prim_semaphore started; /* posted when the child has started, or cannot start */
-    prim_semaphore ended;   /* posted when the child has ended */
-    prim_mutex killing;     /* held to kill or reap `process` */
+    prim_semaphore ended; /* posted when the child has ended, or cannot start */
+    prim_mutex killing;   /* held to kill or reap `process` */
     prim_child process;
     _Atomic int32_t id;          /* 0 if the child could not start */
     char reason[ERROR_CAPACITY]; /* why it did not start, or how it ended */
@@ -73,7 +71,7 @@ static int reap(void) {
 }
 
 static void announce(void) {
-    if (engine_state() == CLK_STATE_RUNNING && !atomic_load(&child.stopping)) engine_lose("%s", child.reason);
+    if (engine_state() == CLK_STATE_RUNNING) engine_lose("%s", child.reason);
 }
 
 bool child_is_alive(void) {
@@ -89,23 +87,18 @@ static void child_main(void) {
     bool launched = prim_child_start(child.arguments, true, &child.process, child.reason, sizeof child.reason);
     atomic_store(&child.id, launched ? prim_child_id(&child.process) : 0);
     atomic_store(&child.alive, launched);
-    prim_semaphore_post(&child.started);
-    if (!launched) return;
-    while (prim_child_read(&child.process, INT64_MAX, output, sizeof output)) log_jvm_text(CLK_LOG_INFO, output);
-    describe_end(reap());
-    announce();
-    atomic_store(&child.alive, false);
-    announce();
+    if (launched) {
+        while (prim_child_read(&child.process, INT64_MAX, output, sizeof output)) log_jvm_text(CLK_LOG_INFO, output);
+        describe_end(reap());
+        announce();
+        atomic_store(&child.alive, false);
+        announce();
+    }
     prim_semaphore_post(&child.channel->done);
     prim_semaphore_post(&child.ended);
 }
 
 /* ---- Start and end --------------------------------------------------------------------------------------------------- */
-
-static void free_arguments(void) {
-    free(child.arguments);
-    child.arguments = NULL;
-}
 
 int32_t child_end(void) {
     if (child.arguments == NULL) return CLK_OK;
@@ -115,7 +108,8 @@ int32_t child_end(void) {
     if (!prim_semaphore_wait_until(&child.ended, prim_now() + KILL_LIMIT_MS * PRIM_MILLI))
         return error_set(CLK_TIMEOUT, "the JVM's process %d was killed but does not end; try again later, or restart this process",
                          child_process());
-    free_arguments();
+    free(child.arguments);
+    child.arguments = NULL;
     return CLK_OK;
 }
 
@@ -148,14 +142,12 @@ static void reset_channel(void) {
     channel->size = sizeof *channel;
     atomic_store(&channel->state.debugged, false);
     channel->result = CHANNEL_SILENT;
-    atomic_store(&child.stopping, false);
 }
 
 static int32_t share_memory(void) {
     if (child.channel != NULL) return CLK_OK;
     child.channel = (struct channel *)(void *)slots_share(CHANNEL_BYTES);
     if (child.channel == NULL) return CLK_MEMORY;
-    prim_semaphore_init(&child.started, 0);
     prim_semaphore_init(&child.ended, 0);
     log_share(&child.channel->log, false);
     host_share(&child.channel->state);
@@ -178,6 +170,7 @@ static int32_t await_start(int64_t deadline) {
     }
     int32_t result = child.channel->result;
     if (result != CHANNEL_SILENT) return result == CLK_OK ? CLK_OK : channel_error(result);
+    if (child.id == 0) return error_set(CLK_JVM_START, "cannot run %s: %s", child.arguments[0], child.reason);
     if (strstr(child.reason, "load main class " MAIN_CLASS) != NULL)
         return error_set(CLK_HOST, "the class path lacks " MAIN_CLASS " of the version of this shim: %s", child.reason);
     return error_set(CLK_JVM_START, "the JVM did not start: %s; correct the JVM options, or reinstall the JVM", child.reason);
@@ -189,14 +182,8 @@ int32_t child_start(const struct launch *launch, int64_t deadline, char *version
     if (result != CLK_OK) return result;
     reset_channel();
     if (!prim_thread_start(child_main, "collektive-jvm", STACK_BYTES)) {
-        free_arguments();
+        prim_semaphore_post(&child.ended);
         return error_set(CLK_MEMORY, "cannot create a thread; free memory or raise the limit of threads");
-    }
-    prim_semaphore_wait(&child.started);
-    if (child.id == 0) {
-        result = error_set(CLK_JVM_START, "cannot run %s: %s", child.arguments[0], child.reason);
-        free_arguments();
-        return result;
     }
     result = await_start(deadline);
     child.channel->text[ERROR_CAPACITY - 1] = '\0';
@@ -205,10 +192,6 @@ int32_t child_start(const struct launch *launch, int64_t deadline, char *version
 }
 
 /* ---- Calls ----------------------------------------------------------------------------------------------------------- */
-
-static struct channel_block place_of(const struct block *block) {
-    return (struct channel_block){.offset = block->offset, .capacity = block->capacity};
-}
 
 static int32_t finish(struct host_call *call) {
     struct channel *channel = child.channel;
@@ -231,8 +214,8 @@ int32_t child_begin(const struct host_call *call) {
             return error_set(CLK_ARGUMENT,
                              "the slot was acquired before the first JVM in a separate process started; release it and acquire another");
         }
-        channel->call_request = place_of(call->request);
-        channel->call_answer = place_of(call->answer);
+        channel->request_block = *call->request;
+        channel->answer_block = *call->answer;
     }
     prim_semaphore_post(&channel->request);
     return CLK_OK;
@@ -244,7 +227,7 @@ int32_t child_await(struct host_call *call, int64_t deadline) {
         if (!child_is_alive()) return engine_check_running();
         if (channel->result != CHANNEL_GROW || call->entry >= HOST_CALLS) return finish(call);
         bool grown = call->grow(call, channel->capacity);
-        if (grown) channel->call_answer = place_of(call->answer);
+        if (grown) channel->answer_block = *call->answer;
         if (!grown) text_export(error_last(), channel->text, ERROR_CAPACITY);
         channel->result = grown ? CLK_OK : CLK_MEMORY;
         prim_semaphore_post(&channel->request);
@@ -253,7 +236,6 @@ int32_t child_await(struct host_call *call, int64_t deadline) {
 }
 
 int32_t child_stop(int32_t limit_ms, int64_t deadline) {
-    atomic_store(&child.stopping, true);
     child.channel->call.entry = HOST_STOP;
     child.channel->call.limit_ms = limit_ms;
     prim_semaphore_post(&child.channel->request);

@@ -13,7 +13,6 @@
 #define STACK_BYTES ((size_t)16 * 1024 * 1024)
 
 static struct {
-    prim_once once;
     prim_semaphore turn;    /* one token: the right to use the data that the turn guards */
     prim_semaphore request; /* posted when `work` is set */
     prim_semaphore done;    /* posted when `work` or the JVM has ended */
@@ -28,7 +27,7 @@ static struct {
     atomic_bool forked;
     char reason[ERROR_CAPACITY]; /* written once, before the state is LOST */
     _Atomic uint64_t signal_repairs;
-} engine = {.once = PRIM_ONCE_INIT, .losing = ATOMIC_FLAG_INIT};
+} engine = {.losing = ATOMIC_FLAG_INIT};
 
 static _Thread_local bool is_engine;
 
@@ -40,7 +39,8 @@ static void lose_in_child(void) {
     engine_set_state(CLK_STATE_LOST);
 }
 
-static void init(void) {
+/* When the library is loaded. */
+__attribute__((constructor)) static void init(void) {
     prim_semaphore_init(&engine.turn, 1);
     prim_semaphore_init(&engine.request, 0);
     prim_semaphore_init(&engine.done, 0);
@@ -82,10 +82,7 @@ int32_t engine_check_running(void) {
 }
 
 /* Wakes the caller that waits for work. It then leaves its turn, which wakes the callers that wait for the turn one by one. */
-static void wake_all(void) {
-    prim_run_once(&engine.once, init);
-    prim_semaphore_post(&engine.done);
-}
+static void wake_all(void) { prim_semaphore_post(&engine.done); }
 
 void engine_lose(const char *format, ...) {
     if (atomic_flag_test_and_set(&engine.losing)) return;
@@ -106,7 +103,6 @@ void engine_end(void) {
 /* ---- Turns ----------------------------------------------------------------------------------------------------------- */
 
 int32_t engine_enter(int64_t deadline) {
-    prim_run_once(&engine.once, init);
     if (prim_semaphore_wait_until(&engine.turn, deadline)) return CLK_OK;
     return error_set(CLK_TIMEOUT, "the engine was busy with another call for the whole limit and did not execute this one; retry it");
 }

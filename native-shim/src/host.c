@@ -271,11 +271,17 @@ static bool is_host_code(jlong code) {
     return found;
 }
 
+static int32_t close_session(JNIEnv *env, clk_session session) {
+    (*env)->CallStaticVoidMethod(env, java.host, java.close, (jlong)session);
+    return (*env)->ExceptionCheck(env) ? java_error(env, CLK_JAVA, "Host.close") : CLK_OK;
+}
+
 int32_t host_run(struct host_call *call) {
     JNIEnv *env = java.env;
+    free_surplus(env);
+    if (call->entry == HOST_CLOSE) return close_session(env, call->session);
     static const char *const names[HOST_CALLS] = {"Host.open", "Host.step", "Host.control"};
     const char *where = names[call->entry];
-    free_surplus(env);
     if (!wrap(env, call->request) || !wrap(env, call->answer)) return java_error(env, CLK_JAVA, "wrapping a slot");
     const jvalue arguments[] = {{.j = (jlong)call->session}, {.l = call->request->wrapper}, {.i = call->offset},  {.i = call->length},
                                 {.j = (jlong)call->slot},    {.l = call->answer->wrapper},  {.i = call->limit_ms}};
@@ -299,13 +305,6 @@ int32_t host_run(struct host_call *call) {
     call->answer_offset = (int32_t)offset;
     call->answer_length = (int32_t)length;
     return CLK_OK;
-}
-
-int32_t host_close(clk_session session) {
-    JNIEnv *env = java.env;
-    free_surplus(env);
-    (*env)->CallStaticVoidMethod(env, java.host, java.close, (jlong)session);
-    return (*env)->ExceptionCheck(env) ? java_error(env, CLK_JAVA, "Host.close") : CLK_OK;
 }
 
 bool host_stop(int32_t limit_ms) {

@@ -43,9 +43,6 @@ void host_text(JNIEnv *environment, jstring string, char *buffer, int32_t capaci
 /* Runs the call and fills in its result. Errors: those of the host, CLK_HOST and CLK_JAVA. */
 int32_t host_run(struct host_call *call);
 
-/* Calls Host.close(). Errors: CLK_JAVA. */
-int32_t host_close(clk_session session);
-
 /* Calls Host.stop(). False if DestroyJavaVM would wait for threads of programs. */
 bool host_stop(int32_t limit_ms);
 

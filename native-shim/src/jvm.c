@@ -278,6 +278,7 @@ static int32_t stop_child(int32_t limit_ms) {
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int lock = lock_archive(limit_ms);
     int32_t result = session_settle();
+    engine_set_state(CLK_STATE_STOPPED); /* the end of the child is expected */
     if (result == CLK_OK) result = child_stop(limit_ms, deadline);
     int32_t ended = end_child();
     if (lock >= 0) prim_folder_unlock(lock);

@@ -28,10 +28,6 @@ typedef void *prim_semaphore;
 typedef struct {
     void *process, *job, *output;
 } prim_child;
-typedef union {
-    void *once;
-} prim_once;
-#define PRIM_ONCE_INIT {0}
 #else
 #include <pthread.h>
 #define PRIM_PATH_SEPARATOR ':'
@@ -44,8 +40,6 @@ typedef struct {
 #define PRIM_FOREIGN_TEXT "the locale of the process cannot encode %s; set LC_ALL=C.UTF-8 or use an ASCII path"
 typedef pthread_mutex_t prim_mutex;
 #define PRIM_MUTEX_INIT PTHREAD_MUTEX_INITIALIZER
-typedef pthread_once_t prim_once;
-#define PRIM_ONCE_INIT PTHREAD_ONCE_INIT
 #if defined(__APPLE__)
 #define PRIM_LIBJVM "lib/server/libjvm.dylib"
 #define PRIM_SYSTEM "Darwin"
@@ -87,9 +81,6 @@ bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline);
 void prim_semaphore_wait(prim_semaphore *semaphore);
 /* False if the deadline passed first. */
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline);
-
-/* Runs `init` once per process. */
-void prim_run_once(prim_once *once, void (*init)(void));
 
 /* ---- Threads --------------------------------------------------------------------------------------------------------- */
 

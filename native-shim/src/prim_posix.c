@@ -54,8 +54,6 @@ void prim_lock(prim_mutex *mutex) { pthread_mutex_lock(mutex); }
 
 void prim_unlock(prim_mutex *mutex) { pthread_mutex_unlock(mutex); }
 
-void prim_run_once(prim_once *once, void (*init)(void)) { pthread_once(once, init); }
-
 /* ---- Threads --------------------------------------------------------------------------------------------------------- */
 
 struct thread_start {

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <wchar.h>
 
-_Static_assert(sizeof(prim_mutex) == sizeof(SRWLOCK) && sizeof(prim_once) == sizeof(INIT_ONCE), "prim.h does not include windows.h");
+_Static_assert(sizeof(prim_mutex) == sizeof(SRWLOCK), "prim.h does not include windows.h");
 
 #define PATH_UNITS 4096
 
@@ -117,15 +117,6 @@ bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline) {
     }
     return true;
 }
-
-static BOOL CALLBACK run_init(PINIT_ONCE once, void *init, void **context) {
-    (void)once;
-    (void)context;
-    (*(void (**)(void))init)();
-    return TRUE;
-}
-
-void prim_run_once(prim_once *once, void (*init)(void)) { InitOnceExecuteOnce((INIT_ONCE *)once, run_init, (void *)&init, NULL); }
 
 /* ---- Threads --------------------------------------------------------------------------------------------------------- */
 
@@ -447,8 +438,10 @@ bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *
     if (child->process == NULL) describe(GetLastError(), why, why_size);
     free(line);
     close_all((const HANDLE[]){input, to}, 2);
-    if (child->process == NULL) close_all((const HANDLE[]){job, child->output}, 2);
-    return child->process != NULL;
+    if (child->process != NULL) return true;
+    close_all((const HANDLE[]){job, child->output}, 2);
+    *child = (prim_child){0};
+    return false;
 }
 
 int32_t prim_child_id(const prim_child *child) { return (int32_t)GetProcessId(child->process); }

@@ -18,7 +18,7 @@ static struct {
 } serve;
 
 /* Returns this process's view of a block, whose ByteBuffer is created once. NULL if out of memory, with the last error set. */
-static struct block *block_at(const struct channel_block *place) {
+static struct block *block_at(const struct block *place) {
     struct block **block = &serve.blocks[place->offset / CHANNEL_ALIGNMENT];
     if (*block != NULL) return *block;
     *block = malloc(sizeof **block);
@@ -47,15 +47,16 @@ static bool grow(struct host_call *call, int32_t capacity) {
         error_set(CLK_MEMORY, "%s", serve.channel->text);
         return false;
     }
-    struct block *block = block_at(&serve.channel->call_answer);
+    struct block *block = block_at(&serve.channel->answer_block);
     if (block != NULL) call->answer = block;
     return block != NULL;
 }
 
 static int32_t run(void) {
     struct host_call *call = &serve.channel->call;
-    call->request = block_at(&serve.channel->call_request);
-    call->answer = block_at(&serve.channel->call_answer);
+    if (call->entry == HOST_CLOSE) return host_run(call);
+    call->request = block_at(&serve.channel->request_block);
+    call->answer = block_at(&serve.channel->answer_block);
     call->grow = grow;
     return call->request != NULL && call->answer != NULL ? host_run(call) : CLK_MEMORY;
 }
@@ -90,10 +91,10 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     answer(result);
     while (result == CLK_OK) {
         await_request();
-        switch (serve.channel->call.entry) {
-            case HOST_STOP: stop(serve.channel->call.limit_ms); return;
-            case HOST_CLOSE: answer(host_close(serve.channel->call.session)); break;
-            default: answer(run()); break;
+        if (serve.channel->call.entry == HOST_STOP) {
+            stop(serve.channel->call.limit_ms);
+            return;
         }
+        answer(run());
     }
 }

@@ -108,7 +108,7 @@ static int32_t check_call(int32_t offset, int32_t length, int32_t limit_ms, cons
     return check_limit(limit_ms);
 }
 
-static int32_t work_call(void) { return sessions.call.entry == HOST_CLOSE ? host_close(sessions.call.session) : host_run(&sessions.call); }
+static int32_t work_call(void) { return host_run(&sessions.call); }
 
 /* Waits for sessions.call. CLK_PENDING if `until` has passed and a debugger is or was attached. If the call has not ended at its deadline, which
  * a debugger postpones, the JVM is lost. */
