@@ -84,10 +84,10 @@ bool child_is_alive(void) {
  * may set the state meanwhile. */
 static void child_main(void) {
     char output[4096];
-    bool launched = prim_child_start(child.arguments, true, &child.process, child.reason, sizeof child.reason);
-    atomic_store(&child.id, launched ? prim_child_id(&child.process) : 0);
-    atomic_store(&child.alive, launched);
-    if (launched) {
+    int32_t id = prim_child_start(child.arguments, true, &child.process, child.reason, sizeof child.reason);
+    atomic_store(&child.id, id);
+    atomic_store(&child.alive, id != 0);
+    if (id != 0) {
         while (prim_child_read(&child.process, INT64_MAX, output, sizeof output)) log_jvm_text(CLK_LOG_INFO, output);
         describe_end(reap());
         announce();

@@ -57,6 +57,8 @@ void engine_set_state(int32_t state) {
     int before = atomic_load(&engine.state);
     while (before != CLK_STATE_LOST && !atomic_compare_exchange_weak(&engine.state, &before, state)) {
     }
+    /* The caller that waits for work then leaves its turn, which wakes the callers that wait for the turn one by one. */
+    if (state != CLK_STATE_RUNNING) prim_semaphore_post(&engine.done);
 }
 
 void engine_reset(void) {
@@ -81,23 +83,14 @@ int32_t engine_check_running(void) {
     }
 }
 
-/* Wakes the caller that waits for work. It then leaves its turn, which wakes the callers that wait for the turn one by one. */
-static void wake_all(void) { prim_semaphore_post(&engine.done); }
-
 void engine_lose(const char *format, ...) {
     if (atomic_flag_test_and_set(&engine.losing)) return;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(engine.reason, sizeof engine.reason, format, arguments);
     va_end(arguments);
-    engine_set_state(CLK_STATE_LOST);
     log_format(CLK_LOG_ERROR, "the JVM has crashed or stopped responding: %s", engine.reason);
-    wake_all();
-}
-
-void engine_end(void) {
-    engine_set_state(CLK_STATE_STOPPED);
-    wake_all();
+    engine_set_state(CLK_STATE_LOST);
 }
 
 /* ---- Turns ----------------------------------------------------------------------------------------------------------- */
@@ -156,7 +149,7 @@ int32_t engine_await(int64_t deadline) {
     while (prim_semaphore_wait_until(&engine.done, deadline)) {
         if (!atomic_load(&engine.busy)) return engine.result == CLK_OK ? CLK_OK : error_set(engine.result, "%s", engine.error);
         int32_t running = engine_check_running();
-        if (running != CLK_OK) return running; /* woken by wake_all, not by finished work */
+        if (running != CLK_OK) return running; /* woken by engine_set_state, not by finished work */
     }
     return CLK_TIMEOUT;
 }

@@ -16,20 +16,17 @@
 /* Returns one of enum clk_jvm_state. */
 int32_t engine_state(void);
 
-/* Sets the state, unless it is CLK_STATE_LOST, which is final. */
+/* Sets the state, unless it is CLK_STATE_LOST, which is final. All waiting callers learn that the JVM is lost or stopped. */
 void engine_set_state(int32_t state);
 
 /* Returns CLK_OK if a JVM is running; otherwise sets an error with the reason. */
 int32_t engine_check_running(void);
 
-/* Sets the state to lost and wakes all waiting callers. Only the first reason is kept. */
+/* Sets the state to lost. Only the first reason is kept. */
 __attribute__((format(printf, 1, 2))) void engine_lose(const char *format, ...);
 
 /* Sets the state to none, also after a loss: another JVM may follow in a separate process. Needs the turn. */
 void engine_reset(void);
-
-/* Sets the state to stopped and wakes all waiting callers; for a thread that does not return. */
-void engine_end(void);
 
 /* Takes the turn. Returns CLK_TIMEOUT if the deadline passed first. */
 int32_t engine_enter(int64_t deadline);

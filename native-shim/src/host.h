@@ -11,7 +11,7 @@
 #include <stdint.h>
 #include "slots.h"
 
-/* The first three are calls with frames, for host_run. */
+/* The first three are calls with frames. HOST_STOP is not for host_run. */
 enum host_entry { HOST_OPEN, HOST_STEP, HOST_CONTROL, HOST_CLOSE, HOST_STOP };
 #define HOST_CALLS 3
 

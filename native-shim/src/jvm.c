@@ -51,7 +51,12 @@ static struct {
 
 static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file, const char *format, va_list arguments) {
     if (file != stdout && file != stderr) return vfprintf(file, format, arguments); /* a log file of the JVM */
-    return log_jvm_output(file == stderr ? CLK_LOG_WARNING : CLK_LOG_INFO, format, arguments);
+    int32_t level = file == stderr ? CLK_LOG_WARNING : CLK_LOG_INFO;
+    char text[LOG_LINE_CAPACITY + 4];
+    int length = vsnprintf(text, sizeof text, format, arguments);
+    if (length >= 0) log_jvm_text(level, text);
+    if (length >= (int)sizeof text) log_jvm_text(level, "\n"); /* the rest was truncated, including the end of the line */
+    return length;
 }
 
 /* Parks a thread of the JVM that would end the process if it returned. If the start failed, the JVM's signal handlers are removed. A JVM that
@@ -74,7 +79,7 @@ static _Noreturn void lose_and_park(const char *what) {
 static void JNICALL hook_exit(jint code) {
     char what[64];
     if (atomic_load(&jvm.stopping)) {
-        engine_end();
+        engine_set_state(CLK_STATE_STOPPED);
         prim_semaphore_post(&jvm.halted);
         prim_park();
     }

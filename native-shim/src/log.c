@@ -1,5 +1,6 @@
 #include "log.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include "prim.h"
@@ -143,15 +144,6 @@ void log_jvm_text(int32_t level, const char *text) {
         }
     }
     prim_unlock(&jvm_output.mutex);
-}
-
-int32_t log_jvm_output(int32_t level, const char *format, va_list arguments) {
-    char text[LOG_LINE_CAPACITY + 4];
-    int length = vsnprintf(text, sizeof text, format, arguments);
-    if (length < 0) return length;
-    log_jvm_text(level, text);
-    if ((size_t)length >= sizeof text) log_jvm_text(level, "\n"); /* the rest was truncated, including the end of the line */
-    return length;
 }
 
 void log_jvm_last(char *buffer, int32_t capacity) {

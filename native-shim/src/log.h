@@ -2,7 +2,6 @@
 #ifndef COLLEKTIVE_LOG_H
 #define COLLEKTIVE_LOG_H
 
-#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -26,10 +25,9 @@ void log_share(struct log_ring *ring, bool is_child);
 void log_write(int32_t level, const char *text, int32_t length);
 __attribute__((format(printf, 2, 3))) void log_format(int32_t level, const char *format, ...);
 
-/* Logs a piece of the JVM's output, log_jvm_output like vprintf. Only whole lines are written to the ring; a line that contains "warning" has
+/* Logs a piece of the JVM's output. Only whole lines are written to the ring; a line that contains "warning" has
  * at least that level. Any thread. */
 void log_jvm_text(int32_t level, const char *text);
-__attribute__((format(printf, 2, 0))) int32_t log_jvm_output(int32_t level, const char *format, va_list arguments);
 
 /* Copies the JVM's last lines, joined by "; ". */
 #define LOG_LAST_CAPACITY 2048

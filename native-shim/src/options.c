@@ -135,7 +135,7 @@ static enum run run(char *const argv[], int64_t deadline, char *output, size_t s
     prim_child child;
     size_t used = 0;
     output[0] = '\0';
-    if (!prim_child_start(argv, false, &child, output, size)) return NOT_STARTED;
+    if (prim_child_start(argv, false, &child, output, size) == 0) return NOT_STARTED;
     while (prim_child_read(&child, deadline, output + used, size - used)) {
         used += strlen(output + used);
         if (used <= size / 2) continue;
@@ -180,14 +180,10 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     char *last = length > OUTPUT_SHOWN ? text_next_character(output + length - OUTPUT_SHOWN) : output;
     join_lines(last);
     const char *printed = last[0] != '\0' ? last : "nothing";
-    switch (end) {
-        case NOT_STARTED:
-            log_format(CLK_LOG_WARNING, "the JVM options are not checked before the start: cannot run %s", java);
-            return CLK_OK;
-        case TIMED_OUT:
-            return error_set(CLK_TIMEOUT, "the check of the JVM options took longer than the time limit; %s printed: %s", java, printed);
-        default: break;
-    }
+    if (end == NOT_STARTED) log_format(CLK_LOG_WARNING, "the JVM options are not checked before the start: cannot run %s", java);
+    if (end == NOT_STARTED) return CLK_OK;
+    if (end == TIMED_OUT)
+        return error_set(CLK_TIMEOUT, "the check of the JVM options took longer than the time limit; %s printed: %s", java, printed);
     if (status == 0 && has_started) return CLK_OK;
     if (status == 0) return error_set(CLK_JVM_OPTIONS, "one of the JVM options ends the JVM in %s during its start; remove it", home);
     if (status < 0) {

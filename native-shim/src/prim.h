@@ -171,9 +171,8 @@ void prim_environment_show(char *hidden);
  * output, without names. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and
  * prim_child_reap. */
 
-/* Starts a program. False on failure, with the reason in `why`. */
-bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size);
-int32_t prim_child_id(const prim_child *child);
+/* Starts a program and returns its process id. 0 on failure, with the reason in `why`. */
+int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size);
 /* Waits for output or errors and reads them, NUL-terminated. False if the child ended and all was read, or if the deadline passed first. */
 bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size);
 /* Frees the child's resources if it ends by the deadline, and sets `status` to its exit code, or to -signal. False otherwise. */

@@ -346,7 +346,7 @@ static void close_all(const int descriptors[], int count) {
     }
 }
 
-bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
+int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
     int life[2] = {-1, -1}, output[2] = {-1, -1};
     pid_t process = 0;
     int failure = make_ends(output, true) && make_ends(life, false) ? 0 : errno;
@@ -354,13 +354,11 @@ bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *
         failure = spawn(argv, (const int[]){output[1], output[1], life[1], shared}, shares ? CHILD_MEMORY : CHILD_LIFE, &process);
     close_all((const int[]){output[1], life[1]}, 2);
     *child = (prim_child){.process = process, .life = life[0], .output = output[0]};
-    if (failure == 0) return true;
+    if (failure == 0) return process;
     close_all((const int[]){output[0], life[0]}, 2);
     snprintf(why, why_size, "%s", strerror(failure));
-    return false;
+    return 0;
 }
-
-int32_t prim_child_id(const prim_child *child) { return child->process; }
 
 bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size) {
     for (bool ended = false;;) {

@@ -196,13 +196,12 @@ static void describe(DWORD error, char *why, size_t why_size) {
     free(utf8);
 }
 
-static HANDLE section;
 static uint8_t *section_view;
 
 uint8_t *prim_shared_reserve(char *why, size_t why_size) {
     if (section_view != NULL) return section_view;
-    section = CreateFileMappingW(INVALID_HANDLE_VALUE, NULL, PAGE_READWRITE | SEC_RESERVE, (DWORD)(PRIM_SHARED_BYTES >> 32),
-                                 (DWORD)PRIM_SHARED_BYTES, NULL);
+    HANDLE section = CreateFileMappingW(INVALID_HANDLE_VALUE, NULL, PAGE_READWRITE | SEC_RESERVE, (DWORD)(PRIM_SHARED_BYTES >> 32),
+                                        (DWORD)PRIM_SHARED_BYTES, NULL);
     if (section != NULL) section_view = MapViewOfFile(section, FILE_MAP_ALL_ACCESS, 0, 0, 0);
     if (section_view == NULL) {
         describe(GetLastError(), why, why_size);
@@ -422,7 +421,7 @@ static void inherit_shared(DWORD flag) {
 }
 
 /* The job ends the child when this process ends, which closes its only handle. */
-bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
+int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
     HANDLE to = NULL;
     HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inheritable, OPEN_EXISTING, 0, NULL);
     HANDLE job = make_job();
@@ -438,13 +437,11 @@ bool prim_child_start(char *const argv[], bool shares, prim_child *child, char *
     if (child->process == NULL) describe(GetLastError(), why, why_size);
     free(line);
     close_all((const HANDLE[]){input, to}, 2);
-    if (child->process != NULL) return true;
+    if (child->process != NULL) return (int32_t)GetProcessId(child->process);
     close_all((const HANDLE[]){job, child->output}, 2);
     *child = (prim_child){0};
-    return false;
+    return 0;
 }
-
-int32_t prim_child_id(const prim_child *child) { return (int32_t)GetProcessId(child->process); }
 
 bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size) {
     for (bool ended = false;; ended = WaitForSingleObject(child->process, OUTPUT_POLL_MS) == WAIT_OBJECT_0) {
@@ -472,7 +469,7 @@ bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
 
 void prim_child_kill(prim_child *child) { TerminateJobObject(child->job, 1); }
 
-void prim_child_token(char *text, size_t size) { snprintf(text, size, "%llx", (unsigned long long)(uintptr_t)section); }
+void prim_child_token(char *text, size_t size) { snprintf(text, size, "%llx", (unsigned long long)(uintptr_t)shared_handles[0]); }
 
 uint8_t *prim_child_attach(const char *token) {
     char *end;

@@ -37,12 +37,10 @@ static void answer(int32_t result) {
     prim_semaphore_post(&serve.channel->done);
 }
 
-static void await_request(void) { prim_semaphore_wait(&serve.channel->request); }
-
 static bool grow(struct host_call *call, int32_t capacity) {
     serve.channel->capacity = capacity;
     answer(CHANNEL_GROW);
-    await_request();
+    prim_semaphore_wait(&serve.channel->request);
     if (serve.channel->result != CLK_OK) {
         error_set(CLK_MEMORY, "%s", serve.channel->text);
         return false;
@@ -90,7 +88,7 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     int32_t result = host_start(env, serve.channel->text, ERROR_CAPACITY);
     answer(result);
     while (result == CLK_OK) {
-        await_request();
+        prim_semaphore_wait(&serve.channel->request);
         if (serve.channel->call.entry == HOST_STOP) {
             stop(serve.channel->call.limit_ms);
             return;

@@ -60,17 +60,15 @@ static int32_t session_begin(struct session *session) {
     return result;
 }
 
-/* Takes a free session, with a new generation. */
-static int32_t session_take(struct session **taken) {
+/* Returns a free session, with a new generation. NULL if out of memory, with the last error set. */
+static struct session *session_take(void) {
     struct session *session = sessions.all;
     while (session < sessions.all + MAX_SESSIONS && session->open) session++;
-    if (session == sessions.all + MAX_SESSIONS) return error_set(CLK_MEMORY, "%d sessions are open; close one first", MAX_SESSIONS);
-    int32_t result = session_begin(session);
-    if (result != CLK_OK) return result;
+    if (session == sessions.all + MAX_SESSIONS) error_set(CLK_MEMORY, "%d sessions are open; close one first", MAX_SESSIONS);
+    if (session == sessions.all + MAX_SESSIONS || session_begin(session) != CLK_OK) return NULL;
     session->generation = session->generation == UINT32_MAX ? 1 : session->generation + 1;
     atomic_fetch_add(&sessions.count, 1);
-    *taken = session;
-    return CLK_OK;
+    return session;
 }
 
 /* The caller has closed the session, but the host has not yet. */
@@ -176,17 +174,14 @@ static int32_t end_call(int32_t result, clk_answer *answer) {
 /* Runs one call of the host and fills `answer`. CLK_PENDING if a debugger has stopped it. Needs the turn. */
 static int32_t call_host(enum host_entry entry, struct session *session, clk_slot slot, int32_t offset, int32_t length, int64_t deadline,
                          clk_answer *answer) {
-    struct block *request = slots_pin(slot);
-    if (request == NULL) return CLK_HANDLE;
-    if ((int64_t)offset + length > request->capacity) {
-        int32_t result = error_set(CLK_ARGUMENT, "offset %d + length %d is outside the slot's %d bytes", offset, length, request->capacity);
+    struct block *own = slots_pin(session->answer), *request = slots_pin(slot);
+    int32_t result = own != NULL && request != NULL ? CLK_OK : CLK_HANDLE;
+    if (result == CLK_OK && (int64_t)offset + length > request->capacity)
+        result = error_set(CLK_ARGUMENT, "offset %d + length %d is outside the slot's %d bytes", offset, length, request->capacity);
+    if (result != CLK_OK) {
         slots_unpin(request);
+        slots_unpin(own);
         return result;
-    }
-    struct block *own = slots_pin(session->answer);
-    if (own == NULL) {
-        slots_unpin(request);
-        return CLK_HANDLE;
     }
     int64_t left_ms = (deadline - prim_now() + PRIM_MILLI - 1) / PRIM_MILLI;
     sessions.call = (struct host_call){.entry = entry,
@@ -198,7 +193,7 @@ static int32_t call_host(enum host_entry entry, struct session *session, clk_slo
                                        .answer = own,
                                        .limit_ms = left_ms < 1 ? 1 : (int32_t)left_ms,
                                        .grow = grow_answer};
-    int32_t result = run(session, deadline);
+    result = run(session, deadline);
     return result == CLK_PENDING ? result : end_call(result, answer);
 }
 
@@ -261,15 +256,12 @@ int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t 
     int64_t deadline;
     int32_t result = enter(limit_ms, &deadline);
     if (result != CLK_OK) return result;
-    struct session *taken = NULL;
-    result = session_take(&taken);
-    if (result == CLK_OK) {
-        result = call_host(HOST_OPEN, taken, slot, offset, length, deadline, answer);
-        if (result >= CLK_OK) {
-            *session = session_handle(taken);
-        } else if (result != CLK_JVM_LOST) {
-            session_release(taken);
-        }
+    struct session *taken = session_take();
+    result = taken != NULL ? call_host(HOST_OPEN, taken, slot, offset, length, deadline, answer) : CLK_MEMORY;
+    if (result >= CLK_OK) {
+        *session = session_handle(taken);
+    } else if (taken != NULL && result != CLK_JVM_LOST) {
+        session_release(taken);
     }
     engine_leave();
     return result;

@@ -43,27 +43,23 @@ static int class_of(int32_t capacity) {
     return class;
 }
 
-/* Both return a new block, NULL if out of memory; a shared one has only its address. */
-static struct block *private_create(int class) {
+/* Returns a new block, of which a shared one has only its address. NULL if out of memory. */
+static struct block *block_create(int class) {
+    uint64_t bytes = (uint64_t)1 << class;
     struct block *block = malloc(sizeof *block);
-    uint8_t *address = prim_allocate((size_t)1 << class);
-    if (block != NULL && address != NULL) {
-        *block = (struct block){.address = address, .capacity = 1 << class};
-        return block;
-    }
-    free(block);
-    prim_free(address);
-    return NULL;
-}
-
-static struct block *shared_create(int class) {
-    struct block *block = PRIM_SHARED_BYTES - pool.shared_end < (uint64_t)1 << class ? NULL : malloc(sizeof *block);
     if (block == NULL) return NULL;
-    *block =
-        (struct block){.address = pool.shared + pool.shared_end, .offset = pool.shared_end, .capacity = 1 << class, .older = pool.newest};
-    pool.newest = block;
-    pool.shared_end += (uint64_t)1 << class;
-    return block;
+    *block = (struct block){.capacity = 1 << class};
+    if (pool.shared == NULL) {
+        block->address = prim_allocate(bytes);
+    } else if (PRIM_SHARED_BYTES - pool.shared_end >= bytes) {
+        *block = (struct block){
+            .address = pool.shared + pool.shared_end, .offset = pool.shared_end, .capacity = 1 << class, .older = pool.newest};
+        pool.newest = block;
+        pool.shared_end += bytes;
+    }
+    if (block->address != NULL) return block;
+    free(block);
+    return NULL;
 }
 
 static void block_keep(struct block *block) {
@@ -80,7 +76,7 @@ static struct block *block_take(int32_t capacity) {
         pool.unused[class] = block->next;
         if (block->counted) pool.unused_bytes -= (uint64_t)block->capacity;
     } else {
-        block = pool.shared != NULL ? shared_create(class) : private_create(class);
+        block = block_create(class);
     }
     if (block != NULL && !block->counted && block->offset != 0 && !prim_shared_commit(block->offset, (uint64_t)block->capacity, true)) {
         block_keep(block);
@@ -249,6 +245,7 @@ struct block *slots_pin(clk_slot handle) {
 }
 
 void slots_unpin(struct block *block) {
+    if (block == NULL) return;
     prim_lock(&pool.mutex);
     if (--block->pins == 0 && block->abandoned) block_release(block);
     prim_unlock(&pool.mutex);

@@ -23,7 +23,7 @@ struct block {
 
 /* Returns the slot's block, which stays valid until slots_unpin; NULL for a stale handle, with the last error set. */
 struct block *slots_pin(clk_slot slot);
-void slots_unpin(struct block *block);
+void slots_unpin(struct block *block); /* NULL does nothing */
 
 /* Replaces the slot's block by one of at least `capacity` bytes and returns it pinned; NULL on failure, with the last error set. The old block,
  * which the caller has pinned, stays valid until slots_unpin. */
