@@ -133,8 +133,15 @@ static int32_t fill_arguments(const struct launch *launch) {
     return CLK_OK;
 }
 
-static void reset_channel(void) {
+static int32_t prepare_channel(void) {
     struct channel *channel = child.channel;
+    if (channel == NULL) {
+        child.channel = channel = (struct channel *)(void *)slots_share(CHANNEL_BYTES);
+        if (channel == NULL) return CLK_MEMORY;
+        prim_semaphore_init(&child.ended, 0);
+        log_share(&channel->log, false);
+        host_share(&channel->state);
+    }
     log_jvm_forget();
     prim_semaphore_share(&channel->request);
     prim_semaphore_share(&channel->done);
@@ -142,22 +149,13 @@ static void reset_channel(void) {
     channel->size = sizeof *channel;
     atomic_store(&channel->state.debugged, false);
     channel->result = CHANNEL_SILENT;
-}
-
-static int32_t share_memory(void) {
-    if (child.channel != NULL) return CLK_OK;
-    child.channel = (struct channel *)(void *)slots_share(CHANNEL_BYTES);
-    if (child.channel == NULL) return CLK_MEMORY;
-    prim_semaphore_init(&child.ended, 0);
-    log_share(&child.channel->log, false);
-    host_share(&child.channel->state);
     return CLK_OK;
 }
 
-/* Copies the child's text, which it may have left without an end. */
-static int32_t channel_error(int32_t code) {
+/* Returns the child's text, which it may have left without an end. */
+static const char *channel_text(void) {
     child.channel->text[ERROR_CAPACITY - 1] = '\0';
-    return error_set(code, "%s", child.channel->text);
+    return child.channel->text;
 }
 
 /* The first answer reports the start. */
@@ -169,7 +167,7 @@ static int32_t await_start(int64_t deadline) {
                          last[0] != '\0' ? last : "nothing");
     }
     int32_t result = child.channel->result;
-    if (result != CHANNEL_SILENT) return result == CLK_OK ? CLK_OK : channel_error(result);
+    if (result != CHANNEL_SILENT) return result == CLK_OK ? CLK_OK : error_set(result, "%s", channel_text());
     if (child.id == 0) return error_set(CLK_JVM_START, "cannot run %s: %s", child.arguments[0], child.reason);
     if (strstr(child.reason, "load main class " MAIN_CLASS) != NULL)
         return error_set(CLK_HOST, "the class path lacks " MAIN_CLASS " of the version of this shim: %s", child.reason);
@@ -177,17 +175,15 @@ static int32_t await_start(int64_t deadline) {
 }
 
 int32_t child_start(const struct launch *launch, int64_t deadline, char *version, int32_t capacity) {
-    int32_t result = share_memory();
+    int32_t result = prepare_channel();
     if (result == CLK_OK) result = fill_arguments(launch);
     if (result != CLK_OK) return result;
-    reset_channel();
     if (!prim_thread_start(child_main, "collektive-jvm", STACK_BYTES)) {
         prim_semaphore_post(&child.ended);
         return error_set(CLK_MEMORY, "cannot create a thread; free memory or raise the limit of threads");
     }
     result = await_start(deadline);
-    child.channel->text[ERROR_CAPACITY - 1] = '\0';
-    text_export(child.channel->text, version, capacity);
+    text_export(channel_text(), version, capacity);
     return result;
 }
 
@@ -197,7 +193,7 @@ static int32_t finish(struct host_call *call) {
     struct channel *channel = child.channel;
     int32_t result = channel->result, offset = channel->call.answer_offset, length = channel->call.answer_length;
     if (result > 0) return error_set(CLK_HOST, "the JVM's process returned an unknown result, %d; restart the JVM", result);
-    if (result != CLK_OK) return channel_error(result);
+    if (result != CLK_OK) return error_set(result, "%s", channel_text());
     if (call->entry == HOST_CLOSE) return CLK_OK;
     if (offset < 0 || length < 0 || (int64_t)offset + length > call->answer->capacity)
         return error_set(CLK_HOST, "the JVM's process returned an answer outside of its slot; restart the JVM");

@@ -66,14 +66,6 @@ static void describe_exception(JNIEnv *env, char *buffer, int32_t capacity) {
     (*env)->DeleteLocalRef(env, exception);
 }
 
-/* Class.getName() caches its result; the first call allocates, which a full heap refuses. */
-static void cache_name(JNIEnv *env, const char *class_name) {
-    char text[64];
-    jclass class = (*env)->FindClass(env, class_name);
-    if (class != NULL) string_of(env, class, java.get_name, text, sizeof text);
-    (*env)->DeleteLocalRef(env, class);
-}
-
 static int32_t java_error(JNIEnv *env, int32_t code, const char *where) {
     char text[2048];
     describe_exception(env, text, sizeof text);
@@ -212,11 +204,14 @@ static int32_t bind(JNIEnv *env) {
     java.env = env;
     jclass object = (*env)->FindClass(env, "java/lang/Object");
     jclass class = (*env)->FindClass(env, "java/lang/Class");
+    jclass full = (*env)->FindClass(env, "java/lang/OutOfMemoryError");
     java.to_string = (*env)->GetMethodID(env, object, "toString", "()Ljava/lang/String;");
     java.get_name = (*env)->GetMethodID(env, class, "getName", "()Ljava/lang/String;");
     (*env)->DeleteLocalRef(env, object);
+    /* Class.getName() caches its result; the first call allocates, which a full heap refuses. */
+    string_of(env, full, java.get_name, (char[64]){0}, 64);
     (*env)->DeleteLocalRef(env, class);
-    cache_name(env, "java/lang/OutOfMemoryError");
+    (*env)->DeleteLocalRef(env, full);
 
     const JNINativeMethod natives[] = {NATIVE("grow", "(JI)Ljava/nio/ByteBuffer;", shim_grow), NATIVE("error", "([B)V", shim_error),
                                        NATIVE("log", "(I[B)V", shim_log), NATIVE("debugger", "(Z)V", shim_debugger)};

@@ -282,7 +282,7 @@ static int32_t end_child(void) {
 static int32_t stop_child(int32_t limit_ms) {
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int lock = lock_archive(limit_ms);
-    int32_t result = session_settle();
+    int32_t result = session_settle(deadline);
     engine_set_state(CLK_STATE_STOPPED); /* the end of the child is expected */
     if (result == CLK_OK) result = child_stop(limit_ms, deadline);
     int32_t ended = end_child();
@@ -299,8 +299,7 @@ static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) 
     if (state == CLK_STATE_RUNNING && stop_child((int32_t)((deadline - prim_now()) / PRIM_MILLI / 2) + 1) != CLK_OK)
         log_format(CLK_LOG_WARNING, "%s", error_last());
     int32_t result = end_child();
-    if (result != CLK_OK) return result;
-    return without_option_variables(start, config, deadline);
+    return result != CLK_OK ? result : without_option_variables(start, config, deadline);
 }
 
 static int32_t check_only(const clk_jvm_config *config, int64_t deadline) { return without_option_variables(check, config, deadline); }

@@ -13,14 +13,13 @@ struct record {
 };
 
 static struct log_ring own;
-static _Atomic(struct log_ring *) shared;
-static atomic_bool writes_shared;
+static _Atomic(struct log_ring *) written = &own, shared;
 static prim_mutex copying = PRIM_MUTEX_INIT; /* held for copies only, never during a call that may wait */
 
 _Static_assert((LOG_RING_BYTES & (LOG_RING_BYTES - 1)) == 0, "positions wrap by masking");
 
 void log_share(struct log_ring *ring, bool is_child) {
-    atomic_store(&writes_shared, is_child);
+    if (is_child) atomic_store(&written, ring);
     atomic_store(&shared, ring);
 }
 
@@ -46,7 +45,7 @@ void log_write(int32_t level, const char *text, int32_t length) {
     }
     struct record record = {level, length};
     uint32_t size = (uint32_t)sizeof record + (uint32_t)length;
-    struct log_ring *ring = atomic_load(&writes_shared) ? atomic_load(&shared) : &own;
+    struct log_ring *ring = atomic_load(&written);
     prim_lock(&copying);
     uint32_t tail = atomic_load_explicit(&ring->tail, memory_order_relaxed);
     if (tail - atomic_load(&ring->head) + size > LOG_RING_BYTES) {

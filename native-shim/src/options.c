@@ -180,8 +180,10 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     char *last = length > OUTPUT_SHOWN ? text_next_character(output + length - OUTPUT_SHOWN) : output;
     join_lines(last);
     const char *printed = last[0] != '\0' ? last : "nothing";
-    if (end == NOT_STARTED) log_format(CLK_LOG_WARNING, "the JVM options are not checked before the start: cannot run %s", java);
-    if (end == NOT_STARTED) return CLK_OK;
+    if (end == NOT_STARTED) {
+        log_format(CLK_LOG_WARNING, "the JVM options are not checked before the start: cannot run %s", java);
+        return CLK_OK;
+    }
     if (end == TIMED_OUT)
         return error_set(CLK_TIMEOUT, "the check of the JVM options took longer than the time limit; %s printed: %s", java, printed);
     if (status == 0 && has_started) return CLK_OK;

@@ -47,11 +47,9 @@ static void to_utf8_in_place(UINT code_page, char *text, size_t size) {
     free(wide);
 }
 
-static UINT jvm_code_page(void) { return GetACP(); }
-
 static char *jvm_text(const char *text, BOOL *lost) {
     wchar_t *wide = wide_of(CP_UTF8, text);
-    char *converted = wide != NULL ? narrow_of(jvm_code_page(), wide, lost) : NULL;
+    char *converted = wide != NULL ? narrow_of(GetACP(), wide, lost) : NULL;
     free(wide);
     return converted;
 }
@@ -449,7 +447,7 @@ bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t s
         if (PeekNamedPipe(child->output, NULL, 0, NULL, &ready, NULL) && ready > 0 &&
             ReadFile(child->output, buffer, (DWORD)size / 4, &count, NULL) && count > 0) { /* UTF-8 may be longer */
             buffer[count] = '\0';
-            to_utf8_in_place(jvm_code_page(), buffer, size);
+            to_utf8_in_place(GetACP(), buffer, size);
             return true;
         }
         if (ended || prim_now() >= deadline) return false;

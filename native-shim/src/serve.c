@@ -37,10 +37,15 @@ static void answer(int32_t result) {
     prim_semaphore_post(&serve.channel->done);
 }
 
+static enum host_entry await_request(void) {
+    prim_semaphore_wait(&serve.channel->request);
+    return serve.channel->call.entry;
+}
+
 static bool grow(struct host_call *call, int32_t capacity) {
     serve.channel->capacity = capacity;
     answer(CHANNEL_GROW);
-    prim_semaphore_wait(&serve.channel->request);
+    await_request();
     if (serve.channel->result != CLK_OK) {
         error_set(CLK_MEMORY, "%s", serve.channel->text);
         return false;
@@ -87,12 +92,7 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     engine_adopt();
     int32_t result = host_start(env, serve.channel->text, ERROR_CAPACITY);
     answer(result);
-    while (result == CLK_OK) {
-        prim_semaphore_wait(&serve.channel->request);
-        if (serve.channel->call.entry == HOST_STOP) {
-            stop(serve.channel->call.limit_ms);
-            return;
-        }
-        answer(run());
-    }
+    if (result != CLK_OK) return;
+    while (await_request() != HOST_STOP) answer(run());
+    stop(serve.channel->call.limit_ms);
 }

@@ -209,8 +209,7 @@ static int32_t close_session(struct session *session, int64_t deadline) {
     return result;
 }
 
-/* Completes the call that a debugger has stopped, unless its caller still waits for it. */
-static int32_t settle(int64_t deadline) {
+int32_t session_settle(int64_t deadline) {
     while (sessions.caller != NULL) {
         struct session *session = sessions.caller;
         int32_t result = session->closing || session == &sessions.control ? await_call(prim_now()) : CLK_PENDING;
@@ -228,8 +227,6 @@ static int32_t settle(int64_t deadline) {
     return CLK_OK;
 }
 
-int32_t session_settle(void) { return settle(prim_now() + PRIM_MILLI); }
-
 static int32_t take_turn(int64_t deadline) {
     int32_t result = engine_check_running(); /* without waiting */
     if (result == CLK_OK) result = engine_enter(deadline);
@@ -243,7 +240,7 @@ static int32_t enter(int32_t limit_ms, int64_t *deadline) {
     *deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = take_turn(*deadline);
     if (result != CLK_OK) return result;
-    result = settle(*deadline);
+    result = session_settle(*deadline);
     if (result != CLK_OK) engine_leave();
     return result;
 }
@@ -308,7 +305,7 @@ int32_t clk_control(clk_slot slot, int32_t offset, int32_t length, int32_t limit
     if (result != CLK_OK) return result;
     if (!sessions.control.open) result = session_begin(&sessions.control);
     if (result == CLK_OK) result = call_host(HOST_CONTROL, &sessions.control, slot, offset, length, deadline, answer);
-    if (result == CLK_PENDING) result = settle(deadline);
+    if (result == CLK_PENDING) result = session_settle(deadline);
     engine_leave();
     return result;
 }
@@ -323,9 +320,9 @@ int32_t clk_session_close(clk_session session, int32_t limit_ms) {
         result = CLK_HANDLE;
     } else if (sessions.caller == found) {
         session_mark_closing(found);
-        result = settle(deadline) == CLK_JVM_LOST ? CLK_JVM_LOST : CLK_OK;
+        result = session_settle(deadline) == CLK_JVM_LOST ? CLK_JVM_LOST : CLK_OK;
     } else {
-        result = settle(deadline);
+        result = session_settle(deadline);
         if (result == CLK_OK) result = close_session(found, deadline);
     }
     engine_leave();

@@ -8,8 +8,9 @@
  * seconds. */
 #define SESSION_GRACE_MS 10000
 
-/* Completes a call that a debugger had stopped and whose session was closed. Needs the turn. CLK_TIMEOUT if it has not ended. */
-int32_t session_settle(void);
+/* Completes the call that a debugger has stopped, unless its caller still waits for it. Needs the turn. CLK_TIMEOUT if it has not ended. The
+ * deadline is for closing its session. */
+int32_t session_settle(int64_t deadline);
 
 /* Removes all sessions and releases their slots when the JVM ends. Needs the turn. */
 void session_forget_all(void);
