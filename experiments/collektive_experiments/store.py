@@ -12,7 +12,7 @@ from .files import MARKER, PART
 from .positions import ExperimentError
 from .worker import Outcome
 
-VERSION = 2
+VERSION = 3
 RESULTS = ("manifest.json", "metrics.csv")
 """Files that each complete run has."""
 
@@ -45,6 +45,9 @@ class Store:
 
     def open(self, experiment: Experiment, resume: bool) -> None:
         """Creates or reopens the folder. Raises `ExperimentError` if another sweep uses or has created it, or if it is not a sweep's folder."""
+        if any(character > "\uffff" for character in os.path.realpath(self.folder)):
+            raise ExperimentError(f"'{os.path.realpath(self.folder)}' contains an emoji or another character beyond U+FFFF, and the JVM cannot load classes "
+                                  "from there: name another folder with --out")
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
             raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
         files.make(self.folder)

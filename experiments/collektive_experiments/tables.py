@@ -3,10 +3,9 @@ import csv
 import json
 import math
 import os
-import re
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from types import TracebackType
 from typing import Any
 
@@ -28,9 +27,7 @@ RUN_COLUMNS: list[tuple[str, pa.DataType]] = [
 RUN_TIMES: list[tuple[str, pa.DataType]] = [
     ("wall_seconds", pa.float64()), ("ticks_ms", pa.float64()), ("tick_ms_median", pa.float64()), ("tick_ms_p99", pa.float64())]
 VERSIONS = ("collektive", "jvm", "clr", "os")
-
-
-CELL = re.compile(r'("?)((?:[^"]|"")*?)\1(?:,|$)')
+NODE_TYPES = {"bool": pa.bool_(), "int64": pa.int64(), "uint64": pa.uint64(), "float64": pa.float64(), "string": pa.string()}
 
 Record = dict[str, Any]
 
@@ -121,15 +118,17 @@ class _Columns:
         converged: dict[str, None] = {}
         self.rows: dict[str, int] = {}
         self._ends: dict[str, float] = {}
-        self.nodes: dict[str, pa.DataType] = {}
+        node_columns: dict[str, str] = {}
         for run, _ in self.records():
             manifest = self._manifest(run)
             metrics.update(dict.fromkeys(manifest.get("end", {})))
             converged.update(dict.fromkeys(manifest.get("converged", {})))
+            node_columns.update(manifest.get("node_columns", {}))
         types = {key: _type_of(values) for key, values in experiment.product + experiment.together}
         if "seed" not in types:
             types["seed"] = pa.uint64()
         self.parameters: list[tuple[str, pa.DataType]] = list(types.items())
+        self.nodes: dict[str, pa.DataType] = {self._node_column(name): NODE_TYPES[kind] for name, kind in node_columns.items()}
         self._names: dict[str, str] = {}
         taken = {"run", "second", *types, *(name for name, _ in RUN_COLUMNS + RUN_TIMES), *COUNTS, *TIMES, *(f"version.{name}" for name in VERSIONS),
                  *(prefix + name for name in converged for prefix in (CONVERGED, CENSORED))}
@@ -139,9 +138,6 @@ class _Columns:
                 column = "metric." + column
             taken.add(column)
             self._names[name] = column
-        for run, record in self.records():
-            if record["status"] == "complete":
-                self._add_node_columns(run)
         self.metrics = list(self._names.values())
         self.converged = list(converged)
 
@@ -190,11 +186,12 @@ class _Columns:
     def node_rows(self, run: Run) -> Iterator[dict[str, Any]]:
         """Yields the rows of nodes.csv."""
         convert: dict[str, Callable[[str], Any]] = {
-            name: (lambda cell: cell == "true") if kind == pa.bool_() else _finite if kind == pa.float64() else str for name, kind in self.nodes.items()}
-        if not self._has_nodes(run):
+            name: (lambda cell: cell == "true") if kind == pa.bool_() else _finite if kind == pa.float64() else str if kind == pa.string() else int
+            for name, kind in self.nodes.items()}
+        if not os.path.exists(os.path.join(self._store.runs, run.name, "nodes.csv")):
             return
         table = self._table(run, "nodes.csv")
-        names = self._node_columns(table)
+        names = [self._node_column(name) for name in next(table)[2:]]
         for cells in table:
             yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names, cells[2:]) if cell}}
 
@@ -212,27 +209,10 @@ class _Columns:
             self._not_finite.setdefault(name, set()).add(run.name)
         return number
 
-    def _add_node_columns(self, run: Run) -> None:
-        """Sets the type of each column from its first cell with a value. The player quotes strings."""
-        if not self._has_nodes(run) or (self.nodes and pa.null() not in self.nodes.values()):
-            return
-        table = self._table(run, "nodes.csv", raw=True)
-        names = self._node_columns(self._table(run, "nodes.csv"))
-        next(table)
-        for cells in table:
-            for name, cell in zip(names, cells[2:]):
-                if self.nodes.setdefault(name, pa.null()) == pa.null() and cell:
-                    self.nodes[name] = pa.string() if cell[0] == '"' else pa.bool_() if cell in ("true", "false") else pa.float64()
-            if pa.null() not in self.nodes.values():
-                return
-
-    def _node_columns(self, table: Iterator[list[str]]) -> list[str]:
-        """Returns the columns of the fields in the first row of nodes.csv. Names of other columns get the prefix `field.`"""
+    def _node_column(self, field: str) -> str:
+        """Returns the column of a field. Names of other columns get the prefix `field.`"""
         taken = {"run", "second", "node", *(name for name, _ in self.parameters)}
-        return ["field." + name if name in taken else name for name in next(table)[2:]]
-
-    def _has_nodes(self, run: Run) -> bool:
-        return os.path.exists(os.path.join(self._store.runs, run.name, "nodes.csv"))
+        return "field." + field if field in taken else field
 
     def _manifest(self, run: Run) -> dict[str, Any]:
         try:
@@ -242,25 +222,10 @@ class _Columns:
             return {}
         return manifest
 
-    def _table(self, run: Run, name: str, raw: bool = False) -> Iterator[list[str]]:
-        """Yields the rows of a CSV file. Raw cells keep their quotes."""
+    def _table(self, run: Run, name: str) -> Iterator[list[str]]:
+        """Yields the rows of a CSV file."""
         with open(os.path.join(self._store.runs, run.name, name), newline="", encoding="utf-8") as file:
-            if not raw:
-                yield from csv.reader(file)
-                return
-            lines: Iterable[str] = _records(file)
-            for line in lines:
-                yield [match[1] + match[2] for match in CELL.finditer(line)]
-
-
-def _records(file: Iterable[str]) -> Iterator[str]:
-    """Joins the lines of a CSV file that belong to one record."""
-    pending = ""
-    for line in file:
-        pending += line
-        if pending.count('"') % 2 == 0:
-            yield pending.rstrip("\r\n")
-            pending = ""
+            yield from csv.reader(file)
 
 
 def _type_of(values: list[Any]) -> pa.DataType:

@@ -287,6 +287,11 @@ def test_metrics_have_the_expected_values(study: Study, tmp_path: Path) -> None:
     assert study.worker.run({"seconds": 3, "outputs.interval": 0.1, "stopWhenConverged": True}, "{}", str(tmp_path / "stopped"), 300,
                             is_repeated=False).status == "complete"
     assert json.loads((tmp_path / "stopped/manifest.json").read_text())["ticks"] == 5
+    # The band contains the value at the start, before the first round.
+    assert study.worker.run({"seconds": 3, "outputs.interval": 0.2, "stopWhenConverged": True, "converged": {"nodes": {"from": 9}}}, "{}",
+                            str(tmp_path / "first"), 300, is_repeated=False).status == "complete"
+    manifest = json.loads((tmp_path / "first/manifest.json").read_text())
+    assert (manifest["ticks"], manifest["converged"]["nodes"]) == (2, 0)
 
 
 def test_functions_are_metrics_like_sql(study: Study, tmp_path: Path) -> None:

@@ -157,6 +157,27 @@ def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) 
     assert set(last["field.node"]) == {10.0}
 
 
+def test_large_whole_numbers_keep_their_digits(project: Project) -> None:
+    for name, before, after in [("light.fbs", "brightest: float", "brightest: long"), ("light.fbs", "seen:", "ticks: ulong; seen:"),
+                                ("programs/Brightest.kt", "ActuatorData(brightest = best,", "ActuatorData(brightest = 9007199254740993L - mine.toLong(), ticks = -1L,")]:
+        file = project.folder / "project" / name
+        file.write_text(file.read_text().replace(before, after))
+    result = project.sweep("--csv", vary={"seed": [1]}, set={"outputs.nodes.fields": ["brightest", "ticks"]})
+    assert result.returncode == 0, result.stderr
+    table = pq.read_table(project.folder / "out/nodes.parquet")
+    assert [str(table.schema.field(name).type) for name in ("brightest", "ticks")] == ["int64", "uint64"]
+    assert 9007199254740993 - 3 in table["brightest"].to_pylist()
+    assert table["ticks"].to_pylist()[-1] == 18446744073709551615
+    assert ",9007199254740990,18446744073709551615" in (project.folder / "out/nodes.csv").read_text()
+
+
+def test_results_cannot_be_in_a_folder_with_an_emoji(project: Project) -> None:
+    result = project.sweep(out="a\U0001f680", vary={"seed": [1]})
+    assert result.returncode == 1
+    assert "a\U0001f680' contains an emoji or another character beyond U+FFFF, and the JVM cannot load classes from there: name another" in result.stderr
+    assert not (project.folder / "a\U0001f680").exists()
+
+
 def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
     result = project.sweep("--dry-run", **MANY)
     assert result.returncode == 0, result.stderr

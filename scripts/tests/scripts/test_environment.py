@@ -41,3 +41,10 @@ def test_a_reader_that_closes_the_output_ends_the_command_silently(checkout: Che
     result = subprocess.run([checkout.root / "collektive", "--help"], stdout=writer, stderr=subprocess.PIPE, text=True)
     os.close(writer)
     assert (result.returncode, result.stderr) == (-signal.SIGPIPE, "")
+
+
+def test_without_a_search_path_python_knows_its_own_path(checkout: Checkout) -> None:
+    (checkout.root / "scripts/collektive.py").write_text("import sys; print(sys.executable)")
+    environment = {name: value for name, value in os.environ.items() if name != "PATH"}
+    result = subprocess.run(["/bin/sh", checkout.root / "collektive"], capture_output=True, text=True, env=environment)
+    assert os.access(result.stdout.strip(), os.X_OK), result.stderr

@@ -100,7 +100,8 @@ namespace Collektive.Headless
             {
                 if (!(value >= From && value <= To)) since = null;
                 else since = since ?? second;
-                if (since != null && second - since >= Seconds - 1e-6) Time = Time ?? Math.Round(since.Value, 6);
+                // At second 0 no round has run.
+                if (since != null && second > 0 && second - since >= Seconds - 1e-6) Time = Time ?? Math.Round(since.Value, 6);
             }
 
             internal JObject ToJson()

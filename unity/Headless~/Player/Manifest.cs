@@ -73,6 +73,9 @@ namespace Collektive.Headless
         /// <summary>Simulated seconds at which metrics have converged.</summary>
         internal void AddConvergence(JObject times) => Root.Add("converged", times);
 
+        /// <summary>Types of the columns of nodes.csv.</summary>
+        internal void AddNodeColumns(JObject types) => Root.Add("node_columns", types);
+
         /// <summary>Quantiles over all ticks, in milliseconds.</summary>
         internal void AddTimes(List<double> rounds, List<double> step, List<double> total)
         {

@@ -5,6 +5,7 @@ using System.IO;
 using System.Linq;
 using System.Reflection;
 using Collektive.Unity;
+using Newtonsoft.Json.Linq;
 using UnityEngine;
 using Schema = org.collektive.schema;
 
@@ -29,8 +30,11 @@ namespace Collektive.Headless
             var answers = AnswerField.Of(manager);
             foreach (var field in fields) columns.Add(field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field));
             writer = ResultFile.Create(path);
-            writer.Write("second,node," + string.Join(",", columns.Select(column => column.Header)) + "\n");
+            writer.Write("second,node," + string.Join(",", columns.SelectMany(column => column.Names)) + "\n");
         }
+
+        /// <summary>Type of each column, for tables of several runs.</summary>
+        internal JObject Types => new JObject(columns.SelectMany(column => column.Names.Select(name => new JProperty(name, column.Type))));
 
         internal void Add(double second)
         {
@@ -80,12 +84,15 @@ namespace Collektive.Headless
                 var names = PartsOf(type);
                 type = Nullable.GetUnderlyingType(type) ?? type;
                 parts = Array.ConvertAll(names, part => (MemberInfo)type.GetField(part, MemberFlags) ?? type.GetProperty(part, MemberFlags));
-                Header = names.Length == 0 ? name : string.Join(",", names.Select(part => name + "." + part));
+                Names = names.Length == 0 ? new[] { name } : Array.ConvertAll(names, part => name + "." + part);
+                Type = names.Length > 0 ? "float64" : TypeName(type);
             }
 
             internal AnswerField Field { get; }
 
-            internal string Header { get; }
+            internal string[] Names { get; }
+
+            internal string Type { get; }
 
             internal static bool IsSupported(Type type) => type.IsPrimitive || type.IsEnum || type == typeof(string) || PartsOf(type).Length > 0;
 
@@ -109,6 +116,14 @@ namespace Collektive.Headless
                 type = Nullable.GetUnderlyingType(type) ?? type;
                 if (type == typeof(Vector3) || type == typeof(Schema.Vector3Value) || type == typeof(Schema.Vector3)) return new[] { "x", "y", "z" };
                 return type == typeof(Schema.Vector2Value) || type == typeof(Schema.Vector2) ? new[] { "x", "y" } : Array.Empty<string>();
+            }
+
+            private static string TypeName(Type type)
+            {
+                if (type == typeof(string) || type.IsEnum) return "string";
+                if (type == typeof(bool)) return "bool";
+                if (type == typeof(float) || type == typeof(double)) return "float64";
+                return type == typeof(ulong) ? "uint64" : "int64";
             }
 
             private static string Cell(object value)

@@ -254,6 +254,7 @@ namespace Collektive.Headless
                 manifest.AddResults(
                     manager, parameters ?? new JObject(), done, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
                 manifest.AddConvergence(scenario.Convergence.Times());
+                if (nodes != null) manifest.AddNodeColumns(nodes.Types);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
                 manifest.AddFirstTick(firstTick);
                 if (replay != null) manifest.AddReplay(replay.Milliseconds);

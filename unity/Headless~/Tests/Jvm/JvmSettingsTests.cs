@@ -186,6 +186,17 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
+        public void A_path_of_the_host_with_an_emoji_is_refused()
+        {
+            Installation.HostJar = "/nowhere/\ud83d\ude80/collektive-host.jar";
+            Installation.JavaHome = TestJvm.Home;
+            Assert.That(
+                Assert.Throws<BridgeException>(() => Installation.ToLaunch(TestJvm.Settings)).Message,
+                Is.StringContaining("cannot load classes from /nowhere/\ud83d\ude80/collektive-host.jar: its path contains an emoji"));
+            Installation.HostJar = TestJvm.HostJar;
+        }
+
+        [Test]
         public void The_JVM_is_searched_at_the_configured_location()
         {
             Installation.HostJar = TestJvm.HostJar;

@@ -80,6 +80,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("stopWhenConverged", "true", "'stopWhenConverged' needs 'converged'")]
         [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be a number of seconds that is at least 'deltaTime'")]
         [TestCase("outputs", "{\"interval\": 1e9}", "'outputs.interval' is 1E+09: it must be a number of seconds that is at most 1E+08")]
+        [TestCase("outputs", "{\"nodes\": {\"fields\": [\"a\", \"b\", \"a\"]}}", "'outputs.nodes.fields' contains 'a' twice")]
         [TestCase("outputs", "{\"nodes\": {\"field\": []}}", "unknown key 'outputs.nodes.field'; known here: fields, interval")]
         public void Errors_in_experiment_keys_name_their_position(string key, string value, string message) =>
             Errors_name_their_position(key, value, message);
@@ -121,6 +122,20 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("threads", "--set threads: write it as --set KEY=VALUE")]
         public void Invalid_assignments_are_reported(string assignment, string message) =>
             Assert.That(Assert.Throws<ScenarioException>(() => Read(Minimal(), assignment)).Message, Is.StringContaining(message));
+
+        [TestCase(5, null)]
+        [TestCase(9, 0.0)]
+        public void A_metric_does_not_converge_before_the_first_round(double to, double? expected)
+        {
+            var root = Minimal();
+            root["converged"] = new JObject(new JProperty("error", new JObject(new JProperty("to", to))));
+            var convergence = Read(root).Convergence;
+            convergence.Bind(new[] { "error" });
+            convergence.Add(0, new[] { 4.0 });
+            Assert.That(convergence.IsComplete, Is.False);
+            convergence.Add(1, new[] { 8.0 });
+            Assert.That((double?)convergence.Times()["error"], Is.EqualTo(expected));
+        }
 
         [TestCase(1, null)]
         [TestCase(2, 3.0)]

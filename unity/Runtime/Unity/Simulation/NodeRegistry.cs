@@ -12,7 +12,9 @@ namespace Collektive.Unity
         private const int MaxId = (1 << 24) - 1;
 
         private readonly List<Node> nodes = new List<Node>();
+        // Null for those that left again.
         private readonly List<Node> joining = new List<Node>();
+        private readonly PagedArray<int> joiningIndex = new PagedArray<int>();
         private readonly GrowingArray<int> leaving = new GrowingArray<int>();
         private readonly GrowingArray<int> gone = new GrowingArray<int>();
         private readonly PagedArray<bool> isGone = new PagedArray<bool>();
@@ -21,7 +23,7 @@ namespace Collektive.Unity
         /// <summary>The participating nodes, ascending by id.</summary>
         internal List<Node> Nodes => nodes;
 
-        /// <summary>The nodes that joined since the last tick.</summary>
+        /// <summary>The nodes that joined since the last tick; null for those that left again.</summary>
         internal IReadOnlyList<Node> Joining => joining;
 
         /// <summary>All ids are below it.</summary>
@@ -50,6 +52,7 @@ namespace Collektive.Unity
             if (isGone[id]) DropLinksOfGone(simulation.Links);
             node.OnJoined(simulation, id);
             nodes.Insert(place, node);
+            joiningIndex[id] = joining.Count;
             joining.Add(node);
             return null;
         }
@@ -60,7 +63,7 @@ namespace Collektive.Unity
             var id = node.Id;
             nodes.RemoveAt(IndexOf(id));
             if (IsKnown[id]) leaving.Add(id);
-            else joining.Remove(node);
+            else joining[joiningIndex[id]] = null;
             IsKnown[id] = false;
             isGone[id] = true;
             gone.Add(id);
@@ -84,6 +87,7 @@ namespace Collektive.Unity
             WarnIfAtOnePosition();
             for (var i = 0; i < joining.Count; i++)
             {
+                if (joining[i] is null) continue;
                 request.AddNode(joining[i].Id, joining[i].Program, ParametersOf(joining[i]));
                 IsKnown[joining[i].Id] = true;
             }

@@ -365,6 +365,7 @@ namespace Collektive.Unity
             for (var i = 0; i < registry.Joining.Count && IsOpen; i++)
             {
                 var node = registry.Joining[i];
+                if (node is null) continue;
                 problem = Settings.FindProblem(node) ?? node.StartTimer();
                 if (problem != null) Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
             }
