@@ -4,12 +4,13 @@ import hashlib
 import json
 import os
 import sys
+from pathlib import Path
 from typing import Any, BinaryIO
 
 from . import files
-from .experiment import Experiment, Run
+from .experiment import FIXED, Experiment, Run
 from .files import MARKER, PART
-from .positions import ExperimentError
+from .positions import ExperimentError, Located
 from .worker import Outcome
 
 VERSION = 3
@@ -45,9 +46,15 @@ class Store:
 
     def open(self, experiment: Experiment, resume: bool) -> None:
         """Creates or reopens the folder. Raises `ExperimentError` if another sweep uses or has created it, or if it is not a sweep's folder."""
-        if any(character > "\uffff" for character in os.path.realpath(self.folder)):
-            raise ExperimentError(f"'{os.path.realpath(self.folder)}' contains an emoji or another character beyond U+FFFF, and the JVM cannot load classes "
-                                  "from there: name another folder with --out")
+        folder = os.path.realpath(self.folder)
+        if any(character > "\uffff" for character in folder):
+            raise ExperimentError(f"'{folder}' contains an emoji or another character beyond U+FFFF, and the JVM cannot load classes from there: "
+                                  "name another folder with --out")
+        root = Located(experiment.scenario).root
+        for key in FIXED:
+            part = os.path.join(os.path.dirname(os.path.abspath(experiment.scenario)), str(root.get(key, "")))
+            if key in root and Path(os.path.realpath(part)) in Path(folder).parents:
+                raise ExperimentError(f"the results would be inside '{part}', which the scenario names as '{key}': name another folder with --out")
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
             raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
         files.make(self.folder)

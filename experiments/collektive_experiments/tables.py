@@ -76,6 +76,8 @@ class Table:
 def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     """Writes the tables of all finished runs. Returns the number of runs in the written table."""
     columns = _Columns(experiment, store)
+    # CSV tables of an earlier command must not become outdated.
+    with_csv = with_csv or os.path.exists(os.path.join(store.folder, "runs.csv"))
     runs = pa.schema([("run", pa.string()), *columns.parameters, *RUN_COLUMNS, *((name, pa.float64()) for name in columns.metrics),
                       *((prefix + name, pa.float64()) for name in columns.converged for prefix in (CONVERGED, CENSORED)), *RUN_TIMES,
                       *((f"version.{name}", pa.string()) for name in VERSIONS)])

@@ -20,6 +20,7 @@ def test_results_inside_an_input_are_refused(project: Project) -> None:
     result = project.sweep(out="project/programs/out", vary={"seed": [1]})
     assert result.returncode == 1
     assert f"the results would be inside '{project.folder}/project/programs', which the scenario names as 'programs'" in result.stderr
+    assert not (project.folder / "project/programs/out").exists()
 
 
 def test_runs_use_copies_of_linked_and_included_files(project: Project) -> None:

@@ -100,6 +100,12 @@ def test_a_completed_sweep_repeats_no_runs_and_can_be_extended(lamps: Project) -
     assert "name another folder with --out" in other.stderr
 
 
+def test_csv_tables_do_not_become_outdated(project: Project) -> None:
+    assert project.sweep("--csv", vary={"seed": [1]}).returncode == 0
+    assert project.sweep("--resume", vary={"seed": [1, 2]}).returncode == 0
+    assert list(pd.read_csv(project.folder / "out/runs.csv")["seed"]) == list(project.table()["seed"]) == [1, 2]
+
+
 def test_changed_scripts_are_not_mixed_with_earlier_runs(project: Project) -> None:
     keys = {"vary": {"seed": [1]}}
     assert project.sweep(vary={"sed": [1]}).returncode == 1
@@ -158,8 +164,9 @@ def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) 
 
 
 def test_large_whole_numbers_keep_their_digits(project: Project) -> None:
+    answer = "ActuatorData(brightest = 9007199254740993L - mine.toLong(), ticks = -1L,"
     for name, before, after in [("light.fbs", "brightest: float", "brightest: long"), ("light.fbs", "seen:", "ticks: ulong; seen:"),
-                                ("programs/Brightest.kt", "ActuatorData(brightest = best,", "ActuatorData(brightest = 9007199254740993L - mine.toLong(), ticks = -1L,")]:
+                                ("programs/Brightest.kt", "ActuatorData(brightest = best,", answer)]:
         file = project.folder / "project" / name
         file.write_text(file.read_text().replace(before, after))
     result = project.sweep("--csv", vary={"seed": [1]}, set={"outputs.nodes.fields": ["brightest", "ticks"]})

@@ -31,9 +31,6 @@ def run(arguments: argparse.Namespace) -> int:
     plans = plans or {"programs.jar": player.plan(arguments.scenario, trust)}
     parts = {key: part for plan in plans.values() for key, part in plan.parts.items()}
     _require_within(Path(os.path.abspath(arguments.scenario)).parent, parts["schema"])
-    for key, part in parts.items():
-        if Path(os.path.realpath(part.path)) in Path(os.path.realpath(folder)).parents:
-            raise Failure(f"the results would be inside '{part.path}', which the scenario names as '{key}': name another folder with --out")
     inputs = folder / "inputs"
     paths = {key: str(part.copy(inputs / key).relative_to(inputs)) for key, part in parts.items()}
     for part in parts.values():
