@@ -5,16 +5,113 @@
 #include <string.h>
 #include "test.h"
 #if defined(_WIN32)
-void own_survives_kills(void) { skip("uses signals"); }
-void own_ends_with_its_parent(void) { skip("uses signals"); }
-void own_with_a_bad_launcher(void) { skip("uses shell scripts"); }
+#include <windows.h>
+
+#include "prim.h"
 void own_without_resources(void) { skip("uses limits of POSIX"); }
 void own_without_processes(void) { skip("uses limits of POSIX"); }
 void own_out_of_memory(void) { skip("uses limits of POSIX"); }
 void own_needs_no_shared_memory_folder(void) { skip("uses mounts of Linux"); }
 void own_continues_after_a_suspension(void) { skip("uses signals"); }
-void own_reports_its_death_at_once(void) { skip("uses signals"); }
-void parent(void) { skip("uses signals"); }
+
+static DWORD handles(void) {
+    DWORD count = 0;
+    CHECK(GetProcessHandleCount(GetCurrentProcess(), &count));
+    return count;
+}
+
+static DWORD WINAPI kill_later(void *unused) {
+    (void)unused;
+    HANDLE process = OpenProcess(PROCESS_TERMINATE, FALSE, (DWORD)stats().process);
+    sleep_ms((int)(random_next() % 30));
+    CHECK(process != NULL && TerminateProcess(process, 9) && CloseHandle(process));
+    return 0;
+}
+
+static void join(HANDLE thread) { CHECK(thread != NULL && WaitForSingleObject(thread, 10000) == WAIT_OBJECT_0 && CloseHandle(thread)); }
+
+void own_survives_kills(void) {
+    DWORD before = 0;
+    for (int i = 0; i < 8; i++) {
+        clk_session session;
+        int32_t result = CLK_OK;
+        CHECK_OK(start_at(java_home(), host_classes, OPTIONS("-Xmx64m", "-XX:ErrorFile=NUL"), false, 60000));
+        if (i == 0) CHECK_OK(clk_slot_acquire(1 << 20, &request, &request_memory));
+        CHECK_OK(open_session(&session));
+        HANDLE killer = i % 4 < 3 ? CreateThread(NULL, 0, kill_later, NULL, 0, NULL) : NULL;
+        if (killer == NULL) result = step(session, CRASH, 0, 60000);
+        for (int n = 0; result == CLK_OK; n++) result = n % 3 == 0 ? step(session, GROW, 1 << 12, 60000) : step(session, LOG, 3, 60000);
+        CHECK(result == CLK_JVM_LOST && clk_jvm_state() == CLK_STATE_LOST);
+        CHECK_CODE(CLK_JVM_LOST, "start it again", step(session, EMPTY, 0, 1000));
+        if (killer != NULL) join(killer);
+        while (clk_log_read(NULL, NULL, 0) >= 0) {
+        }
+        if (i == 3) before = handles();
+        CHECK(i <= 3 || handles() <= before);
+    }
+    CHECK_OK(start(NULL));
+    CHECK_OK(clk_jvm_stop(60000));
+    CHECK(stats().slots == 1 && stats().sessions == 0);
+}
+
+void own_reports_its_death_at_once(void) {
+    clk_session session;
+    start_plain();
+    CHECK_OK(open_session(&session));
+    HANDLE killer = CreateThread(NULL, 0, kill_later, NULL, 0, NULL);
+    int64_t begin = now_ns();
+    CHECK_CODE(CLK_JVM_LOST, "exit code 9", step(session, SLEEP, 30000, 60000));
+    CHECK(now_ns() - begin < 2000000000);
+    join(killer);
+}
+
+void parent(void) {
+    placement = CLK_OWN_PROCESS;
+    CHECK_OK(start(NULL));
+    printf("%lu %d\n", GetCurrentProcessId(), stats().process);
+    fflush(stdout);
+    for (;;) sleep_ms(900);
+}
+
+void own_ends_with_its_parent(void) {
+    char self[MAX_PATH], command[MAX_PATH + 16];
+    unsigned long process = 0, jvm = 0;
+    CHECK(GetModuleFileNameA(NULL, self, sizeof self) > 0);
+    snprintf(command, sizeof command, "\"%s\" parent", self);
+    FILE *output = _popen(command, "r");
+    CHECK(output != NULL && fscanf(output, "%lu %lu", &process, &jvm) == 2);
+    HANDLE parent = OpenProcess(PROCESS_TERMINATE, FALSE, process), child = OpenProcess(SYNCHRONIZE, FALSE, jvm);
+    CHECK(parent != NULL && child != NULL && TerminateProcess(parent, 1));
+    CHECK(WaitForSingleObject(child, 1000) == WAIT_OBJECT_0);
+}
+
+static void write_file(const char *home, const char *name, const char *text) {
+    char path[256];
+    snprintf(path, sizeof path, "%s/%s", home, name);
+    FILE *file = fopen(path, "wb");
+    CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0);
+}
+
+void own_with_a_bad_launcher(void) {
+    char java[128], system[MAX_PATH], shell[MAX_PATH + 16];
+    const char *home = scratch_folder();
+    make_folder(home, "bin");
+    make_folder(home, "bin/server");
+    make_folder(home, "lib");
+    write_file(home, PRIM_LIBJVM, "");
+    write_file(home, "lib/modules", "");
+    CHECK_CODE(CLK_JVM_NOT_FOUND, "java.exe is missing", start_at(home, host_classes, NULL, false, 10000));
+    write_file(home, PRIM_JAVA, "not a program");
+    CHECK_CODE(CLK_JVM_START, "cannot run", start_at(home, host_classes, NULL, false, 10000));
+    /* A program that prints something else and exits. */
+    CHECK(GetSystemDirectoryA(system, sizeof system) > 0);
+    snprintf(shell, sizeof shell, "%s\\cmd.exe", system);
+    snprintf(java, sizeof java, "%s/" PRIM_JAVA, home);
+    CHECK(CopyFileA(shell, java, FALSE));
+    CHECK_CODE(CLK_JVM_START, "exit code", start_at(home, host_classes, NULL, false, 10000));
+    CHECK(clk_jvm_state() == CLK_STATE_NONE);
+    CHECK_OK(start(NULL));
+}
 #else
 #include <dirent.h>
 #include <errno.h>
