@@ -20,7 +20,7 @@ FIXED = ("version", "scene", "scripts", "schema", "programs", "data", "runtimeJa
 """Keys of files, which are compiled or copied once for all runs."""
 NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
 RUNTIME = "runtime"
-"""Key of the aggregate runtime, for which the bundle has programs of their own."""
+"""Key of the aggregate runtime. The bundle has compiled programs for each."""
 RUNTIMES = ("builtin", "collektive")
 RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 

@@ -16,7 +16,7 @@
 /* Returns one of enum clk_jvm_state. */
 int32_t engine_state(void);
 
-/* Sets the state, unless it is CLK_STATE_LOST, which is final. All waiting callers learn that the JVM is lost or stopped. */
+/* Sets the state, unless it is CLK_STATE_LOST, which is final. All waiting callers detect that the JVM is lost or stopped. */
 void engine_set_state(int32_t state);
 
 /* Returns CLK_OK if a JVM is running; otherwise sets an error with the reason. */

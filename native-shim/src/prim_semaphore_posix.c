@@ -1,5 +1,5 @@
-/* A semaphore on a futex, which macOS calls ulock, for threads of any process. macOS has no unnamed POSIX semaphores, and glibc's only wait on the monotonic clock,
- * sem_clockwait, needs glibc 2.30. */
+/* A semaphore on a futex, which macOS calls ulock, for threads of any process. macOS has no unnamed POSIX semaphores, and glibc's only wait on
+ * the monotonic clock, sem_clockwait, needs glibc 2.30. */
 #define _GNU_SOURCE /* syscall */
 #include <stdatomic.h>
 #include "prim.h"

@@ -63,7 +63,8 @@ namespace Collektive.Unity
             if (problems.Count > 0) throw new BridgeException(BridgeError.JvmOptions, "the JVM settings are invalid: " + problems[0]);
             var jar = Path.GetFullPath(HostJar);
             if (Array.Exists(jar.ToCharArray(), char.IsSurrogate)) throw new BridgeException(
-                BridgeError.Host, "the JVM cannot load classes from " + jar + ": its path contains an emoji or another character beyond U+FFFF. Rename the folder");
+                BridgeError.Host,
+                "the JVM cannot load classes from " + jar + ": its path contains an emoji or another character beyond U+FFFF. Rename the folder");
             return settings.ToLaunch(HomeOf(settings), HostJar, Path.Combine(Application.persistentDataPath, "Collektive"));
         }
 
