@@ -31,7 +31,7 @@ MIN_REPEATED_RUNS = 3
 """Share and minimum number of runs that are repeated in a fresh process, to check that results do not depend on earlier runs."""
 
 MAX_EQUAL_FAILURES = 5
-"""After so many first runs that failed with one message, the others would fail, too."""
+"""If this many runs at the start fail with the same message, the sweep stops."""
 
 Task = tuple[Run, bool]
 """A run, and whether it is repeated."""

@@ -84,7 +84,7 @@ def _distribution(located: Located, key: str, given: Any) -> optuna.distribution
 
 
 def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[], Pool], options: argparse.Namespace) -> int:
-    """Executes the remaining trials, as many at once as there are jobs. Returns the exit code."""
+    """Executes the remaining trials, with up to `jobs` at once. Returns the exit code."""
     store.open(experiment, options.resume)
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     _check(experiment, search, store, options.trust_jvm)

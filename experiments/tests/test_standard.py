@@ -1,4 +1,4 @@
-"""The standard scene and metrics in SQL: what is refused before the first run, and that results repeat."""
+"""The standard scene and metrics in SQL: errors before the first run, and reproducible results."""
 import base64
 import copy
 import csv

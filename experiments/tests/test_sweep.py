@@ -109,7 +109,7 @@ def test_csv_tables_do_not_become_outdated(project: Project) -> None:
 def test_changed_scripts_are_not_mixed_with_earlier_runs(project: Project) -> None:
     keys = {"vary": {"seed": [1]}}
     assert project.sweep(vary={"sed": [1]}).returncode == 1
-    # A sweep that did not come to its first run leaves the folder free.
+    # A sweep that fails before its first run releases the folder.
     assert project.sweep(**keys).returncode == 0
     scene = project.folder / "project/scene/Lamps.cs"
     scene.write_text(scene.read_text() + "\n// other\n")
@@ -137,7 +137,7 @@ def test_an_unknown_scenario_key_is_reported_before_any_run(
 
 
 def test_keys_are_checked_in_the_combinations_that_run(project: Project) -> None:
-    # Neither the longer tick with the shorter interval nor the metrics with the scenario's bands are a run.
+    # No run combines the longer tick with the shorter interval, or the metrics with the scenario's bands.
     result = project.sweep(vary={"seed": [1]}, zip={"deltaTime": [0.1, 0.5], "outputs.interval": [0.2, 0.5]},
                            set={"metrics": {"a": "count(*)"}, "converged": {"a": {"from": 1}}})
     assert result.returncode == 0, result.stderr
@@ -288,14 +288,14 @@ def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lam
     assert len(set(project.table()["run"])) == 40
 
 
-def of_page(language: str) -> str:
+def code_block(language: str) -> str:
     """The first code block in a language of the page about experiments."""
     return str(re.findall(rf"(?ms)^```{language}\n(.*?)^```$", (ROOT / "Documentation~/experiments.md").read_text())[0])
 
 
 def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     experiment = json.loads((GRADIENTS / "experiment.json").read_text())
-    assert experiment == json.loads(of_page("json"))
+    assert experiment == json.loads(code_block("json"))
     experiment["scenario"] = str(GRADIENTS / "scenario.json")
     experiment["vary"] |= {"network.loss": [0, 0.4], "seed": "1-3"}
     (tmp_path / "experiment.json").write_text(json.dumps(experiment))
@@ -316,7 +316,7 @@ def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pyt
     # The page's Python, in the folder of the sweep.
     monkeypatch.chdir(tmp_path)
     names: dict[str, str] = {}
-    exec(of_page("python"), names)
+    exec(code_block("python"), names)
     assert "error" in names["caption"]
 
 

@@ -17,7 +17,7 @@
  * Threads
  *   Any thread may call any function. Calls that need the engine thread (start, check, open, step, close, control, stop) take turns.
  *   A caller that does not get its turn within its limit receives CLK_TIMEOUT; nothing was done. If the host has not answered 10 s after the
- *   limit of a call, the shim gives up the JVM and returns CLK_JVM_LOST. In a forked child process the JVM counts as lost.
+ *   limit of a call, the shim gives up on the JVM and returns CLK_JVM_LOST. In a forked child process the JVM counts as lost.
  *
  * Errors
  *   Functions return CLK_OK or a negative code of CLK_ERRORS, unless stated otherwise. After a negative code, clk_last_error returns the
@@ -123,8 +123,8 @@ typedef struct clk_jvm_config {
  * CLK_STATE_LOST.
  *
  * With CLK_OWN_PROCESS, a start may follow after an error, a loss and a stop. A start with another configuration replaces a JVM without open
- * sessions. Slots that were acquired before the first such start cannot be used in calls (CLK_ARGUMENT). The process may not start a JVM of its
- * own before, but may do so after.
+ * sessions. Slots that were acquired before the first such start cannot be used in calls (CLK_ARGUMENT). The process must not start another
+ * JVM itself before that, but may do so afterwards.
  *
  * Options that endanger the process are rejected. JAVA_TOOL_OPTIONS, _JAVA_OPTIONS and JDK_JAVA_OPTIONS are ignored. */
 CLK_API int32_t clk_jvm_start(const clk_jvm_config *config);
@@ -146,7 +146,7 @@ CLK_API int32_t clk_jvm_description(char *buffer, int32_t capacity);
  *   CLK_TIMEOUT   the JVM did not end within the limit. If possible, its threads were halted so that the process can exit; the state is then
  *                 CLK_STATE_STOPPED. Halting takes up to 10 s more because it waits for a garbage collection to end. A separate process is
  *                 killed.
- *   CLK_JVM_LOST  the JVM was lost; if possible, its threads were halted */
+ *   CLK_JVM_LOST  the JVM had crashed or stopped responding; if possible, its threads were halted */
 CLK_API int32_t clk_jvm_stop(int32_t limit_ms);
 
 /* ---- Slots ----------------------------------------------------------------------------------------------------------- */

@@ -18,7 +18,7 @@
 #define REAP_LIMIT_MS 1000 /* from the end of the connection to the end of the child */
 #define KILL_LIMIT_MS 10000
 
-/* Guarded by the turn, except atomics, semaphores and what the child's thread writes before it posts them. */
+/* Guarded by the turn, except atomics, semaphores and the fields that the child's thread writes before it posts them. */
 static struct {
     struct channel *channel; /* NULL before the first start */
     char **arguments;        /* of the child; NULL without one */
@@ -57,7 +57,7 @@ static void describe_end(int status) {
              shown[0] != '\0' ? shown : "nothing");
 }
 
-/* Waits for the end of a child that has closed its connection, which only its end should do. */
+/* Waits for a child to exit that has closed its connection. Normally, the connection closes only when the child exits. */
 static int reap(void) {
     int status = 0;
     int64_t limit = prim_now() + REAP_LIMIT_MS * PRIM_MILLI;
@@ -80,8 +80,8 @@ bool child_is_alive(void) {
     return alive;
 }
 
-/* Announces the loss before `alive` changes, so that a call that finds the child dead finds the reason, and again after that, because the start
- * may set the state meanwhile. */
+/* Announces the loss before `alive` changes, so that a call that sees a dead child also sees the reason. Announces it again afterwards, because
+ * the start may have set the state in the meantime. */
 static void child_main(void) {
     char output[4096];
     int32_t id = prim_child_start(child.arguments, true, &child.process, child.reason, sizeof child.reason);
@@ -106,7 +106,7 @@ int32_t child_end(void) {
     prim_child_kill(&child.process);
     prim_unlock(&child.killing);
     if (!prim_semaphore_wait_until(&child.ended, prim_now() + KILL_LIMIT_MS * PRIM_MILLI))
-        return error_set(CLK_TIMEOUT, "the JVM's process %d was killed but does not end; try again later, or restart this process",
+        return error_set(CLK_TIMEOUT, "the JVM's process %d was killed but has not exited; try again later, or restart this process",
                          child_process());
     free(child.arguments);
     child.arguments = NULL;

@@ -10,7 +10,7 @@
 #include "host.h"
 #include "launch.h"
 
-/* Returns whether the last start was one in a separate process. Any thread. */
+/* Returns whether the last start was in a separate process. Any thread. */
 bool child_is_used(void);
 void child_use(bool used);
 
@@ -26,12 +26,12 @@ int32_t child_begin(const struct host_call *call);
 /* Waits for the call, as engine_await does. */
 int32_t child_await(struct host_call *call, int64_t deadline);
 
-/* Lets the child end in order. Returns CLK_TIMEOUT if it has not ended by the deadline. Call child_end afterwards. */
+/* Shuts the child down. Returns CLK_TIMEOUT if it has not ended by the deadline. Call child_end afterwards. */
 int32_t child_stop(int32_t limit_ms, int64_t deadline);
 
 /* Kills the child if it still runs, waits for its end and frees its resources. Returns CLK_TIMEOUT if the system does not end it. */
 int32_t child_end(void);
 
-/* Returns the process id of the last start's child, or 0 if it was one in this process. Any thread. */
+/* Returns the process id of the child of the last start, or 0 if that start was in this process. Any thread. */
 int32_t child_process(void);
 #endif

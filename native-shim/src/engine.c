@@ -97,7 +97,7 @@ void engine_lose(const char *format, ...) {
 
 int32_t engine_enter(int64_t deadline) {
     if (prim_semaphore_wait_until(&engine.turn, deadline)) return CLK_OK;
-    return error_set(CLK_TIMEOUT, "the engine was busy with another call for the whole limit and did not execute this one; retry it");
+    return error_set(CLK_TIMEOUT, "the engine was busy with another call until the time limit and did not execute this one; retry");
 }
 
 void engine_leave(void) { prim_semaphore_post(&engine.turn); }

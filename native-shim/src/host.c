@@ -208,7 +208,7 @@ static int32_t bind(JNIEnv *env) {
     java.to_string = (*env)->GetMethodID(env, object, "toString", "()Ljava/lang/String;");
     java.get_name = (*env)->GetMethodID(env, class, "getName", "()Ljava/lang/String;");
     (*env)->DeleteLocalRef(env, object);
-    /* Class.getName() caches its result; the first call allocates, which a full heap refuses. */
+    /* Class.getName() caches its result; the first call allocates, which fails on a full heap. */
     string_of(env, full, java.get_name, (char[64]){0}, 64);
     (*env)->DeleteLocalRef(env, class);
     (*env)->DeleteLocalRef(env, full);

@@ -18,7 +18,7 @@ struct log_ring {
     char bytes[LOG_RING_BYTES];
 };
 
-/* Shares a zeroed ring in memory of both processes: only the child writes to it, and the parent also reads it. Once. */
+/* Uses a zeroed ring in memory shared by both processes. Only the child writes to it; the parent also reads it. Call it once. */
 void log_share(struct log_ring *ring, bool is_child);
 
 /* Adds a line. Any thread, including those of the JVM: does not call JNI, and holds one lock for the duration of a copy. */
@@ -33,7 +33,7 @@ void log_jvm_text(int32_t level, const char *text);
 #define LOG_LAST_CAPACITY 2048
 void log_jvm_last(char *buffer, int32_t capacity);
 
-/* Forgets them, for another JVM. */
+/* Clears these lines before another JVM starts. */
 void log_jvm_forget(void);
 
 /* Returns the number of lines that did not fit into the ring. */

@@ -71,7 +71,7 @@ void prim_lock(prim_mutex *mutex);
 void prim_unlock(prim_mutex *mutex);
 
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
-/* The same with count 0 for a semaphore in shared memory, zeroed at first, which a child uses too. Call it again only after the end of the child. */
+/* Initialises with 0 a semaphore in zeroed shared memory that a child also uses. Call it again only after the child has ended. */
 void prim_semaphore_share(prim_semaphore *semaphore);
 void prim_semaphore_post(prim_semaphore *semaphore);
 bool prim_semaphore_try(prim_semaphore *semaphore);
@@ -168,7 +168,7 @@ bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);
 
 /* A child process without input. It may share the memory of prim_shared_reserve, and then ends with this process. It inherits only that and its
- * output, without names. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and
+ * output, neither of which has a name. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and
  * prim_child_reap. */
 
 /* Starts a program and returns its process id. 0 on failure, with the reason in `why`. */
@@ -177,7 +177,7 @@ int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, cha
 bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size);
 /* Frees the child's resources if it ends by the deadline, and sets `status` to its exit code, or to -signal. False otherwise. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status);
-/* Kills a child with its own children; nothing if prim_child_reap has freed it. Not during prim_child_reap. */
+/* Kills a child and its children. Does nothing if prim_child_reap has freed it. Do not call it during prim_child_reap. */
 void prim_child_kill(prim_child *child);
 
 /* The argument by which the child finds the memory. */

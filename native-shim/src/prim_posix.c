@@ -110,7 +110,7 @@ void *prim_allocate(size_t bytes) {
 
 void prim_free(void *memory) { free(memory); }
 
-/* Descriptors that the child gets as 3 and 4 are never below it, so that none overwrites another. */
+/* The child receives some descriptors as 3 and 4. In this process, they are at least this number, so that none overwrites another. */
 #define FIRST_DESCRIPTOR 10
 
 static int move_up(int descriptor) {
@@ -408,7 +408,7 @@ static void end_with_parent(void) {
     _exit(1);
 }
 
-/* The death signal also ends a child that is suspended; the connection also one whose parent ended before the signal was requested. */
+/* The death signal also ends a suspended child. The connection also ends a child whose parent ended before the signal was requested. */
 uint8_t *prim_child_attach(const char *token) {
     struct stat memory;
     if (strcmp(token, "inherited") != 0 || fstat(CHILD_MEMORY, &memory) != 0 || (uint64_t)memory.st_size != PRIM_SHARED_BYTES) return NULL;

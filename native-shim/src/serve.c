@@ -1,4 +1,4 @@
-/* The JVM's own process: serves the calls that arrive through the shared memory. On one thread, as its engine thread. */
+/* The JVM's own process: serves the calls that arrive through the shared memory, on its engine thread. */
 #include <jni.h>
 #include <stdlib.h>
 #include "channel.h"
@@ -30,7 +30,7 @@ static struct block *block_at(const struct block *place) {
     return *block;
 }
 
-/* The parent must never see a result of the past, so the fields are set before each `done`. */
+/* The parent must never see a stale result, so the fields are set before each `done`. */
 static void answer(int32_t result) {
     serve.channel->result = result;
     if (result < 0) text_export(error_last(), serve.channel->text, ERROR_CAPACITY);

@@ -10,7 +10,7 @@
 #define MAX_CLASS 30
 
 /* The pool keeps this much unused memory and returns the rest to the system. */
-#define KEPT_BYTES ((uint64_t)64 << 20)
+#define MAX_UNUSED_BYTES ((uint64_t)64 << 20)
 
 struct slot {
     uint32_t generation;
@@ -95,7 +95,7 @@ static struct block *block_take(int32_t capacity) {
 /* Keeps the block, or returns its memory to the system. A shared block keeps its address. */
 static void block_release(struct block *block) {
     bool is_shared = block->offset != 0;
-    bool fits = pool.unused_bytes + (uint64_t)block->capacity <= KEPT_BYTES && is_shared == (pool.shared != NULL);
+    bool fits = pool.unused_bytes + (uint64_t)block->capacity <= MAX_UNUSED_BYTES && is_shared == (pool.shared != NULL);
     block->abandoned = false;
     block->counted = fits || (is_shared && !prim_shared_commit(block->offset, (uint64_t)block->capacity, false));
     if (!block->counted) pool.bytes -= (uint64_t)block->capacity;

@@ -29,8 +29,8 @@ void slots_unpin(struct block *block); /* NULL does nothing */
  * which the caller has pinned, stays valid until slots_unpin. */
 struct block *slots_exchange(clk_slot slot, int32_t capacity);
 
-/* From now on takes all memory from the mapping that a child inherits, after its first `reserved` bytes. Returns its beginning, NULL on failure
- * with the last error set. Blocks that slots own already stay where they are. */
+/* From now on, allocates all memory from the mapping that a child inherits, after its first `reserved` bytes. Returns the start of the mapping;
+ * NULL on failure, with the last error set. Blocks that slots own already stay where they are. */
 uint8_t *slots_share(uint64_t reserved);
 
 /* Unpins all shared blocks, once the process that used them has ended. No call may run. */

@@ -77,7 +77,7 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(home_with_a_broken_libjvm) X(files_that_cannot_be_read) X(home_without_java_command) \
     X(class_path_missing) X(class_path_beyond_ascii) X(class_path_without_host) X(class_path_with_incompatible_host) \
     X(start_arguments) X(options_refused_by_text) X(options_of_debuggers) X(options_too_long) \
-    X(options_refused_by_child) X(options_that_make_the_jvm_talk) X(jvm_log_in_a_file) \
+    X(options_refused_by_child) X(options_that_make_the_jvm_print) X(jvm_log_in_a_file) \
     X(long_lines_of_the_jvm) X(refusals_are_cut_at_a_character) X(checks_take_turns_after_a_loss) \
     X(option_that_ends_the_jvm) X(refused_start_may_be_repeated) X(check_starts_nothing) X(check_while_a_jvm_runs) \
     X(check_writes_no_archive) X(options_unchecked_heap_order) X(options_unchecked_two_collectors) X(options_unchecked_heap_too_large) \
@@ -87,7 +87,7 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
     X(call_arguments) X(host_errors) X(failed_session_keeps_its_memory) X(exceptions) X(stack_overflow) X(heap_exhausted) \
     X(exit_is_refused) X(control_needs_no_session) X(control_errors) X(answer_outside_of_slot) X(released_request_stays_valid) \
     X(one_wrapper_for_each_memory) X(callers_take_turns) X(own_turn_times_out) \
-    X(hang_loses_the_jvm) X(waiting_callers_learn_of_the_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
+    X(hang_loses_the_jvm) X(waiting_callers_return_after_a_loss) X(crash_loses_the_jvm) X(fork_loses_the_jvm) \
     X(stop_ends_all) X(stop_waits_while_another_writes_its_classes) X(stop_without_start) X(stop_halts_threads_that_stay) \
     X(stop_times_out) X(stop_while_the_start_hangs) X(stop_after_a_hang) X(stop_while_the_heap_is_full) \
     X(logs_are_bounded) X(signal_handlers_are_repaired) X(implicit_null_checks_and_host_faults) \

@@ -1,4 +1,4 @@
-/* A debugger that stops the JVM, which Shim.debugger and a step that sleeps stand for. */
+/* A debugger that stops the JVM, simulated by Shim.debugger and a step that sleeps. */
 #include <stddef.h>
 #include "test.h"
 

@@ -51,7 +51,7 @@ LONG_RUNS = {
     "soak": LongRun("soak.py", ("runtime", "csharp_tests"), (), "run a scene that adds and removes nodes; memory, threads and descriptors must not grow "
                     "after the first minute"),
     "stress": LongRun("stress.py", ("jvm_modules",), (str(RESULTS / "stress-full/stress.xml"), "-m", "default", "-af", "NONE"), "test races "
-                      "between JVM threads with all combinations of JIT compilers (takes long)"),
+                      "between JVM threads with all combinations of JIT compilers (takes a long time)"),
     "fuzz": LongRun("fuzz.py", ("runtime", "jvm_tests", "roundtrip", "Collektive.Fuzz.exe", "failing"), ("--each",), "run each fuzzer, or the named "
                     "ones, for 5 or MINUTES: open, step and control (frames), record, scenario, schemas, shim (calls in any order, under sanitizers), "
                     "experiments; keeps its corpus in build/fuzz"),

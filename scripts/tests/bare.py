@@ -61,7 +61,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
     if not _is_possible():
         return "", len(names)
     if subprocess.run(["git", "-C", ROOT, "status", "--porcelain"], stdout=subprocess.PIPE, check=True).stdout:
-        print_progress("the last commit is tested; the changes since then are not in it")
+        print_progress("testing the last commit; uncommitted changes are ignored")
     work = Path(tempfile.mkdtemp(prefix="bare.", dir=BUILD))
     failures, skipped = [], 0
     try:
@@ -85,7 +85,7 @@ def _is_possible() -> bool:
         print_progress("skipped: fresh roots need root and apt-get")
         return False
     if subprocess.run(_namespace("true"), stderr=subprocess.DEVNULL).returncode != 0:
-        print_progress("skipped: this machine allows no mount namespace")
+        print_progress("skipped: this machine does not allow mount namespaces")
         return False
     if not shutil.which("debootstrap"):
         try:

@@ -67,7 +67,7 @@ namespace Collektive.Headless
                     + string.Join(", ", known));
         }
 
-        /// <summary>Generated code has other capitals than the schema.</summary>
+        /// <summary>Generated code capitalises names differently from the schema.</summary>
         private static string Normalize(string name) => name.Replace("_", "").ToLowerInvariant();
 
         private sealed class Column

@@ -164,7 +164,7 @@ namespace Collektive.Headless
                 at >= 0 ? ColumnOf(property.Value, sql, at) : 0);
         }
 
-        /// <summary>Returns the column of a character in the file's line; 0 if the file writes the text with escapes.</summary>
+        /// <summary>Returns the column of a character in the file's line; 0 if the text in the file contains escapes.</summary>
         private static int ColumnOf(IJsonLineInfo token, string text, int character)
         {
             if (!token.HasLineInfo() || text.Any(letter => letter < ' ' || letter == '"' || letter == '\\')) return 0;

@@ -75,7 +75,7 @@ private fun Aggregate<Int>.outerSums(): List<Int> {
 private const val MODULUS = 1009
 
 /** Tests that each receiver gets its own value while links change. */
-@CollektiveIgnore("it drives the programs")
+@CollektiveIgnore("it calls the programs")
 class PerNeighbourTest {
     private val programs = mapOf<String, Aggregate<Int>.(Int) -> Int>(
         "pass to first" to Aggregate<Int>::passToFirst,
