@@ -21,9 +21,12 @@ def library(platform: str) -> str:
 
 
 def functions() -> set[str]:
-    """Returns the functions of the public header, and the one that Java calls."""
-    with open(os.path.join(ROOT, "native-shim/include/collektive_shim.h")) as file:
-        return set(re.findall(r"^CLK_API .*?\b(clk_\w+)\(", file.read(), re.M)) | {"Java_org_collektive_host_Main_serve"}
+    """Returns the functions of the public headers, and the one that Java calls."""
+    found = {"Java_org_collektive_host_Main_serve"}
+    for header in ("collektive_shim.h", "collektive_neighbours.h"):
+        with open(os.path.join(ROOT, "native-shim/include", header)) as file:
+            found |= set(re.findall(r"^CLK_\w*API .*?\b(clk_\w+)\(", file.read(), re.M))
+    return found
 
 
 def output(*command: str) -> str:

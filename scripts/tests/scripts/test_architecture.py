@@ -31,6 +31,18 @@ class ArchitectureTest(unittest.TestCase):
                         match = words.search(file.read())
                     self.assertIsNone(match, f"{path}: {match and match.group(0)}")
 
+    def test_shim_and_neighbour_search_are_independent(self) -> None:
+        def headers(folder: str) -> set[str]:
+            found: set[str] = set()
+            for name in os.listdir(os.path.join(ROOT, "native-shim", folder)):
+                with open(os.path.join(ROOT, "native-shim", folder, name)) as file:
+                    found |= set(re.findall(r'#include "(.*)"', file.read()))
+            return found
+
+        own = {name for name in os.listdir(os.path.join(ROOT, "native-shim/neighbours")) if name.endswith(".h")} | {"collektive_neighbours.h"}
+        self.assertEqual(headers("neighbours"), own)
+        self.assertFalse(headers("src") & own)
+
     def test_links_of_pages_are_not_broken(self) -> None:
         folder = os.path.join(ROOT, "Documentation~")
         for name in sorted(os.listdir(folder)):

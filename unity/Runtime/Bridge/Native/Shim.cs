@@ -4,7 +4,8 @@ using System.Runtime.InteropServices;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The C ABI of <c>collektive_shim</c>; its header documents the contracts. Check <see cref="ShimLibrary"/> before the first call.
+    /// The C ABI of <c>collektive_shim</c> and <c>collektive_neighbours</c>, which are in one library; their headers document the contracts. Check
+    /// <see cref="ShimLibrary"/> before the first call.
     /// </summary>
     internal static unsafe partial class Shim
     {
@@ -60,6 +61,24 @@ namespace Collektive.Bridge
             public ulong Wrapped;
             public ulong LogsDropped;
             public ulong SignalRepairs;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct LinkChanges
+        {
+            public LinkRecord* Set;
+            public LinkEnds* Removed;
+            public int SetCount;
+            public int RemovedCount;
+        }
+
+        [StructLayout(LayoutKind.Sequential)]
+        internal struct LinkPairs
+        {
+            public LinkPair* Pairs;
+            public int Count;
+            public int Capacity;
+            public int Links;
         }
 
         /// <summary>Throws the calling thread's last error unless <paramref name="code"/> is success.</summary>

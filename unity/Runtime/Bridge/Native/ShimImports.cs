@@ -1,4 +1,5 @@
 #if UNITY_EDITOR || UNITY_STANDALONE || !UNITY_5_3_OR_NEWER
+using System;
 using System.Runtime.InteropServices;
 
 namespace Collektive.Bridge
@@ -63,6 +64,55 @@ namespace Collektive.Bridge
 
         [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern int clk_get_stats(Stats* stats);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr clk_neighbours_create();
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void clk_neighbours_destroy(IntPtr neighbours);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_place(IntPtr neighbours, NodePoint* points, int count, float cell);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_within(IntPtr neighbours, float x, float y, float z, float inner, float outer, NearPoint** found);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_nearest(IntPtr neighbours, float x, float y, float z, int limit, float guess, NearPoint** found);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_add_rule(IntPtr neighbours);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void clk_neighbours_remove_rule(IntPtr neighbours, int rule);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_update(IntPtr neighbours, RuleSearch* searches, int count, int threads, int maxLinks);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_take(
+            IntPtr neighbours, int rule, int centre, RuleNeighbour* list, int count, float tolerance, int both);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_hold(IntPtr neighbours, LinkRecord* link);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_release(IntPtr neighbours, int from, int to);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_has(IntPtr neighbours, int from, int to);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_know(IntPtr neighbours, int id, int known);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_drop(IntPtr neighbours, int* ids, int count);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern int clk_neighbours_flush(IntPtr neighbours, LinkChanges* changes);
+
+        [DllImport(Library, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void clk_neighbours_pairs(IntPtr neighbours, LinkPairs* pairs);
     }
 }
 #endif

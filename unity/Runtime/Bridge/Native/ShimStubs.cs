@@ -1,4 +1,6 @@
 #if UNITY_5_3_OR_NEWER && !UNITY_EDITOR && !UNITY_STANDALONE
+using System;
+
 namespace Collektive.Bridge
 {
     /// <summary>
@@ -43,6 +45,44 @@ namespace Collektive.Bridge
         internal static int clk_log_read(int* level, byte* buffer, int capacity) => Unsupported;
 
         internal static int clk_get_stats(Stats* stats) => Unsupported;
+
+        internal static IntPtr clk_neighbours_create() => IntPtr.Zero;
+
+        internal static void clk_neighbours_destroy(IntPtr neighbours)
+        {
+        }
+
+        internal static int clk_neighbours_place(IntPtr neighbours, NodePoint* points, int count, float cell) => Unsupported;
+
+        internal static int clk_neighbours_within(IntPtr neighbours, float x, float y, float z, float inner, float outer, NearPoint** found) => Unsupported;
+
+        internal static int clk_neighbours_nearest(IntPtr neighbours, float x, float y, float z, int limit, float guess, NearPoint** found) => Unsupported;
+
+        internal static int clk_neighbours_add_rule(IntPtr neighbours) => Unsupported;
+
+        internal static void clk_neighbours_remove_rule(IntPtr neighbours, int rule)
+        {
+        }
+
+        internal static int clk_neighbours_update(IntPtr neighbours, RuleSearch* searches, int count, int threads, int maxLinks) => Unsupported;
+
+        internal static int clk_neighbours_take(IntPtr neighbours, int rule, int centre, RuleNeighbour* list, int count, float tolerance, int both) => Unsupported;
+
+        internal static int clk_neighbours_hold(IntPtr neighbours, LinkRecord* link) => Unsupported;
+
+        internal static int clk_neighbours_release(IntPtr neighbours, int from, int to) => Unsupported;
+
+        internal static int clk_neighbours_has(IntPtr neighbours, int from, int to) => Unsupported;
+
+        internal static int clk_neighbours_know(IntPtr neighbours, int id, int known) => Unsupported;
+
+        internal static int clk_neighbours_drop(IntPtr neighbours, int* ids, int count) => Unsupported;
+
+        internal static int clk_neighbours_flush(IntPtr neighbours, LinkChanges* changes) => Unsupported;
+
+        internal static void clk_neighbours_pairs(IntPtr neighbours, LinkPairs* pairs)
+        {
+        }
     }
 }
 #endif

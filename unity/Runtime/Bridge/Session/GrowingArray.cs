@@ -23,6 +23,15 @@ namespace Collektive.Bridge
             return ref items[Count++];
         }
 
+        /// <summary>Appends a block of elements.</summary>
+        public void AddAll(ReadOnlySpan<T> block)
+        {
+            var count = Count + block.Length;
+            if (count > items.Length) Array.Resize(ref items, Math.Max(count, items.Length * 2));
+            block.CopyTo(new Span<T>(items, Count, block.Length));
+            Count = count;
+        }
+
         /// <summary>Removes all elements.</summary>
         public void Clear() => Truncate(0);
 

@@ -140,7 +140,7 @@ namespace Collektive.Unity
         public void SetGlobals<T>(Action<T> write) => globals.Set(write ?? throw new ArgumentNullException(nameof(write)));
 
         /// <summary>Whether <paramref name="to"/> receives messages from <paramref name="from"/>.</summary>
-        public bool HasLink(int from, int to) => Simulation.PresentLinks.Contains(from, to);
+        public bool HasLink(int from, int to) => Simulation.PresentLinks.Has(from, to);
 
         /// <summary>Replaces the content of <paramref name="target"/> with all directed links.</summary>
         public void CopyLinks(List<LinkRecord> target) => Simulation.PresentLinks.CopyTo(target);
@@ -149,7 +149,7 @@ namespace Collektive.Unity
         public Node Find(int id) => Simulation.Find(id);
 
         /// <summary>
-        /// The nodes within <paramref name="radius"/> metres of a point at the beginning of this tick, with their distances, in no order.
+        /// The nodes within <paramref name="radius"/> metres of a point at the beginning of this tick, with their distances, ascending by id.
         /// Up to date while neighbourhood rules run.
         /// </summary>
         public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances) =>
@@ -161,8 +161,7 @@ namespace Collektive.Unity
         /// </summary>
         public void FindNearestNodes(Vector3 centre, int count, List<Node> found, List<float> distances)
         {
-            var grid = Simulation.Grid;
-            grid.Copy(count < 1 ? default : grid.FindNearest(centre, count, grid.MeanRadius), found, distances);
+            Simulation.Grid.Copy(Simulation.Grid.FindNearest(centre, count, 0), found, distances);
         }
 
         /// <summary>Runs one tick now, even while paused. If a debugger stops the JVM, the tick is completed in a later frame.</summary>

@@ -81,8 +81,8 @@ namespace Collektive.Unity
             "and until a message expires (0: with the next one). All 0: ideal network.")]
         public NetworkModel network = new NetworkModel();
 
-        /// <summary>Threads of the JVM that run rounds. With 2 or more, a second thread also searches for neighbours in large scenes.</summary>
-        [Tooltip("JVM threads for rounds. With 2 or more, a second thread also searches for neighbours. Results do not depend on it.")]
+        /// <summary>Threads of the JVM that run rounds. Searches for neighbours in large scenes use as many.</summary>
+        [Tooltip("JVM threads for rounds. Searches for neighbours use as many. Results do not depend on it.")]
         [Range(1, 256)]
         public int threads = 1;
 

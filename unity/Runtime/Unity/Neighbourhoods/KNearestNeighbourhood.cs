@@ -14,8 +14,6 @@ namespace Collektive.Unity
         [Tooltip("Number of neighbours.")]
         private int count = 8;
 
-        private float reach;
-
         /// <summary>Number of neighbours, 0 or more.</summary>
         public int Count
         {
@@ -23,19 +21,9 @@ namespace Collektive.Unity
             set => count = value;
         }
 
+        internal override bool IsSearch => true;
+
         /// <inheritdoc/>
-        protected override void FindNeighbours(NeighbourCollector neighbours)
-        {
-            // One more than configured, since the node finds itself. The last search radius is a good guess.
-            var nearest = neighbours.FindNearest(count < 1 ? 0 : count + 1, 1.25f * reach);
-            reach = nearest.Length == 0 ? 0 : nearest[nearest.Length - 1].Distance;
-            var left = count;
-            for (var i = 0; i < nearest.Length && left > 0; i++)
-            {
-                if (nearest[i].Id == Node.Id) continue;
-                neighbours.Add(nearest[i]);
-                left--;
-            }
-        }
+        protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.SearchNearest(count);
     }
 }

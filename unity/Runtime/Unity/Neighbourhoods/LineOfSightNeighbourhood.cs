@@ -81,7 +81,7 @@ namespace Collektive.Unity
         {
             var simulation = Node.Simulation;
             seen.Clear();
-            var near = simulation.Grid.FindAround(Node, radius);
+            var near = simulation.Grid.Find(Node.Position, radius);
             for (var i = 0; i < near.Length; i++)
             {
                 if (near[i].Id == Node.Id) continue;

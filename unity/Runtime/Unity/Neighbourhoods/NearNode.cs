@@ -1,8 +1,12 @@
+using System.Runtime.InteropServices;
+
 namespace Collektive.Unity
 {
     /// <summary>A node near a point at the beginning of this tick.</summary>
+    [StructLayout(LayoutKind.Sequential)]
     public struct NearNode
     {
+        // As in NearPoint.
         internal int Place;
         internal int IdOfNode;
         internal float Metres;

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using Collektive.Bridge;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -12,30 +13,21 @@ namespace Collektive.Unity
     public sealed class NeighbourCollector
     {
         private readonly Simulation simulation;
-        private Neighbour[] all = new Neighbour[64];
-        // By node id: 1 + place in the list, 0 for those that are not in it.
-        private readonly PagedArray<int> places = new PagedArray<int>();
+        private readonly GrowingArray<RuleNeighbour> all = new GrowingArray<RuleNeighbour>();
         // Whose neighbours are collected; null outside of a rule's call.
         private Node node;
         private int self;
 
         internal NeighbourCollector(Simulation simulation) => this.simulation = simulation;
 
-        internal struct Neighbour
-        {
-            internal int Id;
-            internal float Length;
-            internal float Attenuation;
-        }
-
         /// <summary>All participating nodes, ascending by id.</summary>
         public IReadOnlyList<Node> Nodes => simulation.Nodes;
 
-        internal int Count { get; private set; }
+        /// <summary>What the rule added; nodes may occur several times.</summary>
+        internal Span<RuleNeighbour> All => new Span<RuleNeighbour>(all.Items, 0, all.Count);
 
-        internal Neighbour[] All => all;
-
-        internal PagedArray<int> Places => places;
+        /// <summary>The searches of ready rules in this tick.</summary>
+        internal GrowingArray<RuleSearch> Searches { get; } = new GrowingArray<RuleSearch>();
 
         /// <summary>Adds a node. The link's length is the distance of the nodes, and its attenuation 0.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
@@ -72,33 +64,15 @@ namespace Collektive.Unity
         public void AddWithin(float radius)
         {
             var found = FindWithin(radius);
-            EnsureCapacity(Count + found.Length);
-            // In a large scene this loop runs a million times a second.
-            var own = self;
-            var marks = places;
-            var list = all;
-            var count = Count;
-            for (var i = 0; i < found.Length; i++)
-            {
-                ref var near = ref found[i];
-                var id = near.IdOfNode;
-                ref var mark = ref marks[id];
-                if (id == own || mark != 0) continue;
-                ref var neighbour = ref list[count];
-                neighbour.Id = id;
-                neighbour.Length = near.Metres;
-                neighbour.Attenuation = 0;
-                mark = ++count;
-            }
-            Count = count;
+            for (var i = 0; i < found.Length; i++) Add(found[i].IdOfNode, found[i].Metres, 0);
         }
 
-        /// <summary>Returns the nodes within <paramref name="radius"/> metres, including the node itself, in no order. Valid until the next search.</summary>
+        /// <summary>Returns the nodes within <paramref name="radius"/> metres, including the node itself, ascending by id. Valid until the next search.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindWithin(float radius)
         {
             CheckIsCollecting();
-            return simulation.Grid.FindAround(node, radius);
+            return simulation.Grid.Find(node.Position, radius);
         }
 
         /// <summary>
@@ -109,8 +83,7 @@ namespace Collektive.Unity
         public Span<NearNode> FindNearest(int count, float guess = 0)
         {
             CheckIsCollecting();
-            var grid = simulation.Grid;
-            return count < 1 ? default : grid.FindNearest(node.Position, count, guess > 0 ? guess : grid.MeanRadius);
+            return simulation.Grid.FindNearest(node.Position, count, guess);
         }
 
         /// <summary>The node that a search found.</summary>
@@ -124,20 +97,29 @@ namespace Collektive.Unity
 
         internal void End()
         {
-            for (var i = 0; i < Count; i++) places[all[i].Id] = 0;
-            Count = 0;
+            all.Clear();
             node = null;
         }
 
         internal void Add(int id, float length, float attenuation)
         {
             if (id < 0 || id == self) return;
-            ref var mark = ref places[id];
-            if (mark != 0) return;
-            EnsureCapacity(Count + 1);
-            all[Count] = new Neighbour { Id = id, Length = length, Attenuation = attenuation };
-            mark = ++Count;
+            ref var neighbour = ref all.Add();
+            neighbour.Id = id;
+            neighbour.Length = length;
+            neighbour.Attenuation = attenuation;
         }
+
+        /// <summary>Requests a search for all nodes within a radius.</summary>
+        internal void SearchWithin(float radius)
+        {
+            ref var search = ref Searches.Items[Searches.Count - 1];
+            search.Nearest = RuleSearch.All;
+            search.Outer = radius;
+        }
+
+        /// <summary>Requests a search for the nearest nodes; below 1 there are none.</summary>
+        internal void SearchNearest(int count) => Searches.Items[Searches.Count - 1].Nearest = Math.Max(count, 0);
 
         private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);
 
@@ -150,11 +132,6 @@ namespace Collektive.Unity
         private void CheckIsCollecting()
         {
             if (node is null) throw new InvalidOperationException("neighbours can be added in FindNeighbours only");
-        }
-
-        private void EnsureCapacity(int count)
-        {
-            if (count > all.Length) Array.Resize(ref all, Math.Max(count, all.Length * 2));
         }
     }
 }

@@ -1,4 +1,4 @@
-using System;
+using Collektive.Bridge;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -18,11 +18,8 @@ namespace Collektive.Unity
         [Tooltip("Metres. A link's length is sent to the JVM again after it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
-        // Parallel arrays: `held` is read in each tick, `links` only when a link changes.
-        private NeighbourCollector.Neighbour[] held = Array.Empty<NeighbourCollector.Neighbour>();
-        private LinkHandle[] links = Array.Empty<LinkHandle>();
-        private int heldCount;
-        private int removalCount;
+        // In the simulation's NeighbourSearch.
+        private int number = NeighbourSearch.NoRule;
         // Users' code may do anything with physics.
         private bool isOwn;
 
@@ -43,6 +40,9 @@ namespace Collektive.Unity
             set => lengthTolerance = value;
         }
 
+        /// <summary>Whether <see cref="FindNeighbours"/> only requests a search, which runs together with those of all nodes.</summary>
+        internal virtual bool IsSearch => false;
+
         internal sealed override ref PartList ListOf(Node node)
         {
             isOwn = GetType().Assembly == typeof(NeighbourhoodRule).Assembly;
@@ -54,9 +54,10 @@ namespace Collektive.Unity
             if (Node.Simulation != null) ReleaseAll(Node.Simulation.Links);
         }
 
-        /// <summary>Updates the links of this rule.</summary>
+        /// <summary>Updates the links of this rule, unless it <see cref="IsSearch"/>.</summary>
         internal sealed override void Run(Simulation simulation, int index)
         {
+            if (IsSearch) return;
             var neighbours = simulation.Neighbours;
             if (!isOwn) simulation.Queries.Finish();
             neighbours.Begin(Node);
@@ -64,7 +65,7 @@ namespace Collektive.Unity
             {
                 FindNeighbours(neighbours);
                 // Not when the rule or its node left in the rule's own call, and the links with it.
-                if (IsAttached && Node.Id >= 0) Take(neighbours, simulation.Links);
+                if (IsAttached && Node.Id >= 0) simulation.Links.Take(NumberIn(simulation.Links), Node.Id, neighbours.All, lengthTolerance, !directed);
             }
             finally
             {
@@ -73,78 +74,27 @@ namespace Collektive.Unity
             }
         }
 
-        internal void ReleaseAll(LinkTable table)
+        /// <summary>Adds the search of a rule that <see cref="IsSearch"/>. The node has that place in the grid.</summary>
+        internal void AddSearch(NeighbourCollector neighbours, NeighbourSearch links, int place)
         {
-            for (var i = 0; i < heldCount; i++) table.Release(links[i]);
-            heldCount = 0;
+            ref var search = ref neighbours.Searches.Add();
+            search = default;
+            search.Rule = NumberIn(links);
+            search.Centre = place;
+            search.Tolerance = lengthTolerance;
+            search.BothWays = directed ? 0 : 1;
+            FindNeighbours(neighbours);
+        }
+
+        internal void ReleaseAll(NeighbourSearch links)
+        {
+            links.RemoveRule(number);
+            number = NeighbourSearch.NoRule;
         }
 
         /// <summary>Adds this node's current neighbours to <paramref name="neighbours"/>. Called once before each tick; must not allocate.</summary>
         protected abstract void FindNeighbours(NeighbourCollector neighbours);
 
-        private void Take(NeighbourCollector neighbours, LinkTable table)
-        {
-            var dropped = table.RemovalCount != removalCount;
-            removalCount = table.RemovalCount;
-            var marks = neighbours.Places;
-            var all = neighbours.All;
-            var kept = held;
-            var tolerance = lengthTolerance;
-            var left = heldCount;
-            for (var h = 0; h < left;)
-            {
-                ref var old = ref kept[h];
-                ref var mark = ref marks[old.Id];
-                var place = mark - 1;
-                if (place < 0)
-                {
-                    table.Release(links[h]);
-                    old = kept[--left];
-                    links[h] = links[left];
-                    continue;
-                }
-                mark = 0;
-                ref var now = ref all[place];
-                var change = now.Length - old.Length;
-                // The usual case: nothing to look up, nothing to send.
-                if (dropped || change > tolerance || -change > tolerance || now.Attenuation != old.Attenuation) Change(table, h, now, dropped);
-                h++;
-            }
-            heldCount = left;
-            for (var w = 0; w < neighbours.Count; w++)
-            {
-                ref var mark = ref marks[all[w].Id];
-                if (mark == 0) continue;
-                mark = 0;
-                if (heldCount == held.Length)
-                {
-                    Array.Resize(ref held, Math.Max(16, 2 * heldCount));
-                    Array.Resize(ref links, held.Length);
-                }
-                AddLink(table, heldCount++, all[w]);
-            }
-        }
-
-        private void AddLink(LinkTable table, int place, in NeighbourCollector.Neighbour now)
-        {
-            held[place] = now;
-            links[place] = table.AddReference(Node.Id, now.Id, !directed, now.Length, now.Attenuation);
-        }
-
-        private void Change(LinkTable table, int place, in NeighbourCollector.Neighbour now, bool dropped)
-        {
-            // The link is gone when the other node left and came back.
-            if (dropped && !table.IsAlive(links[place]))
-            {
-                AddLink(table, place, now);
-                return;
-            }
-            ref var old = ref held[place];
-            var length = Math.Abs(now.Length - old.Length) > lengthTolerance ? now.Length : old.Length;
-            if (length == old.Length && now.Attenuation == old.Attenuation) return;
-            old.Length = length;
-            old.Attenuation = now.Attenuation;
-            table.Update(links[place], length, now.Attenuation);
-        }
+        private int NumberIn(NeighbourSearch links) => number != NeighbourSearch.NoRule ? number : number = links.AddRule();
     }
 }

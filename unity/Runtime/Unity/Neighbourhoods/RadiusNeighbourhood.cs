@@ -18,8 +18,10 @@ namespace Collektive.Unity
             set => radius = value;
         }
 
+        internal override bool IsSearch => true;
+
         /// <inheritdoc/>
-        protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.AddWithin(radius);
+        protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.SearchWithin(radius);
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, radius);
     }

@@ -169,12 +169,6 @@ namespace Collektive.Unity
 
         internal Transform Body { get; private set; }
 
-        /// <summary>Index in the grid; used by the grid only.</summary>
-        internal int PlaceInGrid { get; set; }
-
-        /// <summary>Radius of the last search around the node, or 0; used by the grid only.</summary>
-        internal float SearchRadius { get; set; }
-
         /// <summary>The node's simulation, or null.</summary>
         internal Simulation Simulation { get; private set; }
 

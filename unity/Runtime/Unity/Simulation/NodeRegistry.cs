@@ -58,28 +58,29 @@ namespace Collektive.Unity
         }
 
         /// <summary>Removes a node; its links stay until <see cref="DropLinksOfGone"/>.</summary>
-        internal void Leave(Node node)
+        internal void Leave(Node node, NeighbourSearch links)
         {
             var id = node.Id;
             nodes.RemoveAt(IndexOf(id));
             if (IsKnown[id]) leaving.Add(id);
             else joining[joiningIndex[id]] = null;
             IsKnown[id] = false;
+            links.Know(id, false);
             isGone[id] = true;
             gone.Add(id);
         }
 
         /// <summary>Drops the links of all nodes that left, in one pass over the links.</summary>
-        internal void DropLinksOfGone(LinkTable links)
+        internal void DropLinksOfGone(NeighbourSearch links)
         {
             if (gone.Count == 0) return;
-            links.DropLinksOf(isGone);
+            links.Drop(new Span<int>(gone.Items, 0, gone.Count));
             for (var i = 0; i < gone.Count; i++) isGone[gone.Items[i]] = false;
             gone.Clear();
         }
 
         /// <summary>Writes to the request the nodes that left and joined since the last call.</summary>
-        internal void Flush(StepRequest request)
+        internal void Flush(StepRequest request, NeighbourSearch links)
         {
             for (var i = 0; i < leaving.Count; i++) request.RemoveNode(leaving.Items[i]);
             leaving.Clear();
@@ -90,6 +91,7 @@ namespace Collektive.Unity
                 if (joining[i] is null) continue;
                 request.AddNode(joining[i].Id, joining[i].Program, ParametersOf(joining[i]));
                 IsKnown[joining[i].Id] = true;
+                links.Know(joining[i].Id, true);
             }
             joining.Clear();
         }

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using Collektive.Bridge;
 using UnityEngine;
 
 namespace Collektive.Unity
@@ -20,21 +21,23 @@ namespace Collektive.Unity
         {
             if (!CheckEnds("add", a, b)) return;
             var length = Vector3.Distance(simulation.Find(a).Body.position, simulation.Find(b).Body.position);
-            simulation.Links.AddScriptReference(a, b, length, 0);
-            if (!directed) simulation.Links.AddScriptReference(b, a, length, 0);
+            simulation.Links.Hold(new LinkRecord { From = a, To = b, Length = length });
+            if (!directed) simulation.Links.Hold(new LinkRecord { From = b, To = a, Length = length });
         }
 
         /// <summary>Removes a link added by <see cref="Add"/>.</summary>
         internal void Remove(int a, int b, bool directed)
         {
             if (!CheckEnds("remove", a, b)) return;
-            var removed = simulation.Links.ReleaseForScripts(a, b);
-            if (!directed) removed |= simulation.Links.ReleaseForScripts(b, a);
+            var removed = simulation.Links.Release(a, b);
+            if (!directed) removed |= simulation.Links.Release(b, a);
             if (!removed) Debug.LogWarning("cannot remove the link from node " + a + " to node " + b + ": no script added it", simulation.Manager);
         }
 
         private bool CheckEnds(string verb, int a, int b)
         {
+            // The missing library is reported when the simulation opens.
+            if (ShimLibrary.Problem != null) return false;
             var missing = simulation.Find(a) == null ? a : b;
             if (simulation.Find(missing) == null)
             {

@@ -28,6 +28,8 @@ namespace Collektive.Unity
         private Node[] present = Array.Empty<Node>();
         private int presentCount;
         private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
+        // Places in the array of present nodes.
+        private readonly GrowingArray<int> withOwnRules = new GrowingArray<int>();
         private Session session;
         private bool isTicking;
         private bool isReloadRequested;
@@ -44,6 +46,7 @@ namespace Collektive.Unity
             Settings = settings;
             Manager = manager;
             this.globals = globals;
+            Grid = new NodeGrid(Links);
             ScriptLinks = new ScriptLinks(this);
             Neighbours = new NeighbourCollector(this);
             SightLines = new SightLines(this);
@@ -103,23 +106,23 @@ namespace Collektive.Unity
         /// <summary>All ids are below it.</summary>
         internal int IdCapacity => registry.IdCapacity;
 
-        internal LinkTable Links { get; } = new LinkTable();
+        /// <summary>All links, and searches for near nodes.</summary>
+        internal NeighbourSearch Links { get; } = new NeighbourSearch();
 
         internal ScriptLinks ScriptLinks { get; }
 
-        /// <summary>The links between nodes that take part, with their values; otherwise they are brought up to date at the next tick, all at once.</summary>
-        internal LinkTable PresentLinks
+        /// <summary>The links between nodes that take part; otherwise those of nodes that left stay until the next tick.</summary>
+        internal NeighbourSearch PresentLinks
         {
             get
             {
                 registry.DropLinksOfGone(Links);
-                Links.ApplyChanges();
                 return Links;
             }
         }
 
         /// <summary>Positions of the nodes in this tick; current while rules run.</summary>
-        internal NodeGrid Grid { get; } = new NodeGrid();
+        internal NodeGrid Grid { get; }
 
         /// <summary>Sight lines between nodes in this tick.</summary>
         internal SightLines SightLines { get; }
@@ -252,7 +255,7 @@ namespace Collektive.Unity
         /// <summary>At the end of a simulation, errors keep their nodes for the diagnostics window.</summary>
         private void Remove(Node node)
         {
-            registry.Leave(node);
+            registry.Leave(node, Links);
             for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll(Links);
             node.OnLeft();
         }
@@ -273,7 +276,7 @@ namespace Collektive.Unity
             session = null;
             SightLines.Dispose();
             Queries.Dispose();
-            Grid.Dispose();
+            Links.Dispose();
         }
 
         /// <summary>Runs the phases of a tick. Users' code may end the simulation in any phase; later phases are then skipped.</summary>
@@ -311,7 +314,7 @@ namespace Collektive.Unity
             {
                 Sense();
                 // Last, since users' code may add and remove links until here.
-                Links.Flush(session.Request, registry.IsKnown);
+                Links.Flush(session.Request);
             }
             begun.SenseEnd = Stopwatch.GetTimestamp();
         }
@@ -369,7 +372,7 @@ namespace Collektive.Unity
                 problem = Settings.FindProblem(node) ?? node.StartTimer();
                 if (problem != null) Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
             }
-            registry.Flush(session.Request);
+            registry.Flush(session.Request, Links);
             if (isReloadRequested) session.Request.Reload(Settings.ToSession().Jars);
             isReloadRequested = false;
         }
@@ -382,18 +385,43 @@ namespace Collektive.Unity
             presentCount = Nodes.Count;
             if (presentCount > present.Length) present = new Node[Math.Max(presentCount, 2 * present.Length)];
             Nodes.CopyTo(present);
-            Grid.Build(Nodes, Grid.MeanRadius, Settings.threads > 1);
+            Grid.Build(present, presentCount);
             SightLines.Begin();
             Queries.Begin(Now);
-            for (var i = 0; i < presentCount && IsOpen; i++)
+            AddSearches();
+            var searches = Neighbours.Searches;
+            var done = Links.Update(new Span<RuleSearch>(searches.Items, 0, searches.Count), Settings.threads, MaxLinks);
+            if (Links.Count > MaxLinks) FailTooManyLinks(present[searches.Items[done - 1].Centre]);
+            for (var i = 0; i < withOwnRules.Count && IsOpen; i++)
             {
-                var node = present[i];
+                var node = present[withOwnRules.Items[i]];
                 if (node.Id >= 0) node.Rules.Run(this, node, -1);
-                if (Links.Count <= MaxLinks) continue;
-                Fail("the scene has more than " + MaxLinks + " links, the last one of node '" + node.name
-                    + "': use smaller neighbourhoods, or increase the distances between nodes", node);
+                if (Links.Count > MaxLinks) FailTooManyLinks(node);
             }
         }
+
+        /// <summary>Collects the searches of ready rules, and the nodes whose rules must be called.</summary>
+        private void AddSearches()
+        {
+            Neighbours.Searches.Clear();
+            withOwnRules.Clear();
+            for (var i = 0; i < presentCount; i++)
+            {
+                ref var rules = ref present[i].Rules;
+                var areSearches = true;
+                for (var r = 0; r < rules.Count; r++)
+                {
+                    var rule = (NeighbourhoodRule)rules[r];
+                    if (rule.IsSearch) rule.AddSearch(Neighbours, Links, i);
+                    else areSearches = false;
+                }
+                if (!areSearches) withOwnRules.Add(i);
+            }
+        }
+
+        private void FailTooManyLinks(Node node) =>
+            Fail("the scene has more than " + MaxLinks + " links, the last one of node '" + node.name
+                + "': use smaller neighbourhoods, or increase the distances between nodes", node);
 
         private void Sense()
         {

@@ -234,7 +234,7 @@ namespace Collektive.Unity
         {
             if (colouring == LinkColouring.Length) return direction.Length;
             if (colouring == LinkColouring.Attenuation) return direction.Attenuation;
-            return Value == null ? 0 : Value(LinkTable.Record(from, to, direction));
+            return Value == null ? 0 : Value(direction.Record(from, to));
         }
 
         private void TakePlaces(SimulationManager manager)

@@ -1,0 +1,23 @@
+/* Arrays that grow. */
+#ifndef NEIGHBOURS_ARRAY_H
+#define NEIGHBOURS_ARRAY_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+/* Makes room for `needed` items of `size` bytes in the array that `items` points to. Returns false without memory. */
+static inline bool reserve(void *items, int32_t *capacity, int64_t needed, size_t size) {
+    if (needed <= *capacity) return true;
+    int64_t larger = 2 * (int64_t)*capacity > needed ? 2 * (int64_t)*capacity : needed;
+    if (larger < 16) larger = 16;
+    if (larger > INT32_MAX) return false;
+    void **array = items;
+    void *grown = realloc(*array, (size_t)larger * size);
+    if (grown == NULL) return false;
+    *array = grown;
+    *capacity = (int32_t)larger;
+    return true;
+}
+
+#endif

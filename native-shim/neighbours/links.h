@@ -1,0 +1,51 @@
+/* All links with their reference counts, and the changes that are not flushed yet. */
+#ifndef NEIGHBOURS_LINKS_H
+#define NEIGHBOURS_LINKS_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include "collektive_neighbours.h"
+
+/* Most references come and go in pairs: the two links of a pair are adjacent, and one reference may be to both. */
+struct links {
+    clk_pair *pairs;
+    int32_t *buckets; /* as many as the capacity of pairs, a power of two */
+    int32_t used, capacity, first_free;
+    int32_t count; /* of links */
+
+    int32_t *dirty; /* pairs with a changed direction */
+    int32_t dirty_count, dirty_capacity;
+
+    uint8_t *known; /* by id */
+    uint8_t *gone;  /* by id; all 0 between calls */
+    int32_t known_capacity, gone_capacity;
+
+    clk_link *set;
+    clk_link_ends *removed;
+    int32_t set_capacity, removed_capacity;
+};
+
+/* A reference to the links of a pair: its number, and the directions. */
+typedef int32_t reference;
+enum { UP = 1, DOWN = 2, DIRECTIONS = 3 };
+
+/* Returns the reference of a new user of a link, or of both links of a pair; negative without memory. */
+reference links_add(struct links *links, int32_t from, int32_t to, bool both, float length, float attenuation);
+bool links_set(struct links *links, reference link, float length, float attenuation);
+bool links_release(struct links *links, reference link);
+
+bool links_hold(struct links *links, const clk_link *link);
+/* Returns 0 if scripts have no reference, otherwise 1; negative without memory. */
+int32_t links_release_script(struct links *links, int32_t from, int32_t to);
+bool links_has(const struct links *links, int32_t from, int32_t to);
+
+bool links_know(struct links *links, int32_t id, bool known);
+/* Marks ids as gone, or as present. */
+bool links_mark_gone(struct links *links, const int32_t *ids, int32_t count, bool gone);
+bool links_is_gone(const struct links *links, int32_t id);
+void links_drop_gone(struct links *links);
+
+bool links_flush(struct links *links, clk_changes *changes);
+void links_free(struct links *links);
+
+#endif

@@ -1,0 +1,176 @@
+using System;
+using System.Collections.Generic;
+
+namespace Collektive.Bridge
+{
+    /// <summary>
+    /// Searches for near nodes and all directed links of a scene with their reference counts, in C (<c>collektive_neighbours.h</c>). A link exists while
+    /// at least one rule or script references it. The native memory is allocated on first use. Results are spans of it, valid until the next call.
+    /// </summary>
+    internal sealed unsafe class NeighbourSearch : IDisposable
+    {
+        /// <summary>No rule.</summary>
+        internal const int NoRule = -1;
+
+        private const int NotFinite = -3;
+
+        private IntPtr native;
+
+        ~NeighbourSearch() => Dispose();
+
+        /// <summary>All pairs, including unused ones, for views.</summary>
+        internal Span<LinkPair> Pairs
+        {
+            get
+            {
+                var all = All;
+                return new Span<LinkPair>(all.Pairs, all.Count);
+            }
+        }
+
+        /// <summary>Number of pairs that fit in the native memory.</summary>
+        internal int PairCapacity => All.Capacity;
+
+        /// <summary>Number of links.</summary>
+        internal int Count => All.Links;
+
+        private Shim.LinkPairs All
+        {
+            get
+            {
+                Shim.LinkPairs all = default;
+                if (native != IntPtr.Zero) Shim.clk_neighbours_pairs(native, &all);
+                return all;
+            }
+        }
+
+        private IntPtr Native
+        {
+            get
+            {
+                if (native != IntPtr.Zero) return native;
+                ShimLibrary.Check();
+                native = Shim.clk_neighbours_create();
+                return native != IntPtr.Zero ? native : throw OutOfMemory();
+            }
+        }
+
+        /// <summary>
+        /// Replaces the points, whose ids ascend. <paramref name="cell"/> is the side of the grid's cells in metres; 0 for the mean radius of the last
+        /// searches.
+        /// </summary>
+        /// <returns>False if a coordinate is not finite.</returns>
+        internal bool TryPlace(Span<NodePoint> points, float cell = 0)
+        {
+            fixed (NodePoint* first = points)
+            {
+                var code = Shim.clk_neighbours_place(Native, first, points.Length, cell);
+                if (code == NotFinite) return false;
+                Check(code);
+                return true;
+            }
+        }
+
+        /// <summary>Returns the points within <paramref name="radius"/> metres of a place, ascending by id.</summary>
+        internal Span<NearPoint> Within(float x, float y, float z, float radius)
+        {
+            if (native == IntPtr.Zero) return default;
+            NearPoint* found;
+            var count = Check(Shim.clk_neighbours_within(native, x, y, z, 0, radius, &found));
+            return new Span<NearPoint>(found, count);
+        }
+
+        /// <summary>Returns the points nearest to a place, at most <paramref name="limit"/>, by distance and at equal distances by id.</summary>
+        internal Span<NearPoint> Nearest(float x, float y, float z, int limit, float guess)
+        {
+            if (native == IntPtr.Zero || limit < 1) return default;
+            NearPoint* found;
+            var count = Check(Shim.clk_neighbours_nearest(native, x, y, z, limit, guess, &found));
+            return new Span<NearPoint>(found, count);
+        }
+
+        /// <summary>Adds a rule without links and returns its number.</summary>
+        internal int AddRule() => Check(Shim.clk_neighbours_add_rule(Native));
+
+        /// <summary>Removes a rule and its references. Does nothing for <see cref="NoRule"/>.</summary>
+        internal void RemoveRule(int rule)
+        {
+            if (native != IntPtr.Zero) Shim.clk_neighbours_remove_rule(native, rule);
+        }
+
+        /// <summary>Runs searches, and replaces the links of their rules.</summary>
+        /// <returns>The number of searches; if there are more than <paramref name="maxLinks"/> links, that up to the search that exceeded it.</returns>
+        internal int Update(Span<RuleSearch> searches, int threads, int maxLinks)
+        {
+            fixed (RuleSearch* first = searches) return Check(Shim.clk_neighbours_update(Native, first, searches.Length, threads, maxLinks));
+        }
+
+        /// <summary>Replaces the links of a rule. Of several neighbours with the same id the first counts.</summary>
+        internal void Take(int rule, int centre, Span<RuleNeighbour> list, float tolerance, bool bothWays)
+        {
+            fixed (RuleNeighbour* first = list) Check(Shim.clk_neighbours_take(Native, rule, centre, first, list.Length, tolerance, bothWays ? 1 : 0));
+        }
+
+        /// <summary>Adds the scripts' reference to a link, at most once.</summary>
+        internal void Hold(LinkRecord link) => Check(Shim.clk_neighbours_hold(Native, &link));
+
+        /// <summary>Releases the scripts' reference.</summary>
+        /// <returns>False if no script added the link.</returns>
+        internal bool Release(int from, int to) => native != IntPtr.Zero && Check(Shim.clk_neighbours_release(native, from, to)) != 0;
+
+        /// <summary>Whether a link exists.</summary>
+        internal bool Has(int from, int to) => native != IntPtr.Zero && Shim.clk_neighbours_has(native, from, to) != 0;
+
+        /// <summary>Replaces a list's content with all links.</summary>
+        internal void CopyTo(List<LinkRecord> target)
+        {
+            target.Clear();
+            foreach (ref var pair in Pairs)
+            {
+                if (pair.Up.References > 0) target.Add(pair.Up.Record(pair.Low, pair.High));
+                if (pair.Down.References > 0) target.Add(pair.Down.Record(pair.High, pair.Low));
+            }
+        }
+
+        /// <summary>Sets whether a node was sent to the JVM. Links of other nodes wait.</summary>
+        internal void Know(int id, bool known)
+        {
+            if (known || native != IntPtr.Zero) Check(Shim.clk_neighbours_know(Native, id, known ? 1 : 0));
+        }
+
+        /// <summary>Removes all links of nodes that left; the JVM removes its own with the node.</summary>
+        internal void Drop(Span<int> ids)
+        {
+            if (native == IntPtr.Zero) return;
+            fixed (int* first = ids) Check(Shim.clk_neighbours_drop(native, first, ids.Length));
+        }
+
+        /// <summary>Writes to the request what changed since the last call.</summary>
+        internal void Flush(StepRequest request)
+        {
+            if (native == IntPtr.Zero) return;
+            Shim.LinkChanges changes;
+            Check(Shim.clk_neighbours_flush(native, &changes));
+            request.Links.AddAll(new ReadOnlySpan<LinkRecord>(changes.Set, changes.SetCount));
+            request.LinksRemoved.AddAll(new ReadOnlySpan<LinkEnds>(changes.Removed, changes.RemovedCount));
+        }
+
+        /// <summary>Frees the native memory. Afterwards, there are neither points nor links.</summary>
+        public void Dispose()
+        {
+            if (native != IntPtr.Zero) Shim.clk_neighbours_destroy(native);
+            native = IntPtr.Zero;
+            GC.SuppressFinalize(this);
+        }
+
+        private static int Check(int code)
+        {
+            if (code >= 0) return code;
+            throw code == (int)BridgeError.Memory ? OutOfMemory()
+                : new BridgeException((BridgeError)code, "the neighbour search refuses an argument, with code " + code);
+        }
+
+        private static BridgeException OutOfMemory() =>
+            new BridgeException(BridgeError.Memory, "not enough memory for the neighbour search: use smaller neighbourhoods or fewer nodes");
+    }
+}
