@@ -9,7 +9,7 @@
 /* More rows share a number. */
 #define MAX_ROWS 0xFFFF
 #define MIN_RADIUS 1e-3f
-/* Keys that are sorted without branches. */
+/* Keys that are sorted by insertion. */
 enum { FEW = 16 };
 
 static inline int32_t min(int32_t a, int32_t b) { return a < b ? a : b; }
@@ -196,18 +196,12 @@ bool grid_nearest(const struct grid *grid, const float place[3], int32_t limit, 
     return true;
 }
 
-/* Few keys: counts the smaller ones, without branches that the processor cannot predict. Equal indexes keep their order. */
 static void sort_few(uint64_t *keys, int32_t count) {
-    int32_t indexes[FEW];
-    uint64_t copies[FEW];
-    for (int32_t i = 0; i < FEW; i++) {
-        copies[i] = i < count ? keys[i] : 0;
-        indexes[i] = i < count ? hit_index(keys[i]) : INT32_MAX;
-    }
-    for (int32_t i = 0; i < count; i++) {
-        int32_t rank = 0;
-        for (int32_t j = 0; j < FEW; j++) rank += (indexes[j] < indexes[i]) | ((indexes[j] == indexes[i]) & (j < i));
-        keys[rank] = copies[i];
+    for (int32_t next = 1; next < count; next++) {
+        uint64_t key = keys[next];
+        int32_t at = next;
+        for (; at > 0 && key < keys[at - 1]; at--) keys[at] = keys[at - 1];
+        keys[at] = key;
     }
 }
 

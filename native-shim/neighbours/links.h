@@ -34,6 +34,9 @@ reference links_add(struct links *links, int32_t from, int32_t to, bool both, fl
 bool links_set(struct links *links, reference link, float length, float attenuation);
 bool links_release(struct links *links, reference link);
 
+/* Loads a link into the cache. */
+static inline void links_prefetch(const struct links *links, reference link) { __builtin_prefetch(&links->pairs[link >> 2], 1); }
+
 bool links_hold(struct links *links, const clk_link *link);
 /* Returns 0 if scripts have no reference, otherwise 1; negative without memory. */
 int32_t links_release_script(struct links *links, int32_t from, int32_t to);

@@ -36,6 +36,9 @@ struct rule {
 
 enum change_kind { ADD, ADD_BOTH, SET, RELEASE };
 
+/* Links and rules are far apart in memory, so they are loaded some time before they are used. */
+enum { AHEAD = 8 };
+
 struct change {
     enum change_kind kind;
     int32_t target; /* place in `held` to add, otherwise the reference */
@@ -255,11 +258,12 @@ static bool merge(struct thread_memory *memory, struct rule *rule, const clk_nei
     return true;
 }
 
-/* Updates the links of a rule that was merged. */
-static bool apply(clk_neighbours *neighbours, struct rule *rule, const struct change *changes, int32_t count) {
+/* Updates the links of a rule that was merged. `end` is the end of the changes of all rules in this memory. */
+static bool apply(clk_neighbours *neighbours, struct rule *rule, const struct change *changes, int32_t count, const struct change *end) {
     struct links *links = &neighbours->links;
     for (int32_t i = 0; i < count; i++) {
         const struct change *change = &changes[i];
+        if (end - change > AHEAD && change[AHEAD].kind >= SET) links_prefetch(links, change[AHEAD].target);
         if (change->kind == RELEASE) {
             if (!links_release(links, change->target)) return false;
         } else if (change->kind == SET) {
@@ -311,6 +315,7 @@ static void run_searches(void *context, int32_t number) {
         int32_t before = memory->change_count;
         for (int32_t i = first; i < neighbours->search_count && i - first < CHUNK; i++) {
             int32_t start = memory->change_count;
+            if (i + AHEAD < neighbours->search_count) __builtin_prefetch(neighbours->rules[neighbours->searches[i + AHEAD].rule].held, 1);
             if (!search(neighbours, memory, &neighbours->searches[i])) neighbours->is_out_of_memory = true;
             neighbours->changes[i] = (struct changes){number, start, memory->change_count - start};
         }
@@ -349,7 +354,8 @@ int32_t clk_neighbours_update(clk_neighbours *neighbours, const clk_search *sear
             struct changes changes = neighbours->changes[i];
             struct rule *rule = &neighbours->rules[searches[i].rule];
             rule->centre = neighbours->grid.points[searches[i].centre].id;
-            if (!apply(neighbours, rule, neighbours->threads[changes.thread].changes + changes.first, changes.count))
+            const struct thread_memory *memory = &neighbours->threads[changes.thread];
+            if (!apply(neighbours, rule, memory->changes + changes.first, changes.count, memory->changes + memory->change_count))
                 return CLK_NEIGHBOURS_MEMORY;
             if (neighbours->links.count > max_links && exceeding == count) exceeding = i + 1;
         }
@@ -381,7 +387,8 @@ int32_t clk_neighbours_take(clk_neighbours *neighbours, int32_t number, int32_t 
     rule->centre = centre;
     memory->change_count = 0;
     if (!merge(memory, rule, memory->wanted, wanted, tolerance, both != 0)) return CLK_NEIGHBOURS_MEMORY;
-    return apply(neighbours, rule, memory->changes, memory->change_count) ? 0 : CLK_NEIGHBOURS_MEMORY;
+    return apply(neighbours, rule, memory->changes, memory->change_count, memory->changes + memory->change_count) ? 0
+                                                                                                                  : CLK_NEIGHBOURS_MEMORY;
 }
 
 /* ---- Links ----------------------------------------------------------------------------------------------------------- */

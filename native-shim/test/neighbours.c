@@ -1,4 +1,4 @@
-/* Compares collektive_neighbours with brute force. `neighbours_test CASE` runs a case, `neighbours_test bench` measures. */
+/* Compares collektive_neighbours with brute force. `neighbours_test CASE` runs a case, `neighbours_test bench POINTS THREADS` measures. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -482,13 +482,17 @@ static void an_update_stops_at_the_limit_of_links(void) {
 
 static double now_ms(void) { return 1e-6 * (double)prim_now(); }
 
-/* Points that move at 2 m/s, in ticks of 0.05 s, each with about seven others in reach. */
+static int ascending(const void *a, const void *b) {
+    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
+}
+
+/* Points two metres apart that move at 2 m/s, in ticks of 0.05 s, each with about seven others within 3 m. Prints median times. */
 static void bench(int32_t count, int32_t threads) {
-    struct swarm_of swarm = make_swarm(count, 1, 1.5f);
+    struct swarm_of swarm = make_swarm(count, 2, 3);
     clk_changes changes;
-    double best[3] = {1e9, 1e9, 1e9};
+    enum { TICKS = 101, PHASES = 4 };
+    double times[PHASES][TICKS];
     int64_t sent = 0;
-    enum { TICKS = 100 };
     for (int32_t tick = 0; tick < TICKS; tick++) {
         move_swarm(&swarm);
         double start = now_ms();
@@ -497,14 +501,16 @@ static void bench(int32_t count, int32_t threads) {
         CHECK(clk_neighbours_update(swarm.neighbours, swarm.searches, count, threads, 1 << 24) == count);
         double updated = now_ms();
         CHECK(clk_neighbours_flush(swarm.neighbours, &changes) == 0);
-        double times[3] = {placed - start, updated - placed, now_ms() - updated};
-        for (int32_t i = 0; i < 3; i++) best[i] = times[i] < best[i] ? times[i] : best[i];
+        double end = now_ms();
+        double phases[PHASES] = {placed - start, updated - placed, end - updated, end - start};
+        for (int32_t i = 0; i < PHASES; i++) times[i][tick] = phases[i];
         if (tick > 0) sent += changes.set_count + changes.removed_count;
     }
+    for (int32_t i = 0; i < PHASES; i++) qsort(times[i], TICKS, sizeof(double), ascending);
     clk_pairs pairs;
     clk_neighbours_pairs(swarm.neighbours, &pairs);
-    printf("%d points, %d links, %lld changes a tick, %d threads: place %.2f, update %.2f, flush %.2f ms\n", count, pairs.links,
-           (long long)(sent / (TICKS - 1)), threads, best[0], best[1], best[2]);
+    printf("%d points, %d links, %lld changes, %d threads: place %.3f, update %.3f, flush %.3f, total %.3f ms\n", count, pairs.links,
+           (long long)(sent / (TICKS - 1)), threads, times[0][TICKS / 2], times[1][TICKS / 2], times[2][TICKS / 2], times[3][TICKS / 2]);
     free_swarm(&swarm);
 }
 
@@ -523,10 +529,8 @@ int main(int count, char **words) {
         CASE(any_number_of_threads_has_equal_results),
         CASE(an_update_stops_at_the_limit_of_links),
     };
-    if (count == 2 && strcmp(words[1], "bench") == 0) {
-        for (int32_t threads = 1; threads <= 2; threads++) {
-            for (int32_t points_count = 1000; points_count <= 100000; points_count *= 10) bench(points_count, threads);
-        }
+    if (count == 4 && strcmp(words[1], "bench") == 0) {
+        bench((int32_t)strtol(words[2], NULL, 10), (int32_t)strtol(words[3], NULL, 10));
         return 0;
     }
     for (size_t i = 0; count == 2 && i < sizeof cases / sizeof *cases; i++) {
@@ -535,6 +539,6 @@ int main(int count, char **words) {
         cases[i].run();
         return 0;
     }
-    fprintf(stderr, "usage: neighbours_test CASE|bench\n");
+    fprintf(stderr, "usage: neighbours_test CASE, or neighbours_test bench POINTS THREADS\n");
     return 2;
 }

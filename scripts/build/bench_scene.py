@@ -13,7 +13,7 @@ from typing import Any
 
 from build import graph, inputs, lock, projects
 from build.console import Failure
-from build.places import COLLEKTIVE, ROOT
+from build.places import COLLEKTIVE, ROOT, SHIM
 
 SAMPLE = ROOT / "unity/Samples~/GradientAscent"
 PHASES = ("sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
@@ -36,7 +36,7 @@ def scenario(nodes: int, seconds: int) -> dict[str, Any]:
 
 
 def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
-    """Measures one size. Returns the mean tick after the warm-up, and its phases."""
+    """Measures one size. Returns the mean tick after the warm-up, its phases, and the time of the rules' work in a bare loop in C."""
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder, "scene.json"), Path(folder, "out")
         settings = scenario(nodes, seconds)
@@ -49,11 +49,14 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
         with (out / "metrics.csv").open() as file:
             rows = [row for row in csv.DictReader(file) if int(row["second"]) > settled]
 
+    bare = subprocess.run([SHIM / "test/neighbours_test", "bench", str(nodes), str(settings["threads"])], check=True, stdout=subprocess.PIPE, text=True)
+
     def mean(column: str) -> float:
         return sum(float(row[column]) for row in rows) / len(rows)
 
     return {"nodes": nodes, "threads": settings["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
-            **{phase: round(mean(phase), 3) for phase in PHASES}, "rss_mb": round(usage.ru_maxrss / 1024, 1)}
+            **{phase: round(mean(phase), 3) for phase in PHASES}, "rules_in_c_ms": float(bare.stdout.split()[-2]),
+            "rss_mb": round(usage.ru_maxrss / 1024, 1)}
 
 
 def micros_per_node(row: dict[str, Any]) -> float:
@@ -61,9 +64,10 @@ def micros_per_node(row: dict[str, Any]) -> float:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """Formats the rows, with the time of a tick per node, also relative to the first row."""
-    columns = ["nodes", "ticks/s", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "RSS MB", "us a node", "growth"]
-    cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rss_mb']:.0f}",
+    """Formats the rows, with the time of the rules relative to that in C, and the time of a tick per node, also relative to the first row."""
+    columns = ["nodes", "ticks/s", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "rules in C", "ratio", "RSS MB", "us a node", "growth"]
+    cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rules_in_c_ms']:.2f}",
+              f"{row['rules_ms'] / row['rules_in_c_ms']:.2f}", f"{row['rss_mb']:.0f}",
               f"{micros_per_node(row):.2f}", f"{micros_per_node(row) / micros_per_node(rows[0]):.2f}"] for row in rows]
     return "\n".join("".join(text.rjust(11) for text in line) for line in [columns, *cells])
 
@@ -82,7 +86,7 @@ def sizes_of(text: str) -> list[int]:
 
 def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     """Runs all sizes, writes their rows to a file, and prints the table."""
-    graph.build("runtime")
+    graph.build("runtime", "neighbours_test")
     # Compiles before the runs, whose memory includes the processes that they start.
     projects.scripts_dll(inputs.schema(SAMPLE / "gradient_ascent.fbs"), inputs.scripts(SAMPLE))
     lock.release()
