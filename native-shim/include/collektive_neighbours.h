@@ -73,7 +73,7 @@ typedef struct clk_search {
     int32_t both;    /* whether new links go both ways, otherwise from the centre only */
 } clk_search;
 
-/* A point that a rule shall be linked with. */
+/* A point that a rule must be linked with. */
 typedef struct clk_neighbour {
     int32_t id;        /* not that of the rule's point */
     float length;      /* of the link */

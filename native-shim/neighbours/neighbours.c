@@ -51,13 +51,13 @@ struct changes {
     int32_t thread, first, count;
 };
 
-/* Memory of a thread, padded to cache lines of its own. */
+/* Memory of a thread, padded to separate cache lines. */
 struct thread_memory {
     struct hits hits;
-    clk_neighbour *wanted;
+    clk_neighbour *requested;
     struct held *merged;
     struct change *changes;
-    int32_t wanted_capacity, merged_capacity, change_count, change_capacity;
+    int32_t requested_capacity, merged_capacity, change_count, change_capacity;
     double radius_sum;
     int32_t searches;
     char padding[128];
@@ -104,7 +104,7 @@ void clk_neighbours_destroy(clk_neighbours *neighbours) {
     for (int32_t i = 0; i < neighbours->rule_count; i++) free(neighbours->rules[i].held);
     for (int32_t i = 0; i < MAX_WORKERS; i++) {
         hits_free(&neighbours->threads[i].hits);
-        free(neighbours->threads[i].wanted);
+        free(neighbours->threads[i].requested);
         free(neighbours->threads[i].merged);
         free(neighbours->threads[i].changes);
     }
@@ -225,32 +225,33 @@ static bool keep(struct thread_memory *memory, struct held *held, float length, 
 }
 
 /*
- * Replaces the rule's links by those to `wanted`, ascending by id, and appends the changes. The links themselves are updated by
+ * Replaces the rule's links by those to `requested`, ascending by id, and appends the changes. The links themselves are updated by
  * apply(), so that threads can run this for different rules.
  */
-static bool merge(struct thread_memory *memory, struct rule *rule, const clk_neighbour *wanted, int32_t count, float tolerance, bool both) {
+static bool merge(struct thread_memory *memory, struct rule *rule, const clk_neighbour *requested, int32_t count, float tolerance,
+                  bool both) {
     struct held *held = rule->held;
     int32_t same = 0;
     /* The usual case. */
-    while (same < count && same < rule->count && held[same].id == wanted[same].id) {
-        if (!keep(memory, &held[same], wanted[same].length, wanted[same].attenuation, tolerance)) return false;
+    while (same < count && same < rule->count && held[same].id == requested[same].id) {
+        if (!keep(memory, &held[same], requested[same].length, requested[same].attenuation, tolerance)) return false;
         same++;
     }
     if (same == count && same == rule->count) return true;
     if (!reserve(&memory->merged, &memory->merged_capacity, count, sizeof *memory->merged)) return false;
-    for (int32_t w = same, h = same; w < count || h < rule->count;) {
-        if (w == count || (h < rule->count && held[h].id < wanted[w].id)) {
+    for (int32_t r = same, h = same; r < count || h < rule->count;) {
+        if (r == count || (h < rule->count && held[h].id < requested[r].id)) {
             if (!add_change(memory, RELEASE, held[h++].link, 0, 0)) return false;
             continue;
         }
-        if (h < rule->count && held[h].id == wanted[w].id) {
-            if (!keep(memory, &held[h], wanted[w].length, wanted[w].attenuation, tolerance)) return false;
-            memory->merged[w] = held[h++];
+        if (h < rule->count && held[h].id == requested[r].id) {
+            if (!keep(memory, &held[h], requested[r].length, requested[r].attenuation, tolerance)) return false;
+            memory->merged[r] = held[h++];
         } else {
-            memory->merged[w] = (struct held){wanted[w].id, wanted[w].length, wanted[w].attenuation, -1};
-            if (!add_change(memory, both ? ADD_BOTH : ADD, w, 0, 0)) return false;
+            memory->merged[r] = (struct held){requested[r].id, requested[r].length, requested[r].attenuation, -1};
+            if (!add_change(memory, both ? ADD_BOTH : ADD, r, 0, 0)) return false;
         }
-        w++;
+        r++;
     }
     if (!reserve(&rule->held, &rule->capacity, count, sizeof *rule->held)) return false;
     if (count > same) memcpy(rule->held + same, memory->merged + same, (size_t)(count - same) * sizeof *rule->held);
@@ -295,14 +296,14 @@ static bool search(clk_neighbours *neighbours, struct thread_memory *memory, con
         rule->reach = hits->count == 0 ? 0 : hit_distance(hits->keys[hits->count - 1]);
     }
     if (!hits_sort(hits)) return false;
-    if (!reserve(&memory->wanted, &memory->wanted_capacity, hits->count, sizeof *memory->wanted)) return false;
+    if (!reserve(&memory->requested, &memory->requested_capacity, hits->count, sizeof *memory->requested)) return false;
     int32_t count = 0;
     for (int32_t i = 0; i < hits->count; i++) {
         int32_t index = hit_index(hits->keys[i]);
-        memory->wanted[count] = (clk_neighbour){grid->points[index].id, hit_distance(hits->keys[i]), 0};
+        memory->requested[count] = (clk_neighbour){grid->points[index].id, hit_distance(hits->keys[i]), 0};
         count += index != search->centre;
     }
-    return merge(memory, rule, memory->wanted, count, search->tolerance, search->both != 0);
+    return merge(memory, rule, memory->requested, count, search->tolerance, search->both != 0);
 }
 
 /* Runs searches until none are left, or until there are enough new links. */
@@ -374,19 +375,19 @@ int32_t clk_neighbours_take(clk_neighbours *neighbours, int32_t number, int32_t 
     struct thread_memory *memory = &neighbours->threads[0];
     struct hits *order = &memory->hits;
     if (!reserve(&order->keys, &order->capacity, count, sizeof *order->keys)) return CLK_NEIGHBOURS_MEMORY;
-    if (!reserve(&memory->wanted, &memory->wanted_capacity, count, sizeof *memory->wanted)) return CLK_NEIGHBOURS_MEMORY;
+    if (!reserve(&memory->requested, &memory->requested_capacity, count, sizeof *memory->requested)) return CLK_NEIGHBOURS_MEMORY;
     for (int32_t i = 0; i < count; i++) order->keys[i] = (uint64_t)(uint32_t)list[i].id << 32 | (uint32_t)i;
     order->count = count;
     if (!hits_sort(order)) return CLK_NEIGHBOURS_MEMORY;
-    int32_t wanted = 0;
+    int32_t requested = 0;
     for (int32_t i = 0; i < count; i++) {
         const clk_neighbour *next = &list[(uint32_t)order->keys[i]];
-        if (wanted == 0 || memory->wanted[wanted - 1].id != next->id) memory->wanted[wanted++] = *next;
+        if (requested == 0 || memory->requested[requested - 1].id != next->id) memory->requested[requested++] = *next;
     }
     struct rule *rule = &neighbours->rules[number];
     rule->centre = centre;
     memory->change_count = 0;
-    if (!merge(memory, rule, memory->wanted, wanted, tolerance, both != 0)) return CLK_NEIGHBOURS_MEMORY;
+    if (!merge(memory, rule, memory->requested, requested, tolerance, both != 0)) return CLK_NEIGHBOURS_MEMORY;
     return apply(neighbours, rule, memory->changes, memory->change_count, memory->changes + memory->change_count) ? 0
                                                                                                                   : CLK_NEIGHBOURS_MEMORY;
 }

@@ -66,7 +66,8 @@ namespace Collektive.Bridge
 
         internal static int clk_neighbours_update(IntPtr neighbours, RuleSearch* searches, int count, int threads, int maxLinks) => Unsupported;
 
-        internal static int clk_neighbours_take(IntPtr neighbours, int rule, int centre, RuleNeighbour* list, int count, float tolerance, int both) => Unsupported;
+        internal static int clk_neighbours_take(IntPtr neighbours, int rule, int centre, RuleNeighbour* list, int count, float tolerance, int both) =>
+            Unsupported;
 
         internal static int clk_neighbours_hold(IntPtr neighbours, LinkRecord* link) => Unsupported;
 

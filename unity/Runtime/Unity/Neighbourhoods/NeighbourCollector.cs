@@ -23,7 +23,7 @@ namespace Collektive.Unity
         /// <summary>All participating nodes, ascending by id.</summary>
         public IReadOnlyList<Node> Nodes => simulation.Nodes;
 
-        /// <summary>What the rule added; nodes may occur several times.</summary>
+        /// <summary>The nodes that the rule added, possibly several times.</summary>
         internal Span<RuleNeighbour> All => new Span<RuleNeighbour>(all.Items, 0, all.Count);
 
         /// <summary>The searches of ready rules in this tick.</summary>
@@ -67,7 +67,7 @@ namespace Collektive.Unity
             for (var i = 0; i < found.Length; i++) Add(found[i].IdOfNode, found[i].Metres, 0);
         }
 
-        /// <summary>Returns the nodes within <paramref name="radius"/> metres, including the node itself, ascending by id. Valid until the next search.</summary>
+        /// <summary>Returns the nodes within <paramref name="radius"/> metres, itself included, ascending by id. Valid until the next search.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindWithin(float radius)
         {
@@ -118,7 +118,7 @@ namespace Collektive.Unity
             search.Outer = radius;
         }
 
-        /// <summary>Requests a search for the nearest nodes; below 1 there are none.</summary>
+        /// <summary>Requests a search for the nearest nodes; none if the number is below 1.</summary>
         internal void SearchNearest(int count) => Searches.Items[Searches.Count - 1].Nearest = Math.Max(count, 0);
 
         private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);
