@@ -11,8 +11,8 @@
 
 /* Searches that a thread takes at once. */
 #define CHUNK 64
-/* With fewer searches, waking threads takes longer than the searches. */
-#define MIN_SEARCHES 256
+/* Fewer searches take less than half a millisecond, and waiting for a thread that the system has not run yet can take longer. */
+#define MIN_SEARCHES 2048
 /* New links after which threads stop and the links are updated: it limits the memory of a tick in which all links are new. */
 #define MAX_NEW_LINKS (1 << 18)
 
@@ -314,9 +314,11 @@ static void run_searches(void *context, int32_t number) {
         int32_t first = atomic_fetch_add(&neighbours->next, CHUNK);
         if (first >= neighbours->search_count) return;
         int32_t before = memory->change_count;
-        for (int32_t i = first; i < neighbours->search_count && i - first < CHUNK; i++) {
+        int32_t end = neighbours->search_count - first < CHUNK ? neighbours->search_count : first + CHUNK;
+        for (int32_t i = first; i < end; i++) {
             int32_t start = memory->change_count;
-            if (i + AHEAD < neighbours->search_count) __builtin_prefetch(neighbours->rules[neighbours->searches[i + AHEAD].rule].held, 1);
+            /* Not of the next chunk, which is another thread's. */
+            if (i + AHEAD < end) __builtin_prefetch(neighbours->rules[neighbours->searches[i + AHEAD].rule].held, 1);
             if (!search(neighbours, memory, &neighbours->searches[i])) neighbours->is_out_of_memory = true;
             neighbours->changes[i] = (struct changes){number, start, memory->change_count - start};
         }

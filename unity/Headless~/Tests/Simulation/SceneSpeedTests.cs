@@ -54,7 +54,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void Rules_of_10_000_moving_nodes_take_2_milliseconds_a_tick()
+        public void Rules_of_10_000_moving_nodes_take_less_than_8_milliseconds_a_tick()
         {
             // Two metres apart, with seven neighbours each, at 2 metres a second.
             ScatterInRadius(10 * Count, 200, 3);
@@ -68,8 +68,8 @@ namespace Collektive.Headless.Tests.Simulation
             });
             Print("rules of 10,000 moving nodes, " + Manager.LinkCount + " links", milliseconds);
             Assert.That(Manager.LinkCount, Is.InRange(60 * Count, 80 * Count));
-            // 2 ms on an idle machine.
-            Assert.That(milliseconds, Is.LessThan(2 * 2));
+            // Far less on an idle machine; before the search was in C, 20 ms on a busy one.
+            Assert.That(milliseconds, Is.LessThan(8));
         }
 
         [TestCase(LinkColouring.Direction)]
