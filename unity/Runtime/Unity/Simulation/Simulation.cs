@@ -391,7 +391,8 @@ namespace Collektive.Unity
             AddSearches();
             var searches = Neighbours.Searches;
             var done = Links.Update(new Span<RuleSearch>(searches.Items, 0, searches.Count), Settings.threads, MaxLinks);
-            if (Links.Count > MaxLinks) FailTooManyLinks(present[searches.Items[done - 1].Centre]);
+            // Scripts' links may exceed it, too.
+            if (Links.Count > MaxLinks) FailTooManyLinks(present[done == 0 ? 0 : searches.Items[done - 1].Centre]);
             for (var i = 0; i < withOwnRules.Count && IsOpen; i++)
             {
                 var node = present[withOwnRules.Items[i]];
