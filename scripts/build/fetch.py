@@ -237,6 +237,7 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "ray": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-ray.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-ray.txt")),
     "tune": ([*_EXPERIMENTS, EXPERIMENTS / "requirements-tune.txt"], partial(_add_to_experiments, EXPERIMENTS / "requirements-tune.txt")),
     "site-tools": ([TOOLS / "site", _PYTHON], _site_tools),
+    "live": ([TOOLS / "live", _PYTHON], partial(_environment, TOOLS / "live/requirements.txt")),
     "zig": ([TOOLS / "zig"], _zig),
 }
 # The build graph needs these.

@@ -15,6 +15,8 @@ RESULTS = BUILD / "results"
 # The Python environment of linters and tests.
 TEST_PYTHON = BUILD / "python/bin/python"
 EXPERIMENTS_PYTHON = BUILD / "experiments/bin/python"
+# The Python environment of the server of live runs.
+LIVE_PYTHON = BUILD / "live/bin/python"
 NODE_MODULES = BUILD / "npm/node_modules"
 JVM = ROOT / "jvm-host"
 # Programs link to the library, or to the adapter on Collektive's own runtime. The host loads both.

@@ -70,8 +70,12 @@ class InvalidScenario(Failure):
 
 def run(scenario: str, plan: Plan, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> int:
     """Runs a scenario and returns the player's exit code. Kills processes that its scripts started."""
-    command = managed.command("mono-sgen", PLAYER, "run", scenario, "--scripts", dll, "--jar", jar, "--host-jar", HOST_JAR,
-                              "--java-home", java_home, "--inputs", json.dumps(plan.hashes()), *words)
-    code = processes.call(command, env=managed.environment("mono-sgen"))
+    code = processes.call(command("run", scenario, plan, jar, dll, java_home, words), env=managed.environment("mono-sgen"))
     processes.end_orphans()
     return code
+
+
+def command(name: str, scenario: str, plan: Plan, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> list[str | Path]:
+    """Returns the command line of the player for a command that runs a scenario."""
+    return managed.command("mono-sgen", PLAYER, name, scenario, "--scripts", dll, "--jar", jar, "--host-jar", HOST_JAR,
+                           "--java-home", java_home, "--inputs", json.dumps(plan.hashes()), *words)

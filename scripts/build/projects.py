@@ -19,6 +19,7 @@ from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_
 
 # A file for each jar that was run here, named by its SHA-256.
 OWN_PROGRAMS = BUILD / "own-programs"
+COMPILE_COMMAND = "org.collektive.generator.CompileCommand"
 PLUGIN_SERVICE = "META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar"
 
 
@@ -73,20 +74,8 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
     key = _key(parts, [HOST_JAR, BUILD / "stamp/kotlinc", find_jdk() / "release", *([] if runtime else [LIBRARY_JAR, compiler_plugin()])])
 
     def compile_programs(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
-        options: list[str | Path] = [f"-Xplugin={plugin.path if plugin else compiler_plugin()}"]
-        library, mark = [LIBRARY_JAR], "builtIn"
-        if jars and plugin:
-            _require_plugin(plugin.path)
-            library, mark = list(jars.files.values()), f"collektive {_runtime_hash(jars)}"
-            options += ["-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", LINKS]
-        values: list[tuple[str, str | Path]] = [
-            ("--schema", schema.copy(work / "schema")), ("--jar", work / "programs.jar"), ("--work", work),
-            # The host reads this to reject programs of another runtime.
-            ("--mark", f"Collektive-Runtime:{mark}"),
-            *(("--library", jar) for jar in [HOST_JAR, *library]),
-            *(("--kotlin", option) for option in options), *(("--source", file) for file in programs.files.values())]
         try:
-            run([*_compiler(), *(word for value in values for word in value)])
+            run([*_java(), COMPILE_COMMAND, *compilation(schema, programs, work, jars, plugin)])
         except subprocess.CalledProcessError as error:
             # The code of an internal error, whose usual cause is a plugin.
             if error.returncode == 2:
@@ -95,6 +84,29 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
             raise
 
     return _cached(BUILD / "programs" / key, "programs.jar", "compile-programs", parts, compile_programs)
+
+
+def compilation(schema: Part, programs: Part, work: Path, jars: Part | None = None, plugin: Part | None = None) -> list[str | Path]:
+    """Returns the options with which the compiler writes programs.jar to a folder."""
+    options: list[str | Path] = [f"-Xplugin={plugin.path if plugin else compiler_plugin()}"]
+    library, mark = [LIBRARY_JAR], "builtIn"
+    if jars and plugin:
+        _require_plugin(plugin.path)
+        library, mark = list(jars.files.values()), f"collektive {_runtime_hash(jars)}"
+        options += ["-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", LINKS]
+    values: list[tuple[str, str | Path]] = [
+        ("--flatc", FLATC), ("--include", inputs.CORE), ("--schema", schema.copy(work / "schema")), ("--jar", work / "programs.jar"), ("--work", work),
+        # The host reads this to reject programs of another runtime.
+        ("--mark", f"Collektive-Runtime:{mark}"),
+        *(("--library", jar) for jar in [HOST_JAR, *library]),
+        *(("--kotlin", option) for option in options), *(("--source", file) for file in programs.files.values())]
+    return [word for value in values for word in value]
+
+
+def compile_server(folder: Path) -> list[str | Path]:
+    """Returns the command of a process that compiles the requests in a folder until this process ends."""
+    fetch.fetch("kotlinc")
+    return [*_java(), COMPILE_COMMAND, "--serve", folder, str(os.getpid())]
 
 
 def test_classes(schema: Part, tests: Part, class_path: Sequence[Path], plugin: Path) -> Path:
@@ -128,11 +140,6 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
         run(csharp.command(work / "Scenario.dll", files, [*csharp.symbols(), "-warnaserror-", *csharp.REFERENCES]))
 
     return _cached(BUILD / "scripts" / f"{key}-{place}", "Scenario.dll", "compile-scripts", [schema, scripts], compile_scripts)
-
-
-def _compiler() -> list[str | Path]:
-    """Returns the command that compiles programs, without the options of a project. The editor uses the same class in a process that stays."""
-    return [*_java(), "org.collektive.generator.CompileCommand", "--flatc", FLATC, "--include", inputs.CORE]
 
 
 def _java() -> list[str | Path]:

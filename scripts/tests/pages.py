@@ -1,4 +1,5 @@
-"""Tests pages in a browser: `pages.py page RESULTS` tests replay pages, `pages.py site RESULTS` the documentation site."""
+"""Tests pages in a browser: `pages.py page RESULTS` tests replay pages, `pages.py live RESULTS` the live page, `pages.py site RESULTS` the
+documentation site."""
 import os
 import subprocess
 import sys
@@ -30,6 +31,11 @@ def page(results: Path) -> int:
     return code
 
 
+def live(results: Path) -> int:
+    """Tests the page of a running simulation; pictures and logs stay in build/live-page."""
+    return run_node(ROOT / "unity/Headless~/Replay/live-test.mjs", results / "live.xml", COLLEKTIVE, BUILD / "live-page")
+
+
 def site(results: Path) -> int:
     """Tests the site at three widths, light and dark; the pictures stay in build/site-pictures."""
     subprocess.run([COLLEKTIVE, "site", "--out", BUILD / "site"], check=True)
@@ -37,4 +43,4 @@ def site(results: Path) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit({"page": page, "site": site}[sys.argv[1]](Path(sys.argv[2])))
+    sys.exit({"page": page, "live": live, "site": site}[sys.argv[1]](Path(sys.argv[2])))

@@ -40,7 +40,7 @@ namespace Collektive.Headless
         internal object Read(object answer) => ValueOf(member, answer);
 
         /// <summary>The type of a field or property; null for other members.</summary>
-        private static Type TypeOf(MemberInfo member) => member is FieldInfo field ? field.FieldType : (member as PropertyInfo)?.PropertyType;
+        internal static Type TypeOf(MemberInfo member) => member is FieldInfo field ? field.FieldType : (member as PropertyInfo)?.PropertyType;
 
         internal static object ValueOf(MemberInfo member, object owner) =>
             member is FieldInfo field ? field.GetValue(owner) : ((PropertyInfo)member).GetValue(owner);

@@ -13,6 +13,7 @@ namespace Collektive.Headless
             "Player run SCENARIO --scripts DLL --jar JAR [--jar JAR]... --host-jar JAR --java-home DIR --out DIR\n" +
             "           [--template HTML] [--recording JFR] [--seed K] [--seconds S] [--set KEY=VALUE]... [--folder DIR]\n" +
             "           [--inputs JSON] [--keep-going] [--trust-jvm] [--debug PORT] [--check]\n" +
+            "Player live SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR --out DIR --channel DESCRIPTOR [options of run]\n" +
             "Player serve SCENARIO --scripts DLL --jar JAR --host-jar JAR --java-home DIR --channel DESCRIPTOR [--inputs JSON] [--trust-jvm]\n" +
             "SCENARIO: a scenario file, or the manifest of a run to repeat";
 
@@ -39,7 +40,7 @@ namespace Collektive.Headless
         /// <summary>Hashes of the project's parts, for the manifest.</summary>
         internal JObject Inputs { get; private set; } = new JObject();
 
-        /// <summary>Descriptor of a socket for requests and answers, for <see cref="Server"/>.</summary>
+        /// <summary>Descriptor of a socket, for <see cref="Server"/> and <see cref="LiveChannel"/>.</summary>
         internal int Channel { get; private set; } = -1;
 
         internal string Template { get; private set; }
@@ -76,7 +77,7 @@ namespace Collektive.Headless
 
         internal static Options Parse(string[] arguments)
         {
-            if (arguments.Length < 2 || Array.IndexOf(new[] { "plan", "run", "serve" }, arguments[0]) < 0) throw new ScenarioException("usage:\n" + Usage);
+            if (arguments.Length < 2 || Array.IndexOf(new[] { "plan", "run", "live", "serve" }, arguments[0]) < 0) throw new ScenarioException("usage:\n" + Usage);
             var options = new Options { Command = arguments[0], Scenario = arguments[1] };
             for (var i = 2; i < arguments.Length; i += 2)
             {

@@ -2,13 +2,14 @@ using System;
 using System.Collections.Generic;
 using System.Diagnostics;
 using Collektive.Unity;
+using Newtonsoft.Json.Linq;
 using UnityEngine;
 using UnityEngine.Headless;
 using UnityEngine.SceneManagement;
 
 namespace Collektive.Headless
 {
-    /// <summary>Records the scene's nodes, links and static shapes for the replay page.</summary>
+    /// <summary>Records the scene's nodes, links and static shapes for the pages.</summary>
     internal sealed class ReplayRecorder : IDisposable
     {
         /// <summary>Maximum number of frames per simulated second. Ticks in between are skipped.</summary>
@@ -38,7 +39,9 @@ namespace Collektive.Headless
         private readonly Stopwatch clock = new Stopwatch();
         private double last = double.NegativeInfinity;
 
-        internal ReplayRecorder(string scratchPath, Scenario scenario, SceneBuilder scene, RunMetrics runMetrics, SimulationManager manager)
+        /// <param name="open">Opens the writer.</param>
+        internal ReplayRecorder(
+            Scenario scenario, SceneBuilder scene, RunMetrics runMetrics, SimulationManager manager, Func<ReplayMetadata, ReplayWriter> open)
         {
             this.scene = scene;
             this.manager = manager;
@@ -53,7 +56,7 @@ namespace Collektive.Headless
                 Metrics = metrics,
             };
             Describe(metadata);
-            writer = new ReplayWriter(scratchPath, metadata);
+            writer = open(metadata);
         }
 
         /// <summary>Milliseconds spent on the replay so far.</summary>
@@ -73,14 +76,23 @@ namespace Collektive.Headless
             if (time >= last + Math.Max(1 / MaxFrames, manager.Nodes.Count / MaxNodes) - 1e-6) Record(time);
         }
 
+        /// <summary>Records a frame of the current time, unless the last one is of this time.</summary>
+        internal void AddNow()
+        {
+            if (manager.SimulatedTime > last) Record(manager.SimulatedTime);
+        }
+
         /// <summary>Writes the page, which ends at the current time.</summary>
         internal void Finish(string template, string path)
         {
-            if (manager.SimulatedTime > last) Record(manager.SimulatedTime);
+            AddNow();
             clock.Start();
             writer.Finish(template, path);
             clock.Stop();
         }
+
+        /// <summary>Returns and removes the poses of moving shapes, by shape, so far.</summary>
+        internal JArray TakePoses() => new JArray(movers.ConvertAll(mover => (object)mover.Value.TakePoses()));
 
         private void Record(double time)
         {

@@ -69,7 +69,8 @@ namespace Collektive.Headless
             try
             {
                 if (options.DebugPort != 0) DebuggedRun.AwaitDebugger(scenario.Jvm, manager.Settings, options.DebugPort, interrupt);
-                using (options.Recording == null ? null : new RecordedRun(scenario.Jvm, options.Recording)) return Play(manager, scene);
+                using (options.Recording == null ? null : new RecordedRun(scenario.Jvm, options.Recording))
+                    return options.Command == "live" ? PlayLive(manager, scene) : Play(manager, scene);
             }
             catch (ThreadAbortException) when (limit?.IsExceeded == true)
             {
@@ -200,7 +201,7 @@ namespace Collektive.Headless
             using (limit = new FrameLimit(manager, GiveUp))
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, runMetrics, manager))
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
-            using (var replay = hasReplay ? new ReplayRecorder(Path.Combine(options.Out, "replay.tmp"), scenario, scene, runMetrics, manager) : null)
+            using (var replay = hasReplay ? NewRecorder(manager, scene) : null)
             {
                 runMetrics.Begin(manager);
                 EndInterval(manager, replay, 0);
@@ -290,6 +291,29 @@ namespace Collektive.Headless
             Console.Error.WriteLine(
                 "collektive: the run ended, but " + manager.ErrorCount + " errors occurred in rounds, sensors, actuators, rules or handlers; they are above");
             return 1;
+        }
+
+        private ReplayRecorder NewRecorder(SimulationManager manager, SceneBuilder scene) => new ReplayRecorder(
+            scenario, scene, runMetrics, manager, metadata => new ReplayWriter(Path.Combine(options.Out, "replay.tmp"), metadata));
+
+        /// <summary>Plays the scene in real time until its user ends it.</summary>
+        private int PlayLive(SimulationManager manager, SceneBuilder scene)
+        {
+            interrupt.BeginPlay();
+            using (limit = new FrameLimit(manager, GiveUp))
+            using (metrics = new MetricsTable(null, runMetrics, manager))
+            {
+                runMetrics.Begin(manager);
+                var live = new LiveRun(scenario, scene, runMetrics, metrics, manager, new LiveChannel(options.Channel));
+                live.Play(() =>
+                {
+                    limit.Begin(done + 1);
+                    Loop.Frame(scenario.Settings.deltaTime);
+                    limit.End();
+                }, () => interrupt.Requested || Loop.QuitRequested);
+            }
+            manifest.Outcome = Manifest.Complete;
+            return manager.Failure.Length > 0 ? 1 : 0;
         }
 
         /// <summary>Returns the likely reason why a frame had no tick.</summary>

@@ -18,6 +18,14 @@ namespace Collektive.Headless
             foreach (var number in new[] { x, y, z, rotationX, rotationY, rotationZ, rotationW }) poses.Add(Math.Round(ReplayMetadata.Number(number), 3));
         }
 
+        /// <summary>Returns and removes the poses so far.</summary>
+        internal JArray TakePoses()
+        {
+            var taken = new JArray(poses);
+            poses.Clear();
+            return taken;
+        }
+
         internal JObject ToJson() => new JObject { ["shape"] = shape, ["poses"] = poses };
     }
 }

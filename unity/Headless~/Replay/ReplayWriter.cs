@@ -31,6 +31,8 @@ namespace Collektive.Headless
 
         private readonly string scratchPath;
         private readonly StreamWriter scratch;
+        private readonly Action<byte[], int> live;
+        private readonly int framesPerSegment;
         private readonly JObject metadata;
         private readonly ReplayField[] fields;
         private readonly ReplayMetrics metrics;
@@ -62,7 +64,23 @@ namespace Collektive.Headless
         /// <param name="scratchPath">A file for the frames until <see cref="Finish"/>: created or replaced now, deleted by <see cref="Dispose"/>.</param>
         /// <param name="metadata">The content of the page other than frames.</param>
         public ReplayWriter(string scratchPath, ReplayMetadata metadata)
+            : this(metadata, FramesPerSegment)
         {
+            this.scratchPath = scratchPath;
+            scratch = ResultFile.Create(scratchPath);
+        }
+
+        /// <summary>Writes no page. Each frame is a segment of its own, so that a reader can miss others.</summary>
+        /// <param name="live">Receives the bytes of each frame and their number; the array is reused.</param>
+        internal ReplayWriter(ReplayMetadata metadata, Action<byte[], int> live)
+            : this(metadata, 1)
+        {
+            this.live = live;
+        }
+
+        private ReplayWriter(ReplayMetadata metadata, int framesPerSegment)
+        {
+            this.framesPerSegment = framesPerSegment;
             this.metadata = metadata.ToJson();
             fields = new List<ReplayField>(metadata.Fields).ToArray();
             if (fields.Length == 0) throw new ArgumentException("The replay's metadata has no fields: add at least one.", nameof(metadata));
@@ -71,12 +89,16 @@ namespace Collektive.Headless
             segment = new ReplaySegment(fields);
             arena = metadata.Arena.Copy();
             positionStep = arena.LongestSide / 65535;
-            this.scratchPath = scratchPath;
-            scratch = ResultFile.Create(scratchPath);
         }
 
         /// <summary>Number of frames written.</summary>
-        public int Frames => times.Count;
+        public int Frames { get; private set; }
+
+        /// <summary>Radius of nodes in metres.</summary>
+        internal float NodeRadius => (float)metadata["nodeRadius"];
+
+        /// <summary>Maximum number of slots so far.</summary>
+        internal int Slots => maxSlots;
 
         /// <param name="time">Simulated seconds, later than those of the previous frame.</param>
         /// <param name="links">
@@ -86,11 +108,13 @@ namespace Collektive.Headless
         public void BeginFrame(double time, int links = 0)
         {
             if (inFrame || finished) throw Order(nameof(BeginFrame), inFrame ? "the previous frame has not ended" : "the replay is finished");
-            var last = Frames == 0 ? double.NegativeInfinity : times[Frames - 1];
+            var last = Frames == 0 ? double.NegativeInfinity : times[times.Count - 1];
             if (!(time > last) || double.IsInfinity(time))
                 throw new ArgumentException("Frame " + Number(Frames) + " of the replay has time " + Number(time) + ": it must be finite and later than "
                     + Number(last) + ".", nameof(time));
+            if (live != null) times.Clear();
             times.Add(time);
+            Frames++;
             inFrame = true;
             if (segment.Count == 0 && Frames > 1) FreeSlots();
             frame = segment.Add(ids.Count);
@@ -154,7 +178,7 @@ namespace Collektive.Headless
             var kept = frame.End(sorter);
             if (frame.Links <= LinkBudget) frame.Links = kept;
             maxPairs = Math.Max(maxPairs, frame.PairCount);
-            if (segment.Count == FramesPerSegment) FlushSegment();
+            if (segment.Count == framesPerSegment) FlushSegment();
         }
 
         /// <summary>Writes the page, which is the template with the recording. Call it once, after the last frame.</summary>
@@ -172,7 +196,7 @@ namespace Collektive.Headless
             finished = true;
             if (segment.Count > 0) FlushSegment();
             scratch.Dispose();
-            var header = Encoding.UTF8.GetBytes(Header());
+            var header = Encoding.UTF8.GetBytes(Header().ToString(Formatting.None));
             var headerLength = Compress(header, header.Length);
             ResultFile.Write(outputHtmlPath, page =>
             {
@@ -191,11 +215,11 @@ namespace Collektive.Headless
             finished = true;
             try
             {
-                scratch.Dispose();
+                scratch?.Dispose();
             }
             finally
             {
-                File.Delete(scratchPath);
+                if (scratchPath != null) File.Delete(scratchPath);
             }
         }
 
@@ -243,13 +267,14 @@ namespace Collektive.Headless
             return (int)Math.Floor(Math.Max(-Limit, Math.Min(Limit, metres / positionStep)) + 0.5);
         }
 
-        private string Header()
+        /// <summary>The header of the frames so far; without a page, of the last frame.</summary>
+        internal JObject Header()
         {
             metadata["arena"] = arena.ToJson();
-            var header = new JObject
+            return new JObject
             {
                 ["version"] = Version,
-                ["framesPerSegment"] = FramesPerSegment,
+                ["framesPerSegment"] = framesPerSegment,
                 ["length"] = textLength,
                 ["positionStep"] = positionStep,
                 ["fields"] = new JArray(Array.ConvertAll(fields, field => (object)field.ToJson())),
@@ -261,12 +286,16 @@ namespace Collektive.Headless
                 ["movers"] = new JArray(movers.ConvertAll(mover => (object)mover.ToJson())),
                 ["metadata"] = metadata,
             };
-            return header.ToString(Formatting.None);
         }
 
         private void FlushSegment()
         {
             var count = segment.Encode(ids, out var bytes);
+            if (live != null)
+            {
+                live(bytes, count);
+                return;
+            }
             var length = Compress(bytes, count);
             scratch.Write('\n');
             scratch.Write(text, 0, length);

@@ -1,13 +1,13 @@
-// Builds the page template: node build.mjs OUT.html [NODE_MODULES]
-// three and esbuild come from NODE_MODULES, else from COLLEKTIVE_NODE_MODULES.
+// Builds the pages: node build.mjs FOLDER [NODE_MODULES] writes replay.html, the template of replay pages, live.html and live-view.html.
+// Libraries and esbuild come from NODE_MODULES, else from COLLEKTIVE_NODE_MODULES.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { dirname, resolve } from 'node:path';
+import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const [out, modules = process.env.COLLEKTIVE_NODE_MODULES] = process.argv.slice(2);
 if (!out || !modules) {
-  console.error('Usage: node build.mjs OUT.html [NODE_MODULES] (or set COLLEKTIVE_NODE_MODULES to the folder of three and esbuild)');
+  console.error('Usage: node build.mjs FOLDER [NODE_MODULES] (or set COLLEKTIVE_NODE_MODULES to the folder of three and esbuild)');
   process.exit(2);
 }
 
@@ -20,8 +20,14 @@ const bundle = (entry) => buildSync({
   nodePaths: [resolve(modules)], legalComments: 'inline', charset: 'utf8',
 }).outputFiles[0].text.trim();
 
-const parts = { '/*STYLE*/': bundle('page.css'), '/*PLACEHOLDER*/': PLACEHOLDER, '/*SCRIPT*/': bundle('main.js') };
-const page = readFileSync(resolve(source, 'page.html'), 'utf8').replace(/\/\*[A-Z]+\*\//g, (name) => parts[name]);
-if (page.split(PLACEHOLDER).length !== 2) throw new Error(`The page must hold ${PLACEHOLDER} once.`);
-mkdirSync(dirname(resolve(out)), { recursive: true });
-writeFileSync(out, page);
+function write(name, html, css, script, placeholder) {
+  const parts = { '/*STYLE*/': bundle(css), '/*PLACEHOLDER*/': placeholder, '/*SCRIPT*/': bundle(script).replaceAll('</script', '<\\/script') };
+  const page = readFileSync(resolve(source, html), 'utf8').replace(/\/\*[A-Z]+\*\//g, (part) => parts[part]);
+  if (page.split(PLACEHOLDER).length !== (placeholder ? 2 : 1)) throw new Error(`${name} must hold ${PLACEHOLDER} once if it is a template.`);
+  writeFileSync(join(out, name), page);
+}
+
+mkdirSync(out, { recursive: true });
+write('replay.html', 'page.html', 'page.css', 'main.js', PLACEHOLDER);
+write('live-view.html', 'page.html', 'page.css', 'live-view.js', '');
+write('live.html', 'live.html', 'live.css', 'live.js', '');

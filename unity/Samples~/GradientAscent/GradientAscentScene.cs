@@ -39,8 +39,8 @@ namespace Collektive.Samples.GradientAscent
         [Min(0.1f)]
         public float fieldScale = 1;
 
-        private readonly List<ObstacleSensor> sensors = new List<ObstacleSensor>();
         private readonly List<float> distances = new List<float>();
+        private SimulationManager manager;
         private IntensitySource intensity;
         private PhysicsMaterial slippery;
 
@@ -62,17 +62,17 @@ namespace Collektive.Samples.GradientAscent
             distances.Clear();
             var sum = 0.0;
             var contacts = 0;
-            for (var i = 0; i < sensors.Count; i++)
+            foreach (var node in manager.Nodes)
             {
-                var way = sensors[i].transform.position - source;
+                var way = node.transform.position - source;
                 way.y = 0;
                 distances.Add(way.magnitude);
                 sum += way.magnitude;
-                contacts += sensors[i].Contacts;
+                contacts += node.GetComponent<ObstacleSensor>().Contacts;
             }
             distances.Sort();
-            values[0] = sum / sensors.Count;
-            values[1] = distances[(int)(0.9 * (sensors.Count - 1))];
+            values[0] = sum / distances.Count;
+            values[1] = distances.Count == 0 ? double.NaN : distances[(int)(0.9 * (distances.Count - 1))];
             values[2] = contacts;
         }
 
@@ -85,6 +85,7 @@ namespace Collektive.Samples.GradientAscent
                     + fieldScale + ": use at least one node, a radius and a scale above 0, and a range of 0 or greater");
                 return;
             }
+            this.manager = manager;
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };
             intensity = new GameObject("Source").AddComponent<IntensitySource>();
             intensity.transform.position = source;
@@ -102,7 +103,7 @@ namespace Collektive.Samples.GradientAscent
                     MakeObstacle("Obstacle", new Vector3(10 * fieldScale, 1.5f, place * fieldScale), new Vector3(1, 3, 5 * fieldScale));
             }
             var places = new FreePlaces(2 * bodyRadius);
-            for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(FreePlace(manager, places));
+            for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(i, FreePlace(manager, places));
         }
 
         /// <summary>A place in x -35..5, z -25..25, times the field's scale, where a body overlaps no other.</summary>
@@ -125,10 +126,10 @@ namespace Collektive.Samples.GradientAscent
             return box;
         }
 
-        private void MakeNode(Vector3 place)
+        private void MakeNode(int index, Vector3 place)
         {
             var node = GameObject.CreatePrimitive(PrimitiveType.Sphere);
-            node.name = "Node " + sensors.Count;
+            node.name = "Node " + index;
             node.transform.position = place;
             node.transform.localScale = 2 * bodyRadius * Vector3.one;
             node.GetComponent<SphereCollider>().sharedMaterial = slippery;
@@ -139,9 +140,7 @@ namespace Collektive.Samples.GradientAscent
             node.AddComponent<RadiusNeighbourhood>().Radius = range;
             node.AddComponent<PositionSensor>();
             node.AddComponent<IntensitySensor>().Source = intensity;
-            var sensor = node.AddComponent<ObstacleSensor>();
-            sensor.BodyRadius = bodyRadius;
-            sensors.Add(sensor);
+            node.AddComponent<ObstacleSensor>().BodyRadius = bodyRadius;
             node.AddComponent<MoveActuator>();
         }
     }

@@ -3,7 +3,6 @@
 const TURN = 0.08;
 
 export function bindKeys(player) {
-  const { view } = player;
   const click = (id) => () => document.getElementById(id).click();
   const actions = {
     ' ': () => (player.playing ? player.pause() : player.play()),
@@ -23,15 +22,15 @@ export function bindKeys(player) {
     p: click('picture'),
     v: click('video'),
     '?': click('help'),
-    r: () => view.frame('above'),
-    t: () => view.frame('top'),
-    a: () => view.turn(-TURN, 0, 1),
-    d: () => view.turn(TURN, 0, 1),
-    w: () => view.turn(0, TURN, 1),
-    s: () => view.turn(0, -TURN, 1),
-    '+': () => view.turn(0, 0, 0.9),
-    '=': () => view.turn(0, 0, 0.9),
-    '-': () => view.turn(0, 0, 1 / 0.9),
+    r: () => player.view.frame('above'),
+    t: () => player.view.frame('top'),
+    a: () => player.view.turn(-TURN, 0, 1),
+    d: () => player.view.turn(TURN, 0, 1),
+    w: () => player.view.turn(0, TURN, 1),
+    s: () => player.view.turn(0, -TURN, 1),
+    '+': () => player.view.turn(0, 0, 0.9),
+    '=': () => player.view.turn(0, 0, 0.9),
+    '-': () => player.view.turn(0, 0, 1 / 0.9),
     Escape: () => (document.getElementById('keys').hidden ? player.select(null) : player.showKeys(false)),
   };
   window.addEventListener('keydown', (event) => {

@@ -9,10 +9,9 @@ const element = (id) => document.getElementById(id);
 export class Legend {
   /** `onChange` is called with the function that colours a value after each choice. */
   constructor(fields, onChange) {
-    this.fields = fields;
     this.onChange = onChange;
     this.otherFields = [];
-    element('field').replaceChildren(...fields.map((field) => option(nameOf(field))));
+    this.setFields(fields);
     element('field').addEventListener('change', () => this.choose(element('field').selectedIndex));
     element('palette').addEventListener('change', () => this.colour());
     for (const id of ['range-min', 'range-max']) element(id).addEventListener('change', () => this.setRange(...this.typedRange()));
@@ -20,6 +19,12 @@ export class Legend {
     element('whole-range').addEventListener('click', () => this.setRange(...this.wholeRange()));
     element('histogram').replaceChildren(...Array.from({ length: BARS }, () => part('i', '')));
     element('no-value').querySelector('i').style.background = css(NO_VALUE);
+  }
+
+  /** Offers other fields; `choose` one of them afterwards. */
+  setFields(fields) {
+    this.fields = fields;
+    element('field').replaceChildren(...fields.map((field) => option(nameOf(field))));
   }
 
   /** Colours by a field, on the range of the whole run or, if unknown, of the current frame. */

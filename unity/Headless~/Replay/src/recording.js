@@ -110,7 +110,7 @@ class Recording {
 }
 
 /** Frames encoded as differences, which must be decoded once and in order. */
-class Segment {
+export class Segment {
   constructor(buffer, recording, first, count) {
     this.bytes = new Uint8Array(buffer);
     const data = new DataView(buffer);

@@ -317,6 +317,14 @@ export class View {
     this.controls.target.copy(place);
   }
 
+  /** The point of the floor at a point of the canvas, in Unity's axes. */
+  floorAt(x, y) {
+    const ray = new Vector3((2 * x) / this.width - 1, 1 - (2 * y) / this.height, 0.5).unproject(this.camera).sub(this.camera.position);
+    const distance = (this.arena.min.y - this.camera.position.y) / Math.min(ray.y, -1e-6);
+    const point = this.camera.position.clone().addScaledVector(ray, distance);
+    return [point.x, point.y, -point.z];
+  }
+
   /** The slot of the node nearest to a point of the canvas, within reach of a finger, or -1. */
   pick(x, y) {
     const { here, uniforms } = this.swarm;
@@ -369,6 +377,7 @@ export class View {
     cancelAnimationFrame(this.pending);
     this.controls.dispose();
     this.renderer.dispose();
+    this.renderer.forceContextLoss(); // browsers limit the number of contexts
     this.holder.remove();
   }
 }

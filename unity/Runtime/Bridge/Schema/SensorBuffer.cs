@@ -15,6 +15,9 @@ namespace Collektive.Bridge
         /// <summary>Ensures capacity for at least this many elements. Never shrinks.</summary>
         internal abstract void EnsureCapacity(int count);
 
+        /// <summary>An element, boxed, for tools without the schema's types.</summary>
+        internal abstract object Get(int index);
+
         /// <summary>Sets an element to the defaults of the schema.</summary>
         internal abstract void Clear(int index);
 
@@ -37,6 +40,9 @@ namespace Collektive.Bridge
 
         /// <inheritdoc/>
         internal sealed override Type DataType => typeof(T);
+
+        /// <inheritdoc/>
+        internal sealed override object Get(int index) => Items[index];
 
         /// <inheritdoc/>
         internal override void EnsureCapacity(int count)

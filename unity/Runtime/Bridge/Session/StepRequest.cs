@@ -13,6 +13,7 @@ namespace Collektive.Bridge
     {
         private readonly GrowingArray<int> nodesRemoved = new GrowingArray<int>();
         private readonly List<NewNode> nodesAdded = new List<NewNode>();
+        private readonly List<NewNode> nodesChanged = new List<NewNode>();
         private readonly GrowingArray<int> due = new GrowingArray<int>();
         private IReadOnlyList<string> reloadedJars;
         private bool hasSentGlobals;
@@ -54,6 +55,12 @@ namespace Collektive.Bridge
         public void AddNode(int id, string program, IReadOnlyList<KeyValuePair<string, string>> parameters)
         {
             nodesAdded.Add(new NewNode(id, program, parameters));
+        }
+
+        /// <summary>Replaces the parameters of a node that stays; its program is the one of <see cref="AddNode"/>.</summary>
+        public void ChangeNode(int id, string program, IReadOnlyList<KeyValuePair<string, string>> parameters)
+        {
+            nodesChanged.Add(new NewNode(id, program, parameters));
         }
 
         /// <summary>Removes a node and its links. Removals come before additions.</summary>
@@ -98,6 +105,7 @@ namespace Collektive.Bridge
         {
             nodesRemoved.Clear();
             nodesAdded.Clear();
+            nodesChanged.Clear();
             LinksRemoved.Clear();
             Links.Clear();
             due.Clear();
@@ -114,11 +122,12 @@ namespace Collektive.Bridge
             var linksVector = Block(builder, Links, sizeof(LinkRecord));
             var linksRemovedVector = Block(builder, LinksRemoved, sizeof(LinkEnds));
             var reload = reloadedJars == null ? default : WriteReload(builder);
-            var nodesAddedVector = WriteNodesAdded(builder);
+            var nodesAddedVector = WriteNodes(builder, nodesAdded);
+            var nodesChangedVector = WriteNodes(builder, nodesChanged);
             var nodesRemovedVector = Block(builder, nodesRemoved, sizeof(int));
             builder.Finish(Frame.StepRequest.CreateStepRequest(
                 builder, tick, time, deltaTime, nodesRemovedVector, nodesAddedVector, linksRemovedVector, linksVector, dueVector,
-                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload, MeasuresMessages, Measures).Value);
+                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload, MeasuresMessages, Measures, nodesChangedVector).Value);
         }
 
         private Offset<Frame.ReloadRequest> WriteReload(FlatBufferBuilder builder)
@@ -137,13 +146,13 @@ namespace Collektive.Bridge
             return builder.EndVector();
         }
 
-        private VectorOffset WriteNodesAdded(FlatBufferBuilder builder)
+        private static VectorOffset WriteNodes(FlatBufferBuilder builder, List<NewNode> nodes)
         {
-            if (nodesAdded.Count == 0) return default;
-            var offsets = new Offset<Frame.NodeAdded>[nodesAdded.Count];
+            if (nodes.Count == 0) return default;
+            var offsets = new Offset<Frame.NodeAdded>[nodes.Count];
             for (var i = 0; i < offsets.Length; i++)
             {
-                var node = nodesAdded[i];
+                var node = nodes[i];
                 var parameters = WriteParameters(builder, node.Parameters);
                 var program = string.IsNullOrEmpty(node.Program) ? default : builder.CreateSharedString(node.Program);
                 offsets[i] = Frame.NodeAdded.CreateNodeAdded(builder, node.Id, program, parameters);

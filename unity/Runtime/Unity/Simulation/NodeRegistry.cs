@@ -96,6 +96,15 @@ namespace Collektive.Unity
             joining.Clear();
         }
 
+        /// <summary>Sends the parameters of the nodes of a program again.</summary>
+        public void ChangeParameters(StepRequest request, string program)
+        {
+            foreach (var node in nodes)
+            {
+                if (IsKnown[node.Id] && node.Simulation.Settings.ProgramOf(node) == program) request.ChangeNode(node.Id, node.Program, ParametersOf(node));
+            }
+        }
+
         /// <summary>Warns of a scene without positions, where all nodes are neighbours at any radius.</summary>
         private void WarnIfAtOnePosition()
         {

@@ -33,6 +33,7 @@ namespace Collektive.Unity
         private Session session;
         private bool isTicking;
         private bool isReloadRequested;
+        private readonly HashSet<string> changedPrograms = new HashSet<string>();
         private bool isStopReported;
         private long pendingSince;
         private (long Start, long RulesEnd, long SenseEnd) begun;
@@ -207,6 +208,15 @@ namespace Collektive.Unity
             isReloadRequested = true;
         }
 
+        /// <summary>Sets a parameter of the nodes of a program that have no value of their own, from the next tick on.</summary>
+        internal void SetParameter(string program, string name, string value)
+        {
+            if (!Settings.ProgramParameters.TryGetValue(program, out var values)) Settings.ProgramParameters.Add(program, values = new List<NodeParameter>());
+            values.RemoveAll(parameter => parameter.name == name);
+            values.Add(new NodeParameter(name, value));
+            changedPrograms.Add(program);
+        }
+
         /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="context"/>, or the manager.</summary>
         internal void Fail(string message, UnityEngine.Object context = null)
         {
@@ -372,6 +382,8 @@ namespace Collektive.Unity
                 problem = Settings.FindProblem(node) ?? node.StartTimer();
                 if (problem != null) Fail("node " + node.Id + " ('" + node.name + "'): " + problem, node);
             }
+            foreach (var program in changedPrograms) registry.ChangeParameters(session.Request, program);
+            changedPrograms.Clear();
             registry.Flush(session.Request, Links);
             if (isReloadRequested) session.Request.Reload(Settings.ToSession().Jars);
             isReloadRequested = false;

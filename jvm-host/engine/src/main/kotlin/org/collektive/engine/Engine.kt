@@ -126,6 +126,7 @@ public class Engine @JvmOverloads constructor(
         tick.globals?.let { clock.globals = it }
         removeNodes(tick)
         addNodes(tick)
+        for (change in tick.nodesChanged) existing(change.id).change(change)
         for (index in 0 until tick.linksRemoved.size / 2) {
             unlink(existing(tick.linksRemoved[2 * index]), existing(tick.linksRemoved[2 * index + 1]))
         }

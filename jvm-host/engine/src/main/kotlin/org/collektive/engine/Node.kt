@@ -11,7 +11,8 @@ internal class Node(new: NewNode, val runtime: DeviceRuntime, clock: Clock, seed
         private set
 
     /** See [NewNode.source]. */
-    val source = new.source
+    var source = new.source
+        private set
 
     /** [id], boxed once. */
     val boxedId: Any = id
@@ -40,6 +41,12 @@ internal class Node(new: NewNode, val runtime: DeviceRuntime, clock: Clock, seed
         program = new.program
         device.parameters = new.parameters
         isReloaded = true
+    }
+
+    /** Replaces the parameters. */
+    fun change(new: NewNode) {
+        device.parameters = new.parameters
+        source = new.source
     }
 
     /** Ends the first round with a new program. If it failed, the node starts afresh: a value of the old program may not fit the new one. */

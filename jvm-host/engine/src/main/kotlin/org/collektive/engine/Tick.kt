@@ -27,6 +27,9 @@ public class Tick {
     /** Nodes to add. */
     public val nodesAdded: MutableList<NewNode> = ArrayList()
 
+    /** New parameters of nodes that stay. */
+    public val nodesChanged: MutableList<NewNode> = ArrayList()
+
     /** Links to remove, as pairs of ids: sender, receiver. */
     public val linksRemoved: IntList = IntList()
 
@@ -50,6 +53,7 @@ public class Tick {
         reload = null
         nodesRemoved.clear()
         nodesAdded.clear()
+        nodesChanged.clear()
         linksRemoved.clear()
         links = NoLinks
         due.clear()
@@ -58,7 +62,7 @@ public class Tick {
 }
 
 /**
- * A node to add; [id] must be unused and 0 or greater.
+ * A node to add, whose [id] must be unused and 0 or greater, or the node with new parameters.
  *
  * @property source what the owner of the engine needs to create the node again with another [program]; see [Engine.replacements].
  */

@@ -29,6 +29,7 @@ internal class TickValidator(private val nodes: NodeList) {
         checkTime(tick, expectedNumber)
         checkNodesRemoved(tick)
         checkNodesAdded(tick)
+        for (change in tick.nodesChanged) remaining(change.id) ?: refuse(tick, "node ${change.id} cannot be changed: unknown node")
         checkLinksRemoved(tick)
         checkLinks(tick)
         checkDue(tick)

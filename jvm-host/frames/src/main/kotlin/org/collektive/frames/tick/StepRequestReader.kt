@@ -15,7 +15,7 @@ import org.collektive.frames.OFFSET_BYTES
 import org.collektive.frames.target
 import java.nio.ByteBuffer
 
-/** Creates the nodes that a frame adds. */
+/** Creates the nodes that a frame adds or changes. */
 public fun interface NewNodes {
     /** Creates the node [id]. An empty [program] selects the session's default; [parameters] contains only overridden values. */
     public fun node(id: Int, program: String, parameters: Map<String, String>): NewNode
@@ -65,6 +65,7 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
         tick.measures = request.measure()
         tick.nodesRemoved.addVector(FrameLayouts.STEP_REQUEST_NODES_REMOVED, 1)
         for (index in 0 until request.nodesAddedLength()) tick.nodesAdded.add(newNode(request.nodesAdded(node, index)))
+        for (index in 0 until request.nodesChangedLength()) tick.nodesChanged.add(newNode(request.nodesChanged(node, index)))
         tick.linksRemoved.addVector(FrameLayouts.STEP_REQUEST_LINKS_REMOVED, IDS_OF_A_LINK)
         links.attach(frame, target(frame, root, FrameLayouts.STEP_REQUEST_LINKS))
         tick.links = links

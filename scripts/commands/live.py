@@ -1,0 +1,61 @@
+"""Runs a scenario in real time and prints the address of a local page that shows it. In the page, change the Kotlin programs, their parameters and
+the scene while the simulation runs. Documentation~/live.md describes the page.
+
+SCENARIO is a scenario file or the name of a sample. By default it is the case study, GradientAscent. Samples are copied to out/live/NAME once, so
+that their programs can be changed; delete the folder to start again with the original.
+
+Ctrl-C ends the simulation. Exit code: 0 the simulation was started; 1 it was not."""
+import argparse
+import json
+import shutil
+from pathlib import Path
+
+from build import fetch, graph, processes, sample_programs
+from build.console import Failure
+from build.places import LIVE_PYTHON, ROOT
+
+# Files that only Unity needs.
+UNITY_FILES = ("*.meta", "*.unity", "*.asmdef", "*.mat", "*.prefab")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("scenario", metavar="SCENARIO", nargs="?", default="GradientAscent")
+    parser.add_argument("--port", type=int, default=0, metavar="N", help="port on 127.0.0.1 (default: any free port)")
+    parser.add_argument("--no-browser", action="store_true", help="do not open the page in a browser")
+    parser.add_argument("--seed", metavar="K", help="seed instead of the scenario's")
+    parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="values", help="see ./collektive run --help")
+    parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    graph.build("runtime", "replay_page")
+    fetch.fetch("live", "kotlinc")
+    scenario = Path(arguments.scenario)
+    named = sample_programs.SAMPLES / arguments.scenario / "scenario.json"
+    if not scenario.exists() and named.is_file():
+        scenario = named
+    scenario = scenario.resolve()
+    if scenario.parent.parent == sample_programs.SAMPLES:
+        scenario = copy_sample(scenario, Path("out/live") / scenario.parent.name)
+    options = {**vars(arguments), "scenario": str(scenario)}
+    del options["run"]
+    server: list[str | Path] = [LIVE_PYTHON, "-I", ROOT / "scripts/live/server.py", json.dumps(options)]
+    code = processes.call(server)
+    processes.end_orphans()
+    return code
+
+
+def copy_sample(scenario: Path, folder: Path) -> Path:
+    """Copies a sample with its Kotlin, unless the folder exists. Returns the scenario of the copy."""
+    copy = folder.absolute() / scenario.name
+    if copy.is_file():
+        return copy
+    if folder.exists():
+        raise Failure(f"'{folder}' exists and has no {scenario.name}: delete or rename the folder")
+    shutil.copytree(scenario.parent, folder, ignore=shutil.ignore_patterns(*UNITY_FILES))
+    (schema,) = scenario.parent.glob("*.fbs")
+    shutil.copytree(sample_programs.folder(schema), folder / "programs")
+    values = json.loads(scenario.read_text(encoding="utf-8"))
+    values["programs"] = "programs"
+    copy.write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+    return copy

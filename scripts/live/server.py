@@ -1,0 +1,376 @@
+"""The server of `./collektive live`: `server.py OPTIONS`, the command's options as JSON.
+
+It listens on 127.0.0.1 only. The address of the page contains a secret token; requests with another token, Host or Origin are refused.
+"""
+import asyncio
+import contextlib
+import errno
+import http
+import json
+import os
+import secrets
+import shlex
+import signal
+import sys
+import tempfile
+import time
+import webbrowser
+from collections import deque
+from pathlib import Path
+from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from build import player, projects
+from build.console import Failure, print_progress
+from build.places import BUILD
+from live import session
+from websockets.asyncio.server import Server, ServerConnection, serve
+from websockets.datastructures import Headers
+from websockets.exceptions import ConnectionClosed
+from websockets.http11 import Request, Response
+
+HOST = "127.0.0.1"
+# Commands of a page in a second. More are an error of the page.
+MAX_COMMANDS = 200
+# Events that wait for a slow page, frames not counted.
+MAX_WAITING = 500
+WATCH_SECONDS = 0.25
+PAGES = {"": "live.html", "view": "live-view.html"}
+# Commands that the player executes.
+PLAYER_COMMANDS = {"run", "step", "speed", "add", "remove", "select", "parameter"}
+
+
+class Page:
+    """A connected page. Events are sent in order; a frame replaces one that was not sent."""
+
+    def __init__(self, connection: ServerConnection) -> None:
+        self.connection = connection
+        self._events: deque[str] = deque()
+        self._frame: bytes | None = None
+        self._ready = asyncio.Event()
+
+    def event(self, event: dict[str, Any]) -> None:
+        self._events.append(json.dumps(event))
+        self._ready.set()
+
+    def frame(self, message: bytes) -> None:
+        self._frame = message
+        self._ready.set()
+
+    async def send(self) -> None:
+        """Sends events and frames until the page has gone or is too slow for the events."""
+        while True:
+            await self._ready.wait()
+            if len(self._events) > MAX_WAITING:
+                await self.connection.close(1008, "the page is too slow")
+                return
+            if self._events:
+                await self.connection.send(self._events.popleft())
+            elif self._frame is not None:
+                frame, self._frame = self._frame, None
+                await self.connection.send(frame)
+            else:
+                self._ready.clear()
+
+
+class Live:
+    """A scenario that runs, its sources, and the pages that show it. The first page controls it, and then the next one."""
+
+    def __init__(self, options: dict[str, Any], work: Path) -> None:
+        self.scenario: str = options["scenario"]
+        self.trust: bool = options["trust_jvm"]
+        self.seed: str | None = options["seed"]
+        self.values: dict[str, str] = dict(value.partition("=")[::2] for value in options["values"])
+        self.pages: list[Page] = []
+        self.work = work
+        self.jar = work / "programs.jar"
+        self.plan: player.Plan
+        self.header: dict[str, Any] | None = None
+        self.last_frame: bytes | None = None
+        self.stopped: dict[str, Any] | None = None
+        self.compiled: dict[str, Any] | None = None
+        self.player = session.Player(self.on_message)
+        self.compiler = session.Compiler(work)
+        self._sources: dict[str, str] = {}
+        self._changing = asyncio.Lock()
+
+    def words(self) -> list[str]:
+        """Returns the options with which the player reads the scenario."""
+        seed = [] if self.seed is None else ["--seed", self.seed]
+        return [*seed, *(word for key, value in self.values.items() for word in ("--set", f"{key}={value}")), *(["--trust-jvm"] if self.trust else [])]
+
+    async def start(self) -> None:
+        """Reads the scenario, compiles what changed, and starts the player."""
+        self.plan = await asyncio.to_thread(session.read_plan, self.scenario, self.words())
+        jar, dll = await asyncio.gather(asyncio.to_thread(self.plan.programs_jar), asyncio.to_thread(self.plan.scripts_dll))
+        self._sources = session.sources(self.plan)
+        session.replace(self.jar, jar)
+        projects.record_own_program(self.jar)
+        self.header = self.last_frame = self.stopped = self.compiled = None
+        await self.player.start(self.scenario, self.plan, self.jar, dll, self.work / "out", self.words())
+
+    async def restart(self, seed: str, changes: dict[str, Any]) -> None:
+        """Starts the scenario again with other values. If that fails, the earlier values are kept."""
+        before = self.seed, self.values
+        self.seed = seed
+        self.values = {**self.values, **{key: _text(value) for key, value in changes.items()}}
+        try:
+            await self.player.stop()
+            await self.start()
+        except Failure as failure:
+            self.seed, self.values = before
+            self.stopped = {"event": "stopped", "message": str(failure)}
+            self.tell(self.stopped)
+            return
+        self.tell({"event": "started", **self.identity()})
+        self.tell({"event": "files", "files": self._sources})
+
+    def identity(self) -> dict[str, str]:
+        """Returns the seed, and the command that repeats the run from its start."""
+        words = ["./collektive", "live", os.path.relpath(self.scenario), *self.words()]
+        return {"seed": self.seed or str(self.plan["seed"]), "command": shlex.join(words)}
+
+    @property
+    def is_editable(self) -> bool:
+        """Whether the programs are sources."""
+        return self.plan.parts["programs"].path.is_dir()
+
+    def tell(self, event: dict[str, Any]) -> None:
+        for page in self.pages:
+            page.event(event)
+
+    async def on_message(self, event: dict[str, Any], frame: bytes | None) -> None:
+        if frame is not None:
+            self.last_frame = frame
+            for page in self.pages:
+                page.frame(frame)
+            return
+        if event["event"] == "header":
+            self.header = event
+        if event["event"] == "stopped":
+            self.stopped = event
+        self.tell(event)
+
+    async def connect(self, connection: ServerConnection) -> None:
+        """Serves a page until it is closed."""
+        page = Page(connection)
+        self.pages.append(page)
+        self.welcome(page)
+        for event in (self.header, self.compiled, self.stopped):
+            if event is not None:
+                page.event(event)
+        if self.last_frame is not None:
+            page.frame(self.last_frame)
+        sending = asyncio.create_task(page.send())
+        try:
+            await self.receive(page)
+        except ConnectionClosed:
+            pass  # a page may be closed at any time
+        finally:
+            sending.cancel()
+            with contextlib.suppress(asyncio.CancelledError, ConnectionClosed):
+                await sending
+            controlled = self.pages[0] is page
+            self.pages.remove(page)
+            if controlled and self.pages:
+                self.welcome(self.pages[0])
+
+    def welcome(self, page: Page) -> None:
+        page.event({"event": "welcome", "controls": self.pages[0] is page, "title": Path(self.scenario).parent.name, "files": self._sources,
+                    "editable": self.is_editable, **self.identity()})
+
+    async def receive(self, page: Page) -> None:
+        began, count = time.monotonic(), 0
+        async for text in page.connection:
+            now = time.monotonic()
+            if now - began > 1:
+                began, count = now, 0
+            count += 1
+            if count > MAX_COMMANDS:
+                await page.connection.close(1008, "too many commands")
+                return
+            try:
+                command = json.loads(text)
+                await self.execute(page, command)
+            except (ValueError, KeyError, TypeError, AttributeError) as error:
+                page.event({"event": "notice", "message": f"a command of the page is not valid: {error!r}"})
+
+    async def execute(self, page: Page, command: dict[str, Any]) -> None:
+        if self.pages[0] is not page:
+            if "select" not in command:
+                page.event({"event": "notice", "message": "Another page controls the simulation."})
+        elif "save" in command:
+            await self.save(page, command["save"], command["text"])
+        elif "restart" in command:
+            async with self._changing:
+                await self.restart(str(command["seed"]), command["restart"])
+        elif "scenario" in command:
+            page.event({"event": "notice", "message": self.save_scenario(command["scenario"], command["set"])})
+        elif PLAYER_COMMANDS & command.keys():
+            self.player.send(command)
+        else:
+            raise KeyError(next(iter(command), ""))
+
+    async def save(self, page: Page, name: str, text: str) -> None:
+        """Writes a source of the programs and reloads them."""
+        if name not in self._sources:
+            page.event({"event": "notice", "message": f"'{name}' is not a file of the programs"})
+            return
+        file = self.plan.parts["programs"].path / name
+        part = file.with_name(f".{file.name}.part")
+        try:
+            part.write_text(text, encoding="utf-8")
+            part.chmod(file.stat().st_mode)
+            part.replace(file)
+        except OSError as error:
+            page.event({"event": "notice", "message": f"cannot write '{file}': {error.strerror}"})
+            return
+        self._sources[name] = text
+        self.tell({"event": "files", "files": self._sources})
+        await self.reload()
+
+    async def reload(self) -> None:
+        """Compiles the programs, and loads them into the running simulation if that succeeds."""
+        async with self._changing:
+            compiled = await self.compiler.compile(self.plan)
+            self.compiled = {"event": "compiled", "problems": compiled.problems, "messages": compiled.messages, "milliseconds": compiled.milliseconds}
+            self.tell(self.compiled)
+            if compiled.jar is None:
+                return
+            session.replace(self.jar, compiled.jar)
+            projects.record_own_program(self.jar)
+            self.player.send({"reload": True})
+
+    async def watch(self) -> None:
+        """Reloads programs that another editor changed."""
+        while True:
+            await asyncio.sleep(WATCH_SECONDS)
+            try:
+                current = session.sources(self.plan)
+            except (OSError, Failure):
+                continue  # an editor replaces a file
+            if current != self._sources:
+                self._sources = current
+                self.tell({"event": "files", "files": current})
+                await self.reload()
+
+    def save_scenario(self, name: str, changes: dict[str, Any]) -> str:
+        """Writes a scenario with the current values, and returns a message about it."""
+        file = Path(self.scenario).with_name(name)
+        if Path(name).name != name or file.suffix != ".json":
+            return "enter the name of a .json file, which is written beside the scenario"
+        if file.exists():
+            return f"'{file.name}' exists: enter another name"
+        values = json.loads(Path(self.scenario).read_text(encoding="utf-8"))
+        if self.seed is not None:
+            values["seed"] = int(self.seed)
+        for key, value in {**self.values, **changes}.items():
+            path = key.split(".") if key.split(".")[0] in ("fields", "parameters", "network") or key in values else ["fields", key]
+            target = values
+            for part in path[:-1]:
+                target = target.setdefault(part, {})
+            target[path[-1]] = _value(value)
+        file.write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+        return f"saved as {os.path.relpath(file)}"
+
+    async def close(self) -> None:
+        await self.player.stop()
+        await self.compiler.close()
+
+
+def _text(value: Any) -> str:
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def _value(text: Any) -> Any:
+    """Returns the value of an option of the command line."""
+    try:
+        return json.loads(text) if isinstance(text, str) else text
+    except ValueError:
+        return text
+
+
+class Gate:
+    """Answers requests of the page's files, and refuses those that do not come from the page."""
+
+    def __init__(self, token: str) -> None:
+        self.token = token
+        self.port = 0
+
+    @property
+    def hosts(self) -> list[str]:
+        return [f"{HOST}:{self.port}", f"localhost:{self.port}"]
+
+    def __call__(self, _: ServerConnection, request: Request) -> Response | None:
+        if request.headers.get_all("Host") not in [[host] for host in self.hosts]:
+            return _answer(http.HTTPStatus.FORBIDDEN, b"unknown host\n")
+        token, _, name = request.path.removeprefix("/").partition("/")
+        if not secrets.compare_digest(token.encode(), self.token.encode()):
+            return _answer(http.HTTPStatus.FORBIDDEN, b"the address has no valid token: copy it from the terminal\n")
+        if name == "socket":
+            origins = request.headers.get_all("Origin")
+            return None if origins in [[f"http://{host}"] for host in self.hosts] else _answer(http.HTTPStatus.FORBIDDEN, b"unknown origin\n")
+        if name not in PAGES:
+            return _answer(http.HTTPStatus.NOT_FOUND, b"not found\n")
+        return _answer(http.HTTPStatus.OK, (BUILD / PAGES[name]).read_bytes(), "text/html")
+
+
+def _answer(status: http.HTTPStatus, body: bytes, kind: str = "text/plain") -> Response:
+    headers = {"Content-Type": f"{kind}; charset=utf-8", "Content-Length": str(len(body)), "Cache-Control": "no-store", "Referrer-Policy": "no-referrer",
+               "X-Content-Type-Options": "nosniff", "X-Frame-Options": "SAMEORIGIN", "Cross-Origin-Resource-Policy": "same-origin",
+               "Connection": "close"}
+    return Response(status.value, status.phrase, Headers(headers), body)
+
+
+async def open_server(live: Live, gate: Gate, port: int) -> Server:
+    try:
+        server = await serve(live.connect, HOST, port, process_request=gate, compression=None, server_header=None)
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            raise Failure(f"port {port} is in use: choose another one, or omit --port") from error
+        raise Failure(f"cannot listen on port {port}: {error.strerror}") from error
+    gate.port = next(iter(server.sockets)).getsockname()[1]
+    return server
+
+
+async def main(options: dict[str, Any]) -> int:
+    ended = asyncio.Event()
+    for number in (signal.SIGINT, signal.SIGTERM):
+        asyncio.get_running_loop().add_signal_handler(number, ended.set)
+    gate = Gate(secrets.token_urlsafe(24))
+    with tempfile.TemporaryDirectory(prefix="collektive-live-") as folder:
+        live = Live(options, Path(folder))
+        server = await open_server(live, gate, options["port"])
+        try:
+            await live.start()
+            address = f"http://{HOST}:{gate.port}/{gate.token}/"
+            print_progress("running; Ctrl-C ends it")
+            print(address, flush=True)
+            if not options["no_browser"] and (sys.platform == "darwin" or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+                await asyncio.to_thread(webbrowser.open, address)
+            watching = asyncio.create_task(live.watch())
+            # The first compilation takes seconds.
+            warming = asyncio.create_task(live.compiler.compile(live.plan)) if live.is_editable else None
+            waiting = asyncio.create_task(ended.wait())
+            # The watch ends only with an error.
+            await asyncio.wait([watching, waiting], return_when=asyncio.FIRST_COMPLETED)
+            waiting.cancel()
+            if watching.done():
+                watching.result()
+            for task in (watching, warming):
+                if task is not None:
+                    task.cancel()
+        finally:
+            server.close()
+            await live.close()
+    return 0
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(asyncio.run(main(json.loads(sys.argv[1]))))
+    except Failure as failure:
+        if str(failure):
+            print(f"collektive: {failure}", file=sys.stderr)
+        sys.exit(failure.code or 1)

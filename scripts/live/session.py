@@ -1,0 +1,163 @@
+"""The processes of a live run: the player, and the compiler that stays loaded."""
+import asyncio
+import contextlib
+import json
+import os
+import re
+import shutil
+import socket
+import struct
+import time
+import uuid
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from build import inputs, managed, player, projects
+from build.console import Failure
+from build.jdk import find_jdk
+
+_EXIT_SECONDS = 5
+_POLL_SECONDS = 0.01
+_HEADER = struct.Struct("<I")
+_PROBLEM = re.compile(r"^(?:file://)?(?P<path>/.+?\.(?:kt|java)):(?P<line>\d+)(?::(?P<column>\d+))?: (?P<severity>error|warning): (?P<message>.*)$")
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """The outcome of a compilation: `jar` is None after errors."""
+
+    jar: Path | None
+    problems: list[dict[str, Any]]
+    messages: str
+    milliseconds: int
+
+
+class Compiler:
+    """A process that compiles the programs of a plan, one request after the other."""
+
+    def __init__(self, work: Path) -> None:
+        self._work = work / "compiler"
+        self._folder = work / "requests"
+        for folder in (self._work, self._folder):
+            folder.mkdir()
+        self._process: asyncio.subprocess.Process | None = None
+        self._lock = asyncio.Lock()
+
+    async def compile(self, plan: player.Plan) -> Compiled:
+        """Compiles the current sources of the plan's programs."""
+        async with self._lock:
+            began = time.monotonic()
+            programs = inputs.programs(plan.parts["programs"].path)
+            words = projects.compilation(plan.parts["schema"], programs, self._work, plan.parts.get("runtimeJars"), plan.parts.get("runtimePlugin"))
+            code, messages = await self._request(words)
+            problems = [_problem(match, programs.path) for line in messages.splitlines() if (match := _PROBLEM.match(line))]
+            return Compiled(self._work / "programs.jar" if code == 0 else None, problems, "" if code == 0 else messages,
+                            round(1000 * (time.monotonic() - began)))
+
+    async def _request(self, words: Sequence[str | Path]) -> tuple[int, str]:
+        if self._process is None or self._process.returncode is not None:
+            command = projects.compile_server(self._folder)
+            self._process = await asyncio.create_subprocess_exec(*command, stdin=asyncio.subprocess.DEVNULL)
+        name = uuid.uuid4().hex
+        part = self._folder / f"{name}.part"
+        part.write_text("".join(f"{word}\0" for word in words), encoding="utf-8")
+        part.rename(self._folder / f"{name}.request")
+        response = self._folder / f"{name}.response"
+        while not response.exists():
+            if self._process.returncode is not None:
+                return 1, "the compiler's process ended; save again to restart it"
+            await asyncio.sleep(_POLL_SECONDS)
+        code, _, messages = response.read_text(encoding="utf-8").partition("\n")
+        response.unlink()
+        return int(code), messages
+
+    async def close(self) -> None:
+        if self._process is not None and self._process.returncode is None:
+            self._process.kill()
+            await self._process.wait()
+
+
+def _problem(match: re.Match[str], folder: Path) -> dict[str, Any]:
+    path = Path(match["path"])
+    return {"file": str(path.relative_to(folder)) if path.is_relative_to(folder) else str(path), "line": int(match["line"]),
+            "column": int(match["column"] or 1), "severity": match["severity"], "message": match["message"]}
+
+
+class Player:
+    """A process that plays a scenario. Calls `on_message` with each message: the JSON of an event, and the message if it has a frame."""
+
+    def __init__(self, on_message: Callable[[dict[str, Any], bytes | None], Awaitable[None]]) -> None:
+        self._on_message = on_message
+        self._process: asyncio.subprocess.Process | None = None
+        self._writer: asyncio.StreamWriter | None = None
+        self._reading: asyncio.Task[None] | None = None
+
+    async def start(self, scenario: str, plan: player.Plan, jar: Path, dll: Path, folder: Path, words: Sequence[str]) -> None:
+        """Starts the process; its outputs go to an empty folder."""
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        ours, theirs = socket.socketpair()
+        with theirs:
+            command = player.command("live", scenario, plan, jar, dll, find_jdk(), ["--out", folder, "--channel", str(theirs.fileno()), *words])
+            self._process = await asyncio.create_subprocess_exec(
+                *command, env=managed.environment("mono-sgen"), stdin=asyncio.subprocess.DEVNULL, pass_fds=[theirs.fileno()])
+        reader, self._writer = await asyncio.open_connection(sock=ours)
+        self._reading = asyncio.create_task(self._read(reader, self._process))
+
+    def send(self, command: dict[str, Any]) -> None:
+        """Sends a command. Commands after the end of the process have no effect."""
+        if self._writer is not None and not self._writer.is_closing():
+            self._writer.write(json.dumps(command).encode() + b"\n")
+
+    async def stop(self) -> None:
+        """Ends the process and waits for it."""
+        if self._process is None or self._writer is None or self._reading is None:
+            return
+        self._reading.cancel()
+        # The process ends with its channel.
+        self._writer.close()
+        try:
+            await asyncio.wait_for(self._process.wait(), _EXIT_SECONDS)
+        except TimeoutError:
+            self._process.kill()
+            await self._process.wait()
+        self._process = None
+
+    async def _read(self, reader: asyncio.StreamReader, process: asyncio.subprocess.Process) -> None:
+        stopped = False
+        with contextlib.suppress(asyncio.IncompleteReadError, ConnectionError):
+            while True:
+                (length,) = _HEADER.unpack(await reader.readexactly(_HEADER.size))
+                message = await reader.readexactly(length)
+                end = message.index(0)
+                event = json.loads(message[:end])
+                stopped |= event["event"] == "stopped"
+                await self._on_message(event, message if event["event"] == "frame" else None)
+        code = await process.wait()
+        if not stopped:
+            await self._on_message({"event": "stopped", "message": f"the player ended with exit code {code}; the reason is in the terminal"}, None)
+
+
+def read_plan(scenario: str, words: Sequence[str]) -> player.Plan:
+    """Reads a scenario. Raises `Failure` if it is invalid."""
+    try:
+        return player.plan(scenario, words)
+    except player.InvalidScenario as error:
+        raise Failure("the scenario is invalid; the reason is in the terminal") from error
+
+
+def sources(plan: player.Plan) -> dict[str, str]:
+    """Returns the text of each source of the programs, by its path in their folder; nothing for a jar."""
+    if plan.parts["programs"].path.is_file():
+        return {}
+    programs = inputs.programs(plan.parts["programs"].path)
+    return {name: file.read_text(encoding="utf-8", errors="replace") for name, file in programs.files.items()}
+
+
+def replace(jar: Path, new: Path) -> None:
+    """Replaces a jar atomically."""
+    part = jar.with_suffix(".part")
+    shutil.copyfile(new, part)
+    os.replace(part, jar)

@@ -1,0 +1,279 @@
+using System;
+using System.Diagnostics;
+using System.Globalization;
+using Collektive.Bridge;
+using Collektive.Unity;
+using Newtonsoft.Json.Linq;
+using UnityEngine;
+using Object = UnityEngine.Object;
+
+namespace Collektive.Headless
+{
+    /// <summary>
+    /// Plays a scene in real time, and lets <c>./collektive live</c> control it. Commands, one key each: <c>run</c> (true or false), <c>step</c> (number of
+    /// ticks), <c>speed</c> (simulated seconds per second), <c>reload</c>, <c>add</c> (number of nodes, <c>at</c> a point), <c>remove</c> (id), <c>select</c>
+    /// (id or null), <c>parameter</c> (<c>program</c>, <c>name</c>, <c>value</c>). Events: <c>header</c> (FORMAT.md, Header, and controls),
+    /// <c>frame</c>, <c>reload</c>, <c>notice</c>, <c>stopped</c>.
+    /// </summary>
+    internal sealed class LiveRun
+    {
+        /// <summary>The page shows nothing new while a tick hangs.</summary>
+        private const int StepLimitMs = 4000;
+
+        /// <summary>Nodes that one command can add.</summary>
+        private const int MaxAdded = 10000;
+
+        private const int SlotsPerRow = 1024;
+
+        private readonly Scenario scenario;
+        private readonly SceneBuilder scene;
+        private readonly MetricsTable metrics;
+        private readonly SimulationManager manager;
+        private readonly LiveChannel channel;
+        private readonly ReplayRecorder recorder;
+        private readonly RowSchedule rows;
+        private readonly JArray metricNames;
+        private readonly Stopwatch clock = Stopwatch.StartNew();
+        private ReplayWriter writer;
+        private JArray newMetrics;
+        private bool isRunning = true;
+        private int steps;
+        private double speed = 1;
+        private double due;
+        private int ticks;
+        private int capacity;
+        private int selected = -1;
+        private bool hasMetricsFailed;
+        private byte[] lastSegment;
+
+        internal LiveRun(
+            Scenario scenario, SceneBuilder scene, RunMetrics runMetrics, MetricsTable metrics, SimulationManager manager, LiveChannel channel)
+        {
+            this.scenario = scenario;
+            this.scene = scene;
+            this.metrics = metrics;
+            this.manager = manager;
+            this.channel = channel;
+            manager.Settings.stepLimitMs = Math.Min(manager.Settings.stepLimitMs, StepLimitMs);
+            metricNames = new JArray(MetricsTable.NamesOf(runMetrics));
+            rows = new RowSchedule(scenario.Interval, scenario.Settings.deltaTime);
+            recorder = new ReplayRecorder(scenario, scene, runMetrics, manager, metadata => writer = new ReplayWriter(metadata, SendFrame));
+        }
+
+        /// <param name="frame">Runs a frame of the player.</param>
+        /// <param name="isEnded">Whether the user ended the run.</param>
+        internal void Play(Action frame, Func<bool> isEnded)
+        {
+            recorder.Add(0);
+            while (!isEnded())
+            {
+                // Signals are noticed between two waits.
+                var wait = isRunning || steps > 0 ? due - clock.Elapsed.TotalMilliseconds : 100;
+                if (channel.TryTake(Math.Max(0, (int)Math.Min(wait, 100)), out var command)) Execute(command);
+                else if ((isRunning || steps > 0) && due <= clock.Elapsed.TotalMilliseconds) Tick(frame);
+                if (manager.Failure.Length == 0) continue;
+                channel.Send(new JObject(new JProperty("event", "stopped"), new JProperty("message", manager.Failure)));
+                break;
+            }
+            channel.Flush();
+        }
+
+        private void Tick(Action frame)
+        {
+            var interval = 1000 * scenario.Settings.deltaTime / speed;
+            // A simulation that is too slow for real time does not catch up.
+            due = Math.Max(due + interval, clock.Elapsed.TotalMilliseconds - interval);
+            var tick = manager.Tick;
+            frame();
+            if (manager.Tick == tick) return;
+            ticks++;
+            if (rows.IsDue(ticks))
+            {
+                Measure();
+                rows.Advance();
+            }
+            var answer = manager.Simulation.Answer;
+            if (answer.HasReload)
+            {
+                var reload = answer.Reload;
+                channel.Send(new JObject(
+                    new JProperty("event", "reload"), new JProperty("error", reload.Error), new JProperty("kept", reload.Kept),
+                    new JProperty("stored", reload.Stored)));
+                SendHeader();
+            }
+            if (ticks == 1) SendHeader();
+            if (isRunning) recorder.Add(manager.SimulatedTime);
+            else
+            {
+                steps--;
+                recorder.AddNow();
+            }
+        }
+
+        private void Measure()
+        {
+            if (hasMetricsFailed) return;
+            try
+            {
+                newMetrics = new JArray(new JValue(manager.SimulatedTime));
+                foreach (var value in metrics.EndInterval(manager.SimulatedTime, manager.LinkCount))
+                    newMetrics.Add(double.IsNaN(value) || double.IsInfinity(value) ? null : (double?)value);
+            }
+            catch (Exception error)
+            {
+                // For example, a scene that does not expect nodes to be removed.
+                hasMetricsFailed = true;
+                newMetrics = null;
+                Notify("the metrics of the scene failed and are no longer measured: " + error.Message);
+            }
+        }
+
+        private void Execute(JObject command)
+        {
+            try
+            {
+                if (command["run"] != null) Run((bool)command["run"]);
+                else if (command["step"] != null) Step((int)command["step"]);
+                else if (command["speed"] != null) speed = Math.Min(Math.Max((double)command["speed"], 0.01), 100);
+                else if (command["reload"] != null) manager.ReloadPrograms();
+                else if (command["add"] != null) AddNodes((int)command["add"], (JArray)command["at"]);
+                else if (command["remove"] != null) RemoveNode((int)command["remove"]);
+                else if (command["parameter"] != null) SetParameter((string)command["program"], (string)command["parameter"], (string)command["value"]);
+                else if (command.Property("select") != null) selected = (int?)command["select"] ?? -1;
+                else throw new ArgumentException("unknown command");
+                if (!isRunning) Refresh();
+            }
+            catch (Exception error) when (error is ArgumentException || error is InvalidCastException || error is FormatException || error is OverflowException)
+            {
+                Notify("a command of the page is not valid: " + error.Message);
+            }
+        }
+
+        private void Run(bool runs)
+        {
+            isRunning = runs;
+            steps = 0;
+            due = clock.Elapsed.TotalMilliseconds;
+        }
+
+        private void Step(int count)
+        {
+            isRunning = false;
+            steps += Math.Min(Math.Max(count, 1), 1000);
+            due = clock.Elapsed.TotalMilliseconds;
+        }
+
+        /// <summary>Copies a node, to points on a spiral around a point.</summary>
+        private void AddNodes(int count, JArray at)
+        {
+            if (count < 1 || count > MaxAdded) throw new ArgumentException("from 1 to " + MaxAdded + " nodes can be added at once");
+            if (manager.Nodes.Count == 0)
+            {
+                Notify("no nodes were added: a new node is a copy of another one, and the scene has none");
+                return;
+            }
+            var template = manager.Nodes[manager.Nodes.Count - 1];
+            var centre = new Vector3((float)at[0], template.transform.position.y, (float)at[2]);
+            var gap = 2.5f * Mathf.Max(writer.NodeRadius, 0.05f);
+            for (var i = 0; i < count; i++)
+            {
+                // The golden angle.
+                var angle = i * 2.39996f;
+                var distance = gap * Mathf.Sqrt(i);
+                var place = centre + new Vector3(distance * Mathf.Cos(angle), 0, distance * Mathf.Sin(angle));
+                Object.Instantiate(template.gameObject, place, template.transform.rotation).name = template.name + " copy";
+            }
+        }
+
+        private void SetParameter(string program, string name, string value)
+        {
+            foreach (var known in manager.Programs)
+            {
+                if (known.Name != program) continue;
+                foreach (var parameter in known.Parameters)
+                {
+                    if (parameter.Name != name) continue;
+                    var isNumber = parameter.Type == ParameterType.Number || parameter.Type == ParameterType.Integer;
+                    if (isNumber && !double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out _))
+                        Notify("parameter '" + name + "' must be a number");
+                    else manager.Simulation.SetParameter(program, name, value);
+                    return;
+                }
+            }
+            Notify("program '" + program + "' has no parameter '" + name + "'");
+        }
+
+        private void RemoveNode(int id)
+        {
+            var node = manager.Find(id);
+            if (node != null) Object.DestroyImmediate(node.gameObject);
+        }
+
+        /// <summary>Sends the current frame again, for a page that shows a paused simulation.</summary>
+        private void Refresh()
+        {
+            recorder.AddNow();
+            if (lastSegment != null) channel.SendFrame(Describe(), lastSegment, lastSegment.Length);
+        }
+
+        private void SendFrame(byte[] segment, int length)
+        {
+            var needed = (writer.Slots + SlotsPerRow - 1) / SlotsPerRow * SlotsPerRow;
+            if (needed > capacity)
+            {
+                capacity = capacity == 0 ? needed : 2 * needed;
+                SendHeader();
+            }
+            lastSegment = new byte[length];
+            Buffer.BlockCopy(segment, 0, lastSegment, 0, length);
+            channel.SendFrame(Describe(), segment, length);
+            newMetrics = null;
+        }
+
+        private JObject Describe() => new JObject(
+            new JProperty("event", "frame"),
+            new JProperty("time", manager.SimulatedTime),
+            new JProperty("tick", manager.Tick),
+            new JProperty("running", isRunning),
+            new JProperty("speed", speed),
+            new JProperty("errors", manager.ErrorCount),
+            new JProperty("error", LastError()),
+            new JProperty("metrics", newMetrics),
+            new JProperty("poses", recorder.TakePoses()),
+            new JProperty("node", NodeInspection.Of(manager, selected)));
+
+        private string LastError()
+        {
+            NodeErrors last = null;
+            foreach (var errors in manager.Errors)
+                if (last == null || errors.LastTick > last.LastTick) last = errors;
+            return last == null ? "" : last.Source + (last.Node >= 0 ? ", node " + last.Node : "") + ": " + last.LastMessage;
+        }
+
+        private void SendHeader()
+        {
+            var header = writer.Header();
+            header["event"] = "header";
+            header["slots"] = capacity;
+            header["metrics"] = metricNames;
+            header["program"] = scenario.Settings.program;
+            header["sceneFields"] = SceneFields.Get(scene);
+            var programs = new JObject();
+            foreach (var program in manager.Programs)
+            {
+                var parameters = new JArray();
+                foreach (var parameter in program.Parameters)
+                    parameters.Add(new JObject(
+                        new JProperty("name", parameter.Name), new JProperty("default", parameter.DefaultValue),
+                        new JProperty("description", parameter.Description)));
+                programs.Add(program.Name, parameters);
+            }
+            header["programs"] = programs;
+            header["parameters"] = ParameterValues.Of(manager);
+            header["network"] = JObject.FromObject(scenario.Settings.network);
+            channel.Send(header);
+        }
+
+        private void Notify(string message) => channel.Send(new JObject(new JProperty("event", "notice"), new JProperty("message", message)));
+    }
+}

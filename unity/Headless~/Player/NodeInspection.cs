@@ -1,0 +1,79 @@
+using System;
+using System.Collections;
+using System.Globalization;
+using System.Reflection;
+using Collektive.Unity;
+using Google.FlatBuffers;
+using Newtonsoft.Json.Linq;
+
+namespace Collektive.Headless
+{
+    /// <summary>The data of one node after a tick, as text.</summary>
+    internal static class NodeInspection
+    {
+        private const int MaxRows = 60;
+
+        /// <returns>Sensor data, answer and last error of a node; null if there is no such node.</returns>
+        internal static JObject Of(SimulationManager manager, int id)
+        {
+            var node = id < 0 ? null : manager.Find(id);
+            if (node == null) return null;
+            return new JObject(
+                new JProperty("id", id), new JProperty("program", manager.Settings.ProgramOf(node)),
+                new JProperty("sensors", Rows(Sensed(manager.Simulation, id))), new JProperty("answer", Rows(node.Answer)),
+                new JProperty("error", node.LastError));
+        }
+
+        private static object Sensed(Simulation simulation, int id)
+        {
+            for (var i = 0; i < simulation.DueCount; i++)
+                if (simulation.DueId(i) == id) return simulation.SensorData.Get(i);
+            return null;
+        }
+
+        private static JArray Rows(object data)
+        {
+            var rows = new JArray();
+            if (data != null) Add(rows, "", data);
+            return rows;
+        }
+
+        private static void Add(JArray rows, string path, object value)
+        {
+            if (rows.Count == MaxRows) return;
+            if (Text(value) is string text)
+            {
+                rows.Add(new JArray(path, text));
+                return;
+            }
+            if (value is IEnumerable items)
+            {
+                var index = 0;
+                foreach (var item in items) Add(rows, path + "[" + index++ + "]", item);
+                if (index == 0) rows.Add(new JArray(path, "empty"));
+                return;
+            }
+            foreach (var member in value.GetType().GetMembers(BindingFlags.Public | BindingFlags.Instance))
+            {
+                var isData = member is FieldInfo || member is PropertyInfo property && property.CanRead && property.GetIndexParameters().Length == 0;
+                if (isData && AnswerField.TypeOf(member) != typeof(ByteBuffer))
+                    Add(rows, path.Length == 0 ? member.Name : path + "." + member.Name, AnswerField.ValueOf(member, value));
+            }
+        }
+
+        /// <summary>Returns null for an object with parts.</summary>
+        private static string Text(object value)
+        {
+            switch (value)
+            {
+                case null: return "none";
+                case float number: return number.ToString("G6", CultureInfo.InvariantCulture);
+                case double number: return number.ToString("G6", CultureInfo.InvariantCulture);
+                case bool truth: return truth ? "true" : "false";
+                case string _:
+                case Enum _: return value.ToString();
+                default: return value.GetType().IsPrimitive ? Convert.ToString(value, CultureInfo.InvariantCulture) : null;
+            }
+        }
+    }
+}

@@ -1,0 +1,299 @@
+// Tests the live page in headless Chromium: node [TEST OPTIONS] live-test.mjs COLLEKTIVE FOLDER
+// Runs `COLLEKTIVE live` in the folder, which keeps pictures of the page.
+import assert from 'node:assert/strict';
+import { spawn } from 'node:child_process';
+import { once } from 'node:events';
+import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { request } from 'node:http';
+import { join } from 'node:path';
+import suite from 'node:test';
+import { launch } from './browser.mjs';
+
+const [collektive, folder] = process.argv.slice(2);
+if (!folder) {
+  console.error('Usage: node live-test.mjs COLLEKTIVE FOLDER');
+  process.exit(2);
+}
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
+const program = join(folder, 'out/live/GradientAscent/programs/GradientAscent.kt');
+const browser = await launch();
+
+/** Starts the command and waits for its address. */
+async function start(...words) {
+  const child = spawn(collektive, ['live', '--no-browser', '--set', 'nodes=60', ...words], { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'] });
+  const command = { child, output: '', address: null, ended: once(child, 'close') };
+  for (const stream of [child.stdout, child.stderr]) stream.on('data', (data) => { command.output += data; });
+  while (!command.address && child.exitCode === null) {
+    await new Promise((resolve) => { setTimeout(resolve, 50); });
+    command.address = /http:\/\/\S+/.exec(command.output)?.[0] ?? null;
+  }
+  return command;
+}
+
+async function stop({ child, ended }) {
+  child.kill('SIGINT');
+  return (await ended)[0];
+}
+
+/** Opens the page and waits for its first frame. */
+async function open(address, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1440, height: 860 }, ...options });
+  const tab = await context.newPage();
+  const complaints = [];
+  tab.on('console', (message) => {
+    if (['error', 'warning'].includes(message.type()) && !message.text().includes('GPU stall')) complaints.push(message.text());
+  });
+  tab.on('pageerror', (error) => complaints.push(error.message));
+  await tab.goto(address);
+  const view = tab.frame({ url: /\/view$/ });
+  await view.waitForFunction(() => window.replay.state?.().nodes.length > 0, null, { timeout: 20000 });
+  return { tab, view, complaints, close: () => context.close() };
+}
+
+const state = (view) => view.evaluate(() => {
+  const { nodes } = window.replay.state();
+  const { player } = window.replay;
+  const field = player.fields.find(({ name }) => name === 'speed');
+  const speeds = Array.from(player.here.slots, (slot) => field.valuesOf(player.here)[slot]).filter((speed) => !Number.isNaN(speed));
+  return { nodes: nodes.length, tick: player.recording.latest.tick, running: player.recording.latest.running, speed: speeds.reduce((sum, speed) => sum + speed, 0) / speeds.length };
+});
+
+async function eventually(read, holds, message, milliseconds = 15000) {
+  let now;
+  for (const end = Date.now() + milliseconds; Date.now() < end; await new Promise((resolve) => { setTimeout(resolve, 30); })) {
+    now = await read();
+    if (holds(now)) return now;
+  }
+  throw new Error(`${message}; it is ${JSON.stringify(now)}`);
+}
+
+const outcome = (tab) => tab.textContent('#outcome');
+
+/** Replaces a text of the program in the editor, and saves it with the keyboard. */
+async function edit(tab, from, to) {
+  await tab.evaluate(([before, after]) => {
+    const { view } = window.live.files;
+    const at = view.state.doc.toString().indexOf(before);
+    if (at < 0) throw new Error(`the program does not contain ${before}`);
+    view.dispatch({ changes: { from: at, to: at + before.length, insert: after } });
+  }, [from, to]);
+  await tab.focus('.cm-content');
+  await tab.keyboard.press('Control+s');
+}
+
+async function inaccessible(tab) {
+  for (const each of tab.frames()) await each.evaluate(axe);
+  const { violations } = await tab.evaluate(() => window.axe.run());
+  return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`);
+}
+
+const picture = (tab, name) => tab.screenshot({ path: join(folder, `${name}.png`) });
+
+/** The status of a request with other headers. */
+const statusOf = (address, headers, path = '') => new Promise((resolve, reject) => {
+  const url = new URL(path, address);
+  request(url, { headers }, (response) => {
+    response.resume();
+    resolve(response.statusCode);
+  }).on('error', reject).end();
+});
+const HANDSHAKE = { Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': '13', 'Sec-WebSocket-Key': 'AAAAAAAAAAAAAAAAAAAAAA==' };
+
+suite('live', { timeout: 300000 }, async (t) => {
+  let live = await start();
+  assert.ok(live.address, live.output);
+  let page = await open(live.address);
+  const { tab, view } = page;
+  const original = readFileSync(program, 'utf8');
+
+  await t.test('shows the running case study and its program', async () => {
+    const first = await state(view);
+    assert.equal(first.nodes, 60);
+    await eventually(() => state(view), ({ tick }) => tick > first.tick + 20, 'the simulation should run');
+    assert.match(await tab.textContent('.cm-content'), /gradientAscent/);
+    assert.equal(await tab.textContent('#state'), 'running');
+    await picture(tab, 'running');
+  });
+
+  await t.test('changes the running swarm within 3 s of saving a constant', async () => {
+    await eventually(() => state(view), ({ speed }) => speed > 0.3, 'the swarm should move');
+    const began = Date.now();
+    const { tick } = await state(view);
+    await edit(tab, 'if (length < TOO_SMALL) 0.0 else device', 'if (length < 1e9) 0.0 else device');
+    await eventually(() => state(view), ({ speed }) => speed < 0.1, 'the swarm should stand still');
+    const seconds = (Date.now() - began) / 1000;
+    t.diagnostic(`from save to the changed field: ${seconds} s`);
+    assert.ok(seconds < 3, `it took ${seconds} s`);
+    assert.ok((await state(view)).tick > tick, 'the simulation did not start again');
+    assert.match(await outcome(tab), /^reloaded: kept /);
+    assert.match(readFileSync(program, 'utf8'), /length < 1e9/);
+    await picture(tab, 'edited');
+  });
+
+  await t.test('underlines an error while the swarm continues', async () => {
+    await edit(tab, 'val obstacle = Vector3()', 'val obstacle = Vector9()');
+    await tab.waitForSelector('.cm-lintRange-error', { timeout: 15000 });
+    assert.equal(await tab.textContent('.cm-lintRange-error'), 'Vector9');
+    assert.match(await outcome(tab), /^Not compiled; the previous programs continue/);
+    assert.match(await tab.textContent('#problems'), /^GradientAscent\.kt:\d+:\d+: /);
+    const { tick } = await state(view);
+    await eventually(() => state(view), (now) => now.tick > tick + 10, 'the simulation should run');
+    await picture(tab, 'error');
+  });
+
+  await t.test('picks up a change of another editor, and removes the error', async () => {
+    writeFileSync(program, original);
+    await eventually(() => tab.evaluate(() => window.live.files.text), (text) => text === original, 'the editor should show the file');
+    await eventually(() => outcome(tab), (text) => text.startsWith('reloaded'), 'the program should be reloaded');
+    assert.equal(await tab.locator('.cm-lintRange-error').count(), 0);
+    await eventually(() => state(view), ({ speed }) => speed > 0.3, 'the swarm should move');
+  });
+
+  await t.test('pauses, steps and changes the speed', async () => {
+    await view.click('#play');
+    const paused = await eventually(() => state(view), ({ running }) => !running, 'the simulation should pause');
+    await tab.waitForTimeout(300);
+    assert.equal((await state(view)).tick, paused.tick);
+    await view.click('#step-on');
+    await eventually(() => state(view), ({ tick }) => tick === paused.tick + 1, 'the simulation should run one tick');
+    await view.selectOption('#speed', '4');
+    await view.click('#play');
+    const began = Date.now();
+    await tab.waitForTimeout(2000);
+    const ticks = (await state(view)).tick - paused.tick;
+    const expected = (4 * (Date.now() - began)) / 50;
+    assert.ok(ticks > 0.5 * expected && ticks < 1.2 * expected, `${ticks} ticks instead of ${expected}`);
+    await view.selectOption('#speed', '1');
+  });
+
+  await t.test('inspects, adds and removes nodes', async () => {
+    await view.evaluate(() => window.replay.select(7));
+    await view.waitForFunction(() => /Intensity/.test(document.getElementById('inspection').textContent));
+    assert.match(await view.textContent('#inspection'), /Sensors.*Position\.X.*Answer/s);
+    await picture(tab, 'inspected');
+    await tab.click('#add');
+    await eventually(() => state(view), ({ nodes }) => nodes === 110, '50 nodes should join');
+    await view.getByRole('button', { name: 'Remove node' }).click();
+    await eventually(() => state(view), ({ nodes }) => nodes === 109, 'the node should leave');
+    await tab.fill('#count', '3');
+    await tab.click('#click-adds');
+    await view.click('#canvas', { position: { x: 300, y: 400 } });
+    await eventually(() => state(view), ({ nodes }) => nodes === 112, 'three nodes should join');
+    await tab.click('#click-adds');
+    await picture(tab, 'added');
+  });
+
+  await t.test('a second page watches, and controls the simulation when the first one has gone', async () => {
+    const second = await open(live.address);
+    await second.tab.waitForSelector('text=watching');
+    assert.ok(await second.tab.isDisabled('#add'));
+    const { tick } = await state(second.view);
+    await second.view.click('#play');
+    await second.tab.waitForSelector('text=Another page controls the simulation');
+    await eventually(() => state(second.view), (now) => now.tick > tick + 10, 'the simulation should run');
+    await page.close();
+    await second.tab.waitForFunction(() => !document.getElementById('add').disabled);
+    page = second;
+  });
+
+  await t.test('starts again with another seed and another scene', async () => {
+    await page.tab.click('#fields summary');
+    await page.tab.fill('[id="control-fields.nodes"]', '20');
+    await page.tab.press('[id="control-fields.nodes"]', 'Tab');
+    await page.tab.waitForSelector('#fields >> text=at restart');
+    await page.tab.fill('#seed', '5');
+    await page.tab.click('#restart');
+    await eventually(() => state(page.view), ({ nodes }) => nodes === 20, 'the scene should have 20 nodes', 30000);
+    assert.match(await page.tab.inputValue('#command'), /--seed 5 .*fields\.nodes=20/);
+    await picture(page.tab, 'restarted');
+  });
+
+  await t.test('accessibility', async () => {
+    assert.deepEqual(await inaccessible(page.tab), []);
+    await page.tab.emulateMedia({ colorScheme: 'dark' });
+    assert.deepEqual(await inaccessible(page.tab), []);
+    await picture(page.tab, 'dark');
+    await page.tab.emulateMedia({ colorScheme: 'light' });
+  });
+
+  await t.test('a program that throws in every round', async () => {
+    await edit(page.tab, 'val obstacle = Vector3()', 'check(sensors.intensity() < 0) { "no intensity" }\n    val obstacle = Vector3()');
+    await page.tab.waitForSelector('#state >> text=no intensity');
+    const { tick } = await state(page.view);
+    await eventually(() => state(page.view), (now) => now.tick > tick + 10, 'the simulation should run');
+  });
+
+  await t.test('a program that disappears or has another schema is not loaded', async () => {
+    await edit(page.tab, '@Program("gradient-ascent"', '@Program("other"');
+    await eventually(() => outcome(page.tab), (text) => /^Not reloaded; .*gradient-ascent/.test(text), 'the error should be reported');
+    const { tick } = await state(page.view);
+    await eventually(() => state(page.view), (now) => now.tick > tick + 10, 'the simulation should run');
+    writeFileSync(program, original);
+    await eventually(() => outcome(page.tab), (text) => text.startsWith('reloaded'), 'the program should be reloaded');
+  });
+
+  await t.test('a program that never returns stops the simulation, and a restart continues', async () => {
+    await edit(page.tab, 'val obstacle = Vector3()', 'while (position.x() < 1e9) Thread.onSpinWait()\n    val obstacle = Vector3()');
+    await page.tab.waitForSelector('text=The simulation stopped', { timeout: 30000 });
+    await picture(page.tab, 'stopped');
+    writeFileSync(program, original);
+    await eventually(() => page.tab.evaluate(() => window.live.files.text), (text) => text === original, 'the editor should show the file');
+    await page.tab.click('#restart');
+    await eventually(() => page.tab.textContent('#state'), (text) => text === 'running', 'the simulation should run again', 30000);
+  });
+
+  await t.test('a page that sends too many commands is disconnected, and connects again', async () => {
+    await page.tab.evaluate(() => { for (let i = 0; i < 1000; i++) window.live.send({ select: i }); });
+    await page.tab.waitForSelector('#state >> text=connection lost');
+    await eventually(() => page.tab.textContent('#state'), (text) => text === 'running', 'the page should connect again');
+  });
+
+  await t.test('a page that reads nothing does not slow the simulation down', async () => {
+    const slow = await open(live.address);
+    const done = slow.tab.evaluate(() => { for (const end = Date.now() + 4000; Date.now() < end;); });
+    const before = await state(page.view);
+    await page.tab.waitForTimeout(3000);
+    const { tick } = await state(page.view);
+    await done;
+    assert.ok(tick - before.tick > 40, `only ${tick - before.tick} ticks in 3 s`);
+    await slow.close();
+  });
+
+  await t.test('saves a scenario', async () => {
+    await page.tab.click('#keep summary');
+    await page.tab.click('#save-scenario');
+    await page.tab.waitForSelector('#notice >> text=saved as');
+    const saved = JSON.parse(readFileSync(join(folder, 'out/live/GradientAscent/live.json'), 'utf8'));
+    assert.deepEqual([saved.seed, saved.fields.nodes], [5, 20]);
+  });
+
+  await t.test('refuses other hosts, origins and tokens, and answers the page only', async () => {
+    const { host } = new URL(live.address);
+    assert.equal(await statusOf(live.address, {}), 200);
+    assert.equal(await statusOf(live.address, { Host: 'example.org' }), 403);
+    assert.equal(await statusOf(live.address, {}, '/wrong-token/'), 403);
+    assert.equal(await statusOf(live.address, {}, 'other'), 404);
+    assert.equal(await statusOf(live.address, { ...HANDSHAKE, Origin: 'http://example.org' }, 'socket'), 403);
+    assert.equal(await statusOf(live.address, HANDSHAKE, 'socket'), 403);
+    assert.equal(await statusOf(live.address, { ...HANDSHAKE, Origin: `http://${host}` }, '/wrong-token/socket'), 403);
+  });
+
+  await t.test('reports a port in use', async () => {
+    const other = await start('--port', new URL(live.address).port);
+    assert.equal((await other.ended)[0], 1);
+    assert.match(other.output, /port \d+ is in use: choose another one/);
+  });
+
+  await t.test('Ctrl-C ends the command and its processes; the page says so', async () => {
+    assert.equal(await stop(live), 0);
+    await page.tab.waitForSelector('#state >> text=connection lost');
+    assert.ok(existsSync(program));
+    live = null;
+    await page.close();
+  });
+
+  if (live) await stop(live);
+  await browser.close();
+});

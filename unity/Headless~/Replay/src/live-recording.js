@@ -1,0 +1,106 @@
+// The last frames of a running simulation, with the interface of a recording. Frames may be missing between two of them.
+import { extent, lastAt } from './fields.js';
+import { Segment } from './recording.js';
+
+const KEPT_FRAMES = 300;
+const KEPT_ROWS = 600; // of metrics
+
+export class LiveRecording {
+  /** `header` as in FORMAT.md, with the names of the metrics and no frames. */
+  constructor(header) {
+    Object.assign(this, header);
+    this.times = [];
+    this.frames = [];
+    this.poses = []; // by frame and moving shape
+    this.metrics = { times: [], series: header.metrics.map((name) => ({ name, values: [] })) };
+    this.movers = header.movers.map(({ shape }, i) => ({ shape, poses: { slice: (from) => this.poses[from / 7]?.[i] ?? [0, 0, 0, 0, 0, 0, 1] } }));
+    for (const field of this.fields) [field.least, field.greatest] = [0, 0];
+  }
+
+  /** Whether the view of this recording can show frames of another header. */
+  fits(header) {
+    const shape = ({ metadata, slots, fields, metrics, movers }) => JSON.stringify(
+      [{ ...metadata, arena: null }, slots, fields.map(({ name, kind, words }) => [name, kind, words]), metrics.series?.map(({ name }) => name) ?? metrics,
+        movers.map((mover) => mover.shape)]);
+    return shape(this) === shape(header);
+  }
+
+  get count() {
+    return this.times.length;
+  }
+
+  get oldest() {
+    return Math.max(this.count - KEPT_FRAMES, 0);
+  }
+
+  get nodes() {
+    return this.frames.at(-1)?.slots.length ?? 0;
+  }
+
+  has(id) {
+    const frame = this.frames.at(-1);
+    return frame.slots.some((slot) => frame.ids[slot] === id);
+  }
+
+  /** Adds a frame. Returns whether a value is beyond the range of its field. */
+  add(event, bytes) {
+    const { time, metrics, poses } = event;
+    this.latest = event;
+    const index = this.count;
+    const frame = new Segment(bytes, this, index, 1).frame(0);
+    frame.segment = { first: this.oldest, count: index + 1 - this.oldest, frame: (i) => this.frames[this.oldest + i] };
+    this.times.push(time);
+    this.frames.push(frame);
+    this.poses.push(poses.some((pose) => pose.length > 0) ? poses : this.poses.at(-1) ?? []);
+    for (const old of [this.frames, this.poses]) delete old[index - KEPT_FRAMES];
+    if (metrics) this.addMetrics(metrics);
+    return this.widen(frame);
+  }
+
+  /** Shows a paused simulation's frame again, with other data. */
+  replaceLast(event, bytes) {
+    this.latest = event;
+    const index = this.count - 1;
+    const frame = new Segment(bytes, this, index, 1).frame(0);
+    frame.segment = this.frames[index].segment;
+    this.frames[index] = frame;
+  }
+
+  addMetrics([time, ...values]) {
+    const { times, series } = this.metrics;
+    times.push(time);
+    series.forEach((each, i) => each.values.push(values[i]));
+    if (times.length > KEPT_ROWS) for (const list of [times, ...series.map((each) => each.values)]) list.shift();
+  }
+
+  widen(frame) {
+    let widened = false;
+    this.fields.forEach((field, i) => {
+      if (field.kind !== 'number') return;
+      const present = Array.from(frame.slots, (slot) => frame.values[i][slot]).filter((value) => !Number.isNaN(value));
+      if (present.length === 0) return;
+      const { least, greatest } = extent(present);
+      const isFirst = !field.known;
+      const margin = 0.1 * (field.greatest - field.least);
+      if (!isFirst && least >= field.least && greatest <= field.greatest) return;
+      // Not in small steps at each frame.
+      field.least = isFirst ? least : Math.min(field.least, least - (least < field.least ? margin : 0));
+      field.greatest = isFirst ? greatest : Math.max(field.greatest, greatest + (greatest > field.greatest ? margin : 0));
+      field.known = true;
+      widened = true;
+    });
+    return widened;
+  }
+
+  frameAt(time) {
+    return Math.max(lastAt(this.times, time), this.oldest);
+  }
+
+  frame(index) {
+    return this.frames[index] ?? null;
+  }
+
+  load() {
+    return Promise.resolve();
+  }
+}
