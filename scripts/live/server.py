@@ -21,14 +21,15 @@ from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build import player, projects
-from build.console import Failure, print_progress
-from build.places import BUILD
-from live import session
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
+
+from build import player, projects
+from build.console import Failure, print_progress
+from build.places import BUILD
+from live import session
 
 HOST = "127.0.0.1"
 # Commands of a page in a second. More are an error of the page.

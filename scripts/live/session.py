@@ -21,7 +21,7 @@ from build.jdk import find_jdk
 _EXIT_SECONDS = 5
 _POLL_SECONDS = 0.01
 _HEADER = struct.Struct("<I")
-_PROBLEM = re.compile(r"^(?:file://)?(?P<path>/.+?\.(?:kt|java)):(?P<line>\d+)(?::(?P<column>\d+))?: (?P<severity>error|warning): (?P<message>.*)$")
+_PROBLEM = re.compile(r"^(?:file://)?(?P<path>.+?\.(?:kt|java)):(?P<line>\d+)(?::(?P<column>\d+))?: (?P<severity>error|warning): (?P<message>.*)$")
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,8 @@ class Compiler:
 
 
 def _problem(match: re.Match[str], folder: Path) -> dict[str, Any]:
-    path = Path(match["path"])
+    # The Kotlin compiler shortens paths below the current folder.
+    path = Path(match["path"]).absolute()
     return {"file": str(path.relative_to(folder)) if path.is_relative_to(folder) else str(path), "line": int(match["line"]),
             "column": int(match["column"] or 1), "severity": match["severity"], "message": match["message"]}
 

@@ -85,7 +85,7 @@ namespace Collektive.Headless
             due = Math.Max(due + interval, clock.Elapsed.TotalMilliseconds - interval);
             var tick = manager.Tick;
             frame();
-            if (manager.Tick == tick) return;
+            if (manager.Failure.Length > 0 || manager.Tick == tick) return;
             ticks++;
             if (rows.IsDue(ticks))
             {

@@ -89,7 +89,8 @@ async function inaccessible(tab) {
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`);
 }
 
-const picture = (tab, name) => tab.screenshot({ path: join(folder, `${name}.png`) });
+/** Saves a picture. A browser that draws without a graphics card may be too busy for one while the simulation runs. */
+const picture = (tab, name) => tab.screenshot({ path: join(folder, `${name}.png`), timeout: 5000 }).catch((error) => console.error(`${name}: ${error.message}`));
 
 /** The status of a request with other headers. */
 const statusOf = (address, headers, path = '') => new Promise((resolve, reject) => {
@@ -168,6 +169,17 @@ suite('live', { timeout: 300000 }, async (t) => {
     await view.selectOption('#speed', '1');
   });
 
+  await t.test('applies a parameter at once', async () => {
+    const slider = tab.getByLabel('step, slider');
+    await slider.press('Home');
+    await eventually(() => state(view), ({ speed }) => speed < 0.1, 'the swarm should stand still', 3000);
+    assert.equal(await tab.inputValue('[id="control-parameters.gradient-ascent.step"]'), '0');
+    await picture(tab, 'parameter');
+    await tab.fill('[id="control-parameters.gradient-ascent.step"]', '1');
+    await tab.keyboard.press('Tab');
+    await eventually(() => state(view), ({ speed }) => speed > 0.2, 'the swarm should move', 3000);
+  });
+
   await t.test('inspects, adds and removes nodes', async () => {
     await view.evaluate(() => window.replay.select(7));
     await view.waitForFunction(() => /Intensity/.test(document.getElementById('inspection').textContent));
@@ -237,6 +249,7 @@ suite('live', { timeout: 300000 }, async (t) => {
   await t.test('a program that never returns stops the simulation, and a restart continues', async () => {
     await edit(page.tab, 'val obstacle = Vector3()', 'while (position.x() < 1e9) Thread.onSpinWait()\n    val obstacle = Vector3()');
     await page.tab.waitForSelector('text=The simulation stopped', { timeout: 30000 });
+    assert.match(await page.tab.textContent('#notice'), /rounds did not finish within the time limit of 4000 ms/);
     await picture(page.tab, 'stopped');
     writeFileSync(program, original);
     await eventually(() => page.tab.evaluate(() => window.live.files.text), (text) => text === original, 'the editor should show the file');

@@ -53,13 +53,19 @@ class LivePlayer extends Player {
       this.interval = Math.min(Math.max(0.7 * this.interval + 0.3 * (now - this.arrived), 16), 400);
       this.arrived = now;
     }
-    if (widened && !this.hasOwnRange) this.legend.setRange(...this.legend.wholeRange());
+    if (widened) this.widen();
     if (this.playing !== event.running) this.setPlaying(event.running);
     if (element('speed').value !== String(event.speed)) element('speed').value = String(event.speed);
     this.speed = event.speed;
     if (event.metrics && !element('charts').hidden && now - this.charted > CHART_MS) this.redrawCharts(now);
     this.describeInspection(event.node);
     if (!this.resting) this.showNow(now);
+  }
+
+  /** Fits the scale of the colours to all values so far. */
+  widen() {
+    this.recording.fields.forEach(({ least, greatest }, i) => Object.assign(this.fields[i], { least, greatest }));
+    if (!this.hasOwnRange) this.legend.setRange(...this.legend.wholeRange());
   }
 
   redrawCharts(now) {

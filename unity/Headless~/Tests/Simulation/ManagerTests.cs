@@ -99,6 +99,26 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_parameter_of_a_program_can_be_changed_between_two_ticks()
+        {
+            Configure("scaled");
+            var node = MakeNode(2);
+            var own = new GameObject("Own");
+            own.SetActive(false);
+            own.AddComponent<Node>().Parameters.Add(new NodeParameter("factor", "10"));
+            own.AddComponent<ProbeSensor>().Value = 2;
+            var actuator = own.AddComponent<ProbeActuator>();
+            own.SetActive(true);
+            Play(1);
+            Manager.Simulation.SetParameter("scaled", "factor", "7");
+            var later = MakeNode(3);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(14));
+            Assert.That(later.Answer, Is.EqualTo(21));
+            Assert.That(actuator.Last.Value, Is.EqualTo(20), "nodes keep their own values");
+        }
+
+        [Test]
         public void The_programs_of_the_jar_are_listed_with_their_parameters()
         {
             MakeNode(0);

@@ -4,6 +4,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.toMap
 import it.unibo.collektive.aggregate.values
+import org.collektive.api.Parameters
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import kotlin.test.assertEquals
@@ -27,6 +28,26 @@ class EngineTest {
                 mapOf(1 to emptyList<Int>(), 2 to listOf(1), 3 to listOf(2)),
                 step { due(1, 2, 3) }.toMap(),
             )
+        }
+    }
+
+    @Test
+    fun `new parameters of a node apply from their tick on and keep its state`() {
+        val summing = program { device -> alignedOn("sum") { evolve(0.0) { it + device.parameters.double("step") } } }
+        val nodeOne = { step: String -> NewNode(1, summing, Parameters(mapOf("step" to step))) }
+        TestEngine(summing).use { test ->
+            with(test) {
+                step {
+                    nodesAdded.add(nodeOne("1"))
+                    due(1)
+                }
+                val changed = step {
+                    nodesChanged.add(nodeOne("10"))
+                    due(1)
+                }
+                assertEquals<Any?>(11.0, changed.toMap()[1])
+                assertEquals<Any?>(21.0, step { due(1) }.toMap()[1])
+            }
         }
     }
 

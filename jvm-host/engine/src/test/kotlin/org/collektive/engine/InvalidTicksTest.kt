@@ -23,6 +23,11 @@ class InvalidTicksTest {
         Case("tick 3: node -1 cannot be added: the id must be 0 or greater") { it.add(-1) },
         Case("tick 3: node 2 cannot be added: the id is already in use") { it.add(2) },
         Case("tick 3: node 8 is added twice") { it.add(8, 7, 8) },
+        Case("tick 3: node 9 cannot be changed: unknown node") { it.change(9) },
+        Case("tick 3: node 2 cannot be changed: unknown node") {
+            it.nodesRemoved.add(2)
+            it.change(2)
+        },
         Case("tick 3: link 1 -> 9 cannot be removed: unknown link") { it.unlink(1, 9) },
         Case("tick 3: link 2 -> 1 cannot be removed: unknown link") { it.unlink(2, 1) },
         Case("tick 3: link 1 -> 2 is removed twice") { tick -> repeat(2) { tick.unlink(1, 2) } },

@@ -49,6 +49,8 @@ internal class TestEngine(
 
     fun Tick.add(vararg ids: Int) = ids.forEach { nodesAdded.add(NewNode(it, program, Parameters(emptyMap()))) }
 
+    fun Tick.change(id: Int) = nodesChanged.add(NewNode(id, program, Parameters(emptyMap())))
+
     fun Tick.link(from: Int, to: Int, length: Float = 1f, attenuation: Float = 0f) {
         val list = links as? LinkList ?: LinkList().also { links = it }
         list.add(from, to, length, attenuation)
