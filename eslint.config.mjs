@@ -10,8 +10,8 @@ export default [
   {
     files: ['unity/Headless~/Replay/**/*.{js,mjs}', 'scripts/**/*.mjs'],
     languageOptions: { globals: globals(
-      'Blob Buffer DecompressionStream MediaRecorder OffscreenCanvas Response TextDecoder URL WebSocket atob cancelAnimationFrame console devicePixelRatio document'
-        + ' getComputedStyle innerWidth matchMedia navigator performance process requestAnimationFrame setTimeout window',
+      'Blob Buffer DecompressionStream MediaRecorder OffscreenCanvas Response TextDecoder URL WebSocket atob cancelAnimationFrame console devicePixelRatio'
+        + ' document getComputedStyle innerWidth matchMedia navigator performance process requestAnimationFrame setTimeout window',
     ) },
     rules: { eqeqeq: 'error', 'no-var': 'error', 'prefer-const': 'error', 'no-unused-vars': ['error', { argsIgnorePattern: '^_' }] },
   },

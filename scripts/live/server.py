@@ -195,19 +195,19 @@ class Live:
                 command = json.loads(text)
                 await self.execute(page, command)
             except (ValueError, KeyError, TypeError, AttributeError) as error:
-                page.event({"event": "notice", "message": f"a command of the page is not valid: {error!r}"})
+                page.event({"event": "warning", "message": f"a command of the page is not valid: {error!r}"})
 
     async def execute(self, page: Page, command: dict[str, Any]) -> None:
         if self.pages[0] is not page:
             if "select" not in command:
-                page.event({"event": "notice", "message": "Another page controls the simulation."})
+                page.event({"event": "warning", "message": "Another page controls the simulation."})
         elif "save" in command:
             await self.save(page, command["save"], command["text"])
         elif "restart" in command:
             async with self._changing:
                 await self.restart(str(command["seed"]), command["restart"])
         elif "scenario" in command:
-            page.event({"event": "notice", "message": self.save_scenario(command["scenario"], command["set"])})
+            page.event({"event": "warning", "message": self.save_scenario(command["scenario"], command["set"])})
         elif PLAYER_COMMANDS & command.keys():
             self.player.send(command)
         else:
@@ -216,7 +216,7 @@ class Live:
     async def save(self, page: Page, name: str, text: str) -> None:
         """Writes a source of the programs and reloads them."""
         if name not in self._sources:
-            page.event({"event": "notice", "message": f"'{name}' is not a file of the programs"})
+            page.event({"event": "warning", "message": f"'{name}' is not a file of the programs"})
             return
         file = self.plan.parts["programs"].path / name
         part = file.with_name(f".{file.name}.part")
@@ -225,7 +225,7 @@ class Live:
             part.chmod(file.stat().st_mode)
             part.replace(file)
         except OSError as error:
-            page.event({"event": "notice", "message": f"cannot write '{file}': {error.strerror}"})
+            page.event({"event": "warning", "message": f"cannot write '{file}': {error.strerror}"})
             return
         self._sources[name] = text
         self.tell({"event": "files", "files": self._sources})

@@ -1,4 +1,5 @@
-"""moving_picture.py REPLAY.html FILE.webp: makes the animation in the README from the replay page of a demo.
+"""moving_picture.py REPLAY.html FILE.webp: makes the animation in the README from the replay page of a demo. With the address of a page of
+`./collektive live` instead, makes the one of an edit.
 
 Needs `./collektive setup npm site-tools`, and runs with build/site-tools/bin/python. Twelve pictures a second, and the last one for two seconds.
 """
@@ -19,7 +20,8 @@ MILLIS, LAST_MILLIS = 83, 2000
 def main(page: str, target: str) -> None:
     """Captures the frames in a browser and joins them."""
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(["node", HERE / "moving_picture.mjs", page, folder, str(FRAMES)], check=True,
+        script = "live_picture.mjs" if page.startswith("http") else "moving_picture.mjs"
+        subprocess.run(["node", HERE / script, page, folder, str(FRAMES)], check=True,
                        env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(HERE.parents[2] / "build/npm/node_modules")})
         pictures = [Image.open(path).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS) for path in sorted(Path(folder).glob("*.png"))]
     durations = [MILLIS] * (len(pictures) - 1) + [LAST_MILLIS]

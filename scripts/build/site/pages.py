@@ -13,9 +13,9 @@ from build.site import reference
 SECTIONS = {
     "Start": ["getting-started", "without-unity", "first-study"],
     "Concepts": ["aggregate-computing", "unity-for-researchers", "way-of-a-tick", "schedules-and-network", "reproducibility"],
-    "Tutorials": ["tutorial-first-swarm", "tutorial-own-parts", "tutorial-own-rule", "tutorial-scene-builder", "tutorial-debugging", "tutorial-profiling",
-                  "tutorial-experiment", "tutorial-from-collektive"],
-    "How-to": ["programs", "sensors-and-actuators", "neighbourhoods", "headless", "jvm-and-jfr", "where-the-jvm-runs", "samples",
+    "Tutorials": ["tutorial-first-swarm", "tutorial-own-parts", "tutorial-own-rule", "tutorial-scene-builder", "tutorial-live", "tutorial-debugging",
+                  "tutorial-profiling", "tutorial-experiment", "tutorial-from-collektive"],
+    "How-to": ["programs", "sensors-and-actuators", "neighbourhoods", "headless", "live", "jvm-and-jfr", "where-the-jvm-runs", "samples",
                "from-collektive", "trust", "troubleshooting"],
     "Reference": [*(f"reference/{name}" for name in reference.PAGES)],
     "Explanation": ["repository/architecture", "repository/boundary", "repository/determinism", "repository/record-format", "repository/performance",

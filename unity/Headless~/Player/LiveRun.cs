@@ -13,7 +13,7 @@ namespace Collektive.Headless
     /// Plays a scene in real time, and lets <c>./collektive live</c> control it. Commands, one key each: <c>run</c> (true or false), <c>step</c> (number of
     /// ticks), <c>speed</c> (simulated seconds per second), <c>reload</c>, <c>add</c> (number of nodes, <c>at</c> a point), <c>remove</c> (id), <c>select</c>
     /// (id or null), <c>parameter</c> (<c>program</c>, <c>name</c>, <c>value</c>). Events: <c>header</c> (FORMAT.md, Header, and controls),
-    /// <c>frame</c>, <c>reload</c>, <c>notice</c>, <c>stopped</c>.
+    /// <c>frame</c>, <c>reload</c>, <c>warning</c>, <c>stopped</c>.
     /// </summary>
     internal sealed class LiveRun
     {
@@ -67,7 +67,7 @@ namespace Collektive.Headless
             recorder.Add(0);
             while (!isEnded())
             {
-                // Signals are noticed between two waits.
+                // Handles signals between two waits.
                 var wait = isRunning || steps > 0 ? due - clock.Elapsed.TotalMilliseconds : 100;
                 if (channel.TryTake(Math.Max(0, (int)Math.Min(wait, 100)), out var command)) Execute(command);
                 else if ((isRunning || steps > 0) && due <= clock.Elapsed.TotalMilliseconds) Tick(frame);
@@ -274,6 +274,6 @@ namespace Collektive.Headless
             channel.Send(header);
         }
 
-        private void Notify(string message) => channel.Send(new JObject(new JProperty("event", "notice"), new JProperty("message", message)));
+        private void Notify(string message) => channel.Send(new JObject(new JProperty("event", "warning"), new JProperty("message", message)));
     }
 }

@@ -13,7 +13,7 @@ namespace Collektive.Headless
     {
         private const int MaxRows = 60;
 
-        /// <returns>Sensor data, answer and last error of a node; null if there is no such node.</returns>
+        /// <returns>Sensor data, answer and last error of a node; null for an unknown node.</returns>
         internal static JObject Of(SimulationManager manager, int id)
         {
             var node = id < 0 ? null : manager.Find(id);

@@ -77,7 +77,8 @@ namespace Collektive.Headless
 
         internal static Options Parse(string[] arguments)
         {
-            if (arguments.Length < 2 || Array.IndexOf(new[] { "plan", "run", "live", "serve" }, arguments[0]) < 0) throw new ScenarioException("usage:\n" + Usage);
+            if (arguments.Length < 2 || Array.IndexOf(new[] { "plan", "run", "live", "serve" }, arguments[0]) < 0)
+                throw new ScenarioException("usage:\n" + Usage);
             var options = new Options { Command = arguments[0], Scenario = arguments[1] };
             for (var i = 2; i < arguments.Length; i += 2)
             {

@@ -70,7 +70,7 @@ namespace Collektive.Headless
             scratch = ResultFile.Create(scratchPath);
         }
 
-        /// <summary>Writes no page. Each frame is a segment of its own, so that a reader can miss others.</summary>
+        /// <summary>Writes no page. Each frame is a separate segment, so that a reader can miss others.</summary>
         /// <param name="live">Receives the bytes of each frame and their number; the array is reused.</param>
         internal ReplayWriter(ReplayMetadata metadata, Action<byte[], int> live)
             : this(metadata, 1)

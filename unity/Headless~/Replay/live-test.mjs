@@ -57,7 +57,8 @@ const state = (view) => view.evaluate(() => {
   const { player } = window.replay;
   const field = player.fields.find(({ name }) => name === 'speed');
   const speeds = Array.from(player.here.slots, (slot) => field.valuesOf(player.here)[slot]).filter((speed) => !Number.isNaN(speed));
-  return { nodes: nodes.length, tick: player.recording.latest.tick, running: player.recording.latest.running, speed: speeds.reduce((sum, speed) => sum + speed, 0) / speeds.length };
+  const { tick, running } = player.recording.latest;
+  return { nodes: nodes.length, tick, running, speed: speeds.reduce((sum, speed) => sum + speed, 0) / speeds.length };
 });
 
 async function eventually(read, holds, message, milliseconds = 15000) {
@@ -90,7 +91,8 @@ async function inaccessible(tab) {
 }
 
 /** Saves a picture. A browser that draws without a graphics card may be too busy for one while the simulation runs. */
-const picture = (tab, name) => tab.screenshot({ path: join(folder, `${name}.png`), timeout: 5000 }).catch((error) => console.error(`${name}: ${error.message}`));
+const picture = (tab, name) => tab.screenshot({ path: join(folder, `${name}.png`), timeout: 5000 })
+  .catch((error) => console.error(`${name}: ${error.message}`));
 
 /** The status of a request with other headers. */
 const statusOf = (address, headers, path = '') => new Promise((resolve, reject) => {
@@ -249,7 +251,7 @@ suite('live', { timeout: 300000 }, async (t) => {
   await t.test('a program that never returns stops the simulation, and a restart continues', async () => {
     await edit(page.tab, 'val obstacle = Vector3()', 'while (position.x() < 1e9) Thread.onSpinWait()\n    val obstacle = Vector3()');
     await page.tab.waitForSelector('text=The simulation stopped', { timeout: 30000 });
-    assert.match(await page.tab.textContent('#notice'), /rounds did not finish within the time limit of 4000 ms/);
+    assert.match(await page.tab.textContent('#warning'), /rounds did not finish within the time limit of 4000 ms/);
     await picture(page.tab, 'stopped');
     writeFileSync(program, original);
     await eventually(() => page.tab.evaluate(() => window.live.files.text), (text) => text === original, 'the editor should show the file');
@@ -277,7 +279,7 @@ suite('live', { timeout: 300000 }, async (t) => {
   await t.test('saves a scenario', async () => {
     await page.tab.click('#keep summary');
     await page.tab.click('#save-scenario');
-    await page.tab.waitForSelector('#notice >> text=saved as');
+    await page.tab.waitForSelector('#warning >> text=saved as');
     const saved = JSON.parse(readFileSync(join(folder, 'out/live/GradientAscent/live.json'), 'utf8'));
     assert.deepEqual([saved.seed, saved.fields.nodes], [5, 20]);
   });
@@ -299,7 +301,7 @@ suite('live', { timeout: 300000 }, async (t) => {
     assert.match(other.output, /port \d+ is in use: choose another one/);
   });
 
-  await t.test('Ctrl-C ends the command and its processes; the page says so', async () => {
+  await t.test('Ctrl-C ends the command and its processes; the page reports it', async () => {
     assert.equal(await stop(live), 0);
     await page.tab.waitForSelector('#state >> text=connection lost');
     assert.ok(existsSync(program));

@@ -18,6 +18,7 @@ namespace Collektive.Samples.Swarm
         private const float Near = 2.5f;
         private const float OnSurface = 1;
 
+        private static readonly string[] ShapeNames = { "sphere", "ring", "wave", "letters" };
         private static readonly string[] Names = { "formed", "shapes", "nearest" };
 
         /// <summary>How many drones.</summary>
@@ -49,10 +50,14 @@ namespace Collektive.Samples.Swarm
         public override IReadOnlyList<string> MetricNames => Names;
 
         /// <inheritdoc/>
-        public override string ColouringName => "shape";
-
-        /// <inheritdoc/>
-        public override float GetColouringValue(Node node) => node.TryGetAnswer(out ActuatorData answer) ? answer.Shape : -1;
+        public override IReadOnlyList<NodeColouring> Colourings => new[]
+        {
+            new NodeColouring("height", node => node.transform.position.y) { Unit = "m" },
+            new NodeColouring("shape", node => node.TryGetAnswer(out ActuatorData answer) && answer.Shape >= 0 ? answer.Shape : double.NaN)
+            {
+                IsCategory = true, Categories = ShapeNames,
+            },
+        };
 
         /// <summary>
         /// Drones within a metre of the shape that they form; how many different shapes drones form; and the least distance in metres of two

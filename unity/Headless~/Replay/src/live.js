@@ -260,7 +260,7 @@ class Live {
       element('command').value = command;
       element('seed').value = seed;
       this.setControl(this.controls);
-      element('notice').hidden = true;
+      element('warning').hidden = true;
     },
     header(header) {
       this.pass(header);
@@ -279,7 +279,7 @@ class Live {
       if (error) this.report(`Not reloaded; the previous programs continue: ${error}`, 'bad');
       else this.report(`reloaded: kept ${kept.toLocaleString('en')} of ${stored.toLocaleString('en')} stored values`, 'good');
     },
-    notice({ message }) {
+    warning({ message }) {
       this.notify(message);
     },
     stopped({ message }) {
@@ -307,8 +307,8 @@ class Live {
   }
 
   notify(text) {
-    element('notice').textContent = text;
-    element('notice').hidden = false;
+    element('warning').textContent = text;
+    element('warning').hidden = false;
   }
 
   /** Shows a control for each parameter, field of the scene and value of the network. */
@@ -397,7 +397,7 @@ class Live {
       element('command').select();
       navigator.clipboard.writeText(element('command').value);
     });
-    element('notice').addEventListener('click', () => { element('notice').hidden = true; });
+    element('warning').addEventListener('click', () => { element('warning').hidden = true; });
     window.addEventListener('keydown', (event) => {
       if (!(event.ctrlKey || event.metaKey) || event.key !== 's') return;
       event.preventDefault();

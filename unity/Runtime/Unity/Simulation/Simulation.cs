@@ -208,7 +208,7 @@ namespace Collektive.Unity
             isReloadRequested = true;
         }
 
-        /// <summary>Sets a parameter of the nodes of a program that have no value of their own, from the next tick on.</summary>
+        /// <summary>Sets a parameter for the nodes of a program without their own value, from the next tick on.</summary>
         internal void SetParameter(string program, string name, string value)
         {
             if (!Settings.ProgramParameters.TryGetValue(program, out var values)) Settings.ProgramParameters.Add(program, values = new List<NodeParameter>());

@@ -1,41 +1,56 @@
 package drones
 
 import it.unibo.collektive.stdlib.util.Point3D
-import kotlin.math.atan2
-import kotlin.math.cos
+import kotlin.math.PI
 import kotlin.math.hypot
 import kotlin.math.max
+import kotlin.math.sin
 import kotlin.math.sqrt
 
-/** A surface around the origin. Shapes of one radius have about the same area. */
-internal fun interface Shape {
-    /** From [place] to the nearest point of the surface, or to one near it. */
-    fun wayTo(place: Point3D, radius: Double): Point3D
-}
+/**
+ * A surface around the origin. Shapes of one radius have about the same area.
+ *
+ * @property isRound whether drones can turn around the vertical axis and stay on the surface.
+ * @property wayTo from a place to the nearest point of the surface of a radius, or to one near it.
+ */
+internal class Shape(val isRound: Boolean, val wayTo: (place: Point3D, radius: Double) -> Point3D)
 
 /** The shapes, in order. */
 internal val SHAPES: List<Shape> = listOf(
-    Shape { place, radius -> place.atDistance(place.length, radius) - place },
+    Shape(isRound = true) { place, radius -> place.atDistance(place.length, radius) - place },
     // A ring of three times the thickness of its tube.
-    Shape { place, radius ->
+    Shape(isRound = true) { place, radius ->
         val middle = place.copy(y = 0.0).atDistance(hypot(place.x, place.z), RING * radius)
         val fromTube = place - middle
         fromTube.atDistance(fromTube.length, RING / 3 * radius) - fromTube
     },
-    // A tower with a waist.
-    Shape { place, radius ->
-        val half = TOWER * radius
-        val y = place.y.coerceIn(-half, half)
-        val wide = WAIST * radius * sqrt(1 + 2 * (y / half) * (y / half))
-        val onWall = place.copy(y = y).let { it.copy(y = 0.0).atDistance(hypot(it.x, it.z), wide) }.copy(y = y)
-        onWall - place
+    // A square with two waves.
+    Shape(isRound = false) { place, radius ->
+        val half = WAVE * radius
+        val x = place.x.coerceIn(-half, half)
+        Point3D(Triple(x, HEIGHT * radius * sin(2 * PI * x / half), place.z.coerceIn(-half, half))) - place
     },
-    // A star with four rounded points.
-    Shape { place, radius ->
-        val fromAxis = hypot(place.x, place.z)
-        val bulge = BULGE * cos(POINTS * atan2(place.z, place.x)) * fromAxis / max(place.length, TOO_SMALL)
-        place.atDistance(place.length, (1 + bulge) * radius) - place
+    // The word HI as tubes along the strokes of its letters, readable from above.
+    Shape(isRound = false) { place, radius ->
+        val middle = STROKES.map { it.nearestTo(place, radius) }.minBy { (place - it).length }
+        val fromTube = place - middle
+        fromTube.atDistance(fromTube.length, TUBE * radius) - fromTube
     },
+)
+
+/** A horizontal line between two points, in radii, parallel to an axis. */
+private class Stroke(val fromX: Double, val fromZ: Double, val toX: Double, val toZ: Double) {
+    fun nearestTo(place: Point3D, radius: Double) =
+        Point3D(Triple(place.x.coerceIn(fromX * radius, toX * radius), 0.0, place.z.coerceIn(fromZ * radius, toZ * radius)))
+}
+
+private val STROKES = listOf(
+    Stroke(-1.3, -1.2, -1.3, 1.2),
+    Stroke(-1.3, 0.0, -0.1, 0.0),
+    Stroke(-0.1, -1.2, -0.1, 1.2),
+    Stroke(0.5, -1.2, 1.3, -1.2),
+    Stroke(0.9, -1.2, 0.9, 1.2),
+    Stroke(0.5, 1.2, 1.3, 1.2),
 )
 
 internal val Point3D.length: Double get() = sqrt(x * x + y * y + z * z)
@@ -46,8 +61,7 @@ private fun Point3D.copy(x: Double = this.x, y: Double = this.y, z: Double = thi
 private fun Point3D.atDistance(length: Double, distance: Double) = this * (distance / max(length, TOO_SMALL))
 
 private const val RING = 0.98
-private const val TOWER = 1.5
-private const val WAIST = 0.5
-private const val POINTS = 4
-private const val BULGE = 0.35
+private const val WAVE = 1.5
+private const val HEIGHT = 0.3
+private const val TUBE = 0.19
 private const val TOO_SMALL = 1e-6

@@ -14,7 +14,7 @@ import kotlin.math.sqrt
 
 /**
  * Forms one shape after another. The drones elect a leader, whose clock determines the current shape, which spreads from neighbour to
- * neighbour. A drone flies to the nearest point of the shape and on around its axis, and keeps its distance from others.
+ * neighbour. A drone flies to the nearest point of the shape, turns with a round one, and keeps its distance from others.
  */
 @Program(
     "swarm",
@@ -37,9 +37,11 @@ public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorDa
     var off = 0.0
     if (turn != NOT_YET) {
         val fromMiddle = here - Point3D(Triple(0.0, MIDDLE * radius, 0.0))
-        val toShape = SHAPES[turn % SHAPES.size].wayTo(fromMiddle, radius)
+        val shape = SHAPES[turn % SHAPES.size]
+        val toShape = shape.wayTo(fromMiddle, radius)
         off = toShape.length
-        way += toShape * PULL + fromMiddle.around() * (ROTATION_SHARE * device.parameters.double("speed"))
+        way += toShape * PULL
+        if (shape.isRound) way += fromMiddle.around() * (ROTATION_SHARE * device.parameters.double("speed"))
     }
     return ActuatorData(
         target = (here + way).toVector(),

@@ -21,12 +21,13 @@ class ShapeTest {
     }
 
     @Test
-    fun `the ways to sphere, ring and tower have known lengths`() {
-        val (sphere, ring, tower) = SHAPES
+    fun `the ways to the shapes have known lengths`() {
+        val (sphere, ring, wave, letters) = SHAPES
         assertEquals(-10.0, sphere.wayTo(point(30.0, 0.0, 0.0), RADIUS).x, 1e-9)
         assertEquals(0.98 * RADIUS * 4 / 3 - 40, ring.wayTo(point(40.0, 0.0, 0.0), RADIUS).x, 1e-9)
-        assertEquals(0.5 * RADIUS - 1, tower.wayTo(point(1.0, 0.0, 0.0), RADIUS).x, 1e-9)
-        assertEquals(-10.0, tower.wayTo(point(50.0, 1.5 * RADIUS + 10, 0.0), RADIUS).y, 1e-9)
+        assertEquals(-10.0, wave.wayTo(point(1.5 * RADIUS + 10, 3.0, 0.0), RADIUS).x, 1e-9)
+        assertEquals(0.3 * RADIUS - 1, wave.wayTo(point(0.375 * RADIUS, 1.0, 5.0), RADIUS).y, 1e-9)
+        assertEquals(0.19 * RADIUS - 9, letters.wayTo(point(-0.7 * RADIUS, 9.0, 0.0), RADIUS).y, 1e-9)
     }
 
     @Test

@@ -93,6 +93,7 @@ internal class Step(val tick: Long) {
                 reloadTable,
                 measuresMessages,
                 measures,
+                0,
             ),
         )
         return direct(builder)
