@@ -27,6 +27,7 @@ namespace Collektive.Headless
 
         private readonly Scenario scenario;
         private readonly SceneBuilder scene;
+        private readonly RunMetrics runMetrics;
         private readonly MetricsTable metrics;
         private readonly SimulationManager manager;
         private readonly LiveChannel channel;
@@ -51,6 +52,7 @@ namespace Collektive.Headless
         {
             this.scenario = scenario;
             this.scene = scene;
+            this.runMetrics = runMetrics;
             this.metrics = metrics;
             this.manager = manager;
             this.channel = channel;
@@ -84,6 +86,7 @@ namespace Collektive.Headless
             // A simulation that is too slow for real time does not catch up.
             due = Math.Max(due + interval, clock.Elapsed.TotalMilliseconds - interval);
             var tick = manager.Tick;
+            runMetrics.Prepare(manager, rows.IsDue(ticks + 1));
             frame();
             if (manager.Failure.Length > 0 || manager.Tick == tick) return;
             ticks++;
