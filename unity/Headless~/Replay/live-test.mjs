@@ -48,7 +48,7 @@ async function open(address, options = {}) {
   tab.on('pageerror', (error) => complaints.push(error.message));
   await tab.goto(address);
   const view = tab.frame({ url: /\/view$/ });
-  await view.waitForFunction(() => window.replay.state?.().nodes.length > 0, null, { timeout: 20000 });
+  await view.waitForFunction(() => window.replay.state?.().nodes.length > 0, null, { timeout: 30000, polling: 100 });
   return { tab, view, complaints, close: () => context.close() };
 }
 
@@ -121,6 +121,9 @@ suite('live', { timeout: 300000 }, async (t) => {
   });
 
   await t.test('changes the running swarm within 3 s of saving a constant', async () => {
+    // The first compilation loads the compiler.
+    await edit(tab, 'var x = 0.0', 'var x = 0.00');
+    await eventually(() => outcome(tab), (text) => text.startsWith('reloaded'), 'the program should be reloaded', 60000);
     await eventually(() => state(view), ({ speed }) => speed > 0.3, 'the swarm should move');
     const began = Date.now();
     const { tick } = await state(view);
@@ -184,7 +187,7 @@ suite('live', { timeout: 300000 }, async (t) => {
 
   await t.test('inspects, adds and removes nodes', async () => {
     await view.evaluate(() => window.replay.select(7));
-    await view.waitForFunction(() => /Intensity/.test(document.getElementById('inspection').textContent));
+    await view.waitForFunction(() => /Intensity/.test(document.getElementById('inspection').textContent), null, { polling: 100 });
     assert.match(await view.textContent('#inspection'), /Sensors.*Position\.X.*Answer/s);
     await picture(tab, 'inspected');
     await tab.click('#add');
@@ -208,7 +211,7 @@ suite('live', { timeout: 300000 }, async (t) => {
     await second.tab.waitForSelector('text=Another page controls the simulation');
     await eventually(() => state(second.view), (now) => now.tick > tick + 10, 'the simulation should run');
     await page.close();
-    await second.tab.waitForFunction(() => !document.getElementById('add').disabled);
+    await second.tab.waitForFunction(() => !document.getElementById('add').disabled, null, { polling: 100 });
     page = second;
   });
 

@@ -416,12 +416,12 @@ class Live {
     const width = () => Number(divider.getAttribute('aria-valuenow'));
     divider.addEventListener('pointerdown', (event) => {
       divider.setPointerCapture(event.pointerId);
-      divider.parentElement.classList.add('dragging');
+      element('page').classList.add('dragging');
     });
     divider.addEventListener('pointermove', (event) => {
       if (divider.hasPointerCapture(event.pointerId)) setWidth((100 * event.clientX) / window.innerWidth);
     });
-    divider.addEventListener('pointerup', () => divider.parentElement.classList.remove('dragging'));
+    divider.addEventListener('pointerup', () => element('page').classList.remove('dragging'));
     divider.addEventListener('keydown', ({ key }) => {
       if (key === 'ArrowLeft' || key === 'ArrowRight') setWidth(width() + (key === 'ArrowLeft' ? -2 : 2));
     });
