@@ -39,7 +39,7 @@ async function stop({ child, ended }) {
 
 /** Opens the page and waits for its first frame. */
 async function open(address, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1440, height: 860 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1120, height: 720 }, ...options });
   const tab = await context.newPage();
   const complaints = [];
   tab.on('console', (message) => {
@@ -48,7 +48,10 @@ async function open(address, options = {}) {
   tab.on('pageerror', (error) => complaints.push(error.message));
   await tab.goto(address);
   const view = tab.frame({ url: /\/view$/ });
-  await view.waitForFunction(() => window.replay.state?.().nodes.length > 0, null, { timeout: 30000, polling: 100 });
+  await view.waitForFunction(() => window.replay.state?.().nodes.length > 0, null, { timeout: 30000, polling: 100 }).catch(async (error) => {
+    await context.close(); // it would control the simulation
+    throw error;
+  });
   return { tab, view, complaints, close: () => context.close() };
 }
 
@@ -196,14 +199,17 @@ suite('live', { timeout: 300000 }, async (t) => {
     await eventually(() => state(view), ({ nodes }) => nodes === 109, 'the node should leave');
     await tab.fill('#count', '3');
     await tab.click('#click-adds');
-    await view.click('#canvas', { position: { x: 300, y: 400 } });
+    await view.click('#canvas', { position: { x: 200, y: 300 } });
     await eventually(() => state(view), ({ nodes }) => nodes === 112, 'three nodes should join');
     await tab.click('#click-adds');
     await picture(tab, 'added');
   });
 
   await t.test('a second page watches, and controls the simulation when the first one has gone', async () => {
+    // Drawing two running simulations without a graphics card takes long.
+    await view.click('#play');
     const second = await open(live.address);
+    await view.click('#play');
     await second.tab.waitForSelector('text=watching');
     assert.ok(await second.tab.isDisabled('#add'));
     const { tick } = await state(second.view);
@@ -269,7 +275,9 @@ suite('live', { timeout: 300000 }, async (t) => {
   });
 
   await t.test('a page that reads nothing does not slow the simulation down', async () => {
+    await page.view.click('#play');
     const slow = await open(live.address);
+    await page.view.click('#play');
     const done = slow.tab.evaluate(() => { for (const end = Date.now() + 4000; Date.now() < end;); });
     const before = await state(page.view);
     await page.tab.waitForTimeout(3000);

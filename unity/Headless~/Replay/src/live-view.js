@@ -40,6 +40,7 @@ class LivePlayer extends Player {
     old.dispose();
     this.legend.choose(Math.max(this.fields.findIndex((field) => field.name === name), 0));
     this.drawCharts();
+    this.show(recording.times.at(-1));
   }
 
   /** Adds a frame and shows it over the time until the next one. */
