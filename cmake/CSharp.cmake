@@ -89,7 +89,7 @@ assembly(Collektive.Standard.dll SOURCES "${HEADLESS}/Standard" "${GENERATED}/st
 assembly(Collektive.SerializedFields.exe SOURCES "${HEADLESS}/SerializedFields" REFERENCES UnityEngine.dll)
 assembly(SampleReplay.exe SOURCES "${HEADLESS}/SampleReplay" "${HEADLESS}/Replay" REFERENCES Newtonsoft.Json.dll Mono.Posix.dll)
 assembly(Collektive.Headless.Bench.exe SOURCES "${HEADLESS}/Bench" "${HEADLESS}/Player/Quantiles.cs" "${GENERATED}/samples/GradientAscent"
-  OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll Newtonsoft.Json.dll DEPENDS "${GENERATED}/samples.stamp")
+  OPTIONS ${symbols} REFERENCES ${package} Newtonsoft.Json.dll DEPENDS "${GENERATED}/samples.stamp")
 assembly(Collektive.Fuzz.exe SOURCES "${HEADLESS}/Fuzz" REFERENCES ${package} Collektive.Player.exe Newtonsoft.Json.dll)
 
 # XML documentation for tests and the API reference, and the bridge as compiled for platforms without the shim.

@@ -18,11 +18,10 @@ set(incompatible "${CMAKE_BINARY_DIR}/native-shim/test/incompatible")
 collektive_step(incompatible_host OUTPUT "${COLLEKTIVE_BUILD}/incompatible-host.jar"
   COMMAND "${COLLEKTIVE_JAVA_HOME}/bin/jar" --create --file "${COLLEKTIVE_BUILD}/incompatible-host.jar" -C "${incompatible}" .
   DEPENDS shim_test_hosts "${incompatible}/stamp")
-assembly(TestSchemas.dll SOURCES "${GENERATED}/tests" OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll
-  DEPENDS "${GENERATED}/tests.stamp")
+assembly(TestSchemas.dll SOURCES "${GENERATED}/tests" OPTIONS ${symbols} REFERENCES ${package} DEPENDS "${GENERATED}/tests.stamp")
 set(schema "${HEADLESS}/Tests/Schema")
 assembly(RoundTrip.exe SOURCES "${schema}/Dump.cs" "${schema}/RandomData.cs" "${schema}/RoundTrip.cs"
-  REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll)
+  REFERENCES ${package})
 add_custom_target(roundtrip DEPENDS TestSchemas.dll RoundTrip.exe)
 
 suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go setup:prose PYTEST "${SCRIPTS}/checks/test_lint.py" -n 2)

@@ -15,7 +15,8 @@ JAVA = str(find_jdk() / "bin/java")
 # The programs are part of the tests of generator and frames.
 GENERATE_ALL = [JAVA, "-cp", f"{JVM}/generator/target/test-classes:{GENERATOR_JAR}", "org.collektive.generator.GenerateAll", str(FLATC),
                  str(ROOT / "schema")]
-REFERENCES = [f"-r:{CSHARP}/Collektive.FlatBuffers.dll", f"-r:{CSHARP}/Collektive.Bridge.dll"]
+ASSEMBLIES = ("Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "UnityEngine.dll", "Collektive.Unity.dll")
+REFERENCES = [f"-r:{CSHARP}/{name}" for name in ASSEMBLIES]
 
 
 def round_trip_csharp(program: Path = CSHARP / "RoundTrip.exe") -> list[str]:
@@ -46,7 +47,7 @@ def compile_generated(folder: Path) -> str:
     try:
         sources = csharp.sources([folder / "csharp"])
         _run(csharp.command(folder / "TestSchemas.dll", sources, [*csharp.symbols(), *REFERENCES]))
-        for name in ("RoundTrip.exe", "Collektive.FlatBuffers.dll", "Collektive.Bridge.dll"):
+        for name in ("RoundTrip.exe", *ASSEMBLIES):
             shutil.copy(CSHARP / name, folder)
         _compile_jvm(folder / "jvm", folder / "classes")
     except subprocess.CalledProcessError as error:

@@ -16,6 +16,9 @@ namespace Collektive.Unity.Editor
         private const string Index = "META-INF/collektive/programs/";
         private const string SchemaService = "META-INF/services/org.collektive.frames.data.DataSchema";
 
+        /// <summary>Columns before the possible values.</summary>
+        private const int ParameterColumns = 4;
+
         private readonly SortedDictionary<string, ProgramInfo> programs = new SortedDictionary<string, ProgramInfo>(StringComparer.Ordinal);
 
         private ProgramArchive(ZipArchive jar)
@@ -99,9 +102,11 @@ namespace Collektive.Unity.Editor
                     parameters = new List<ProgramParameter>();
                     programs.Add(columns[1], new ProgramInfo(columns[1], parameters));
                 }
-                else if (columns[0] == "parameter" && columns.Length == 4)
+                else if (columns[0] == "parameter" && columns.Length >= ParameterColumns)
                 {
-                    parameters?.Add(new ProgramParameter(columns[1], columns[2], columns[3]));
+                    var values = new string[columns.Length - ParameterColumns];
+                    Array.Copy(columns, ParameterColumns, values, 0, values.Length);
+                    parameters?.Add(new ProgramParameter(columns[1], columns[2], columns[3], values));
                 }
             }
         }

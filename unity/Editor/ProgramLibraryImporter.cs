@@ -7,7 +7,7 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>Imports a jar with programs as a <see cref="ProgramLibrary"/> that contains its programs.</summary>
-    [ScriptedImporter(1, ProgramLibrary.Extension)]
+    [ScriptedImporter(2, ProgramLibrary.Extension)]
     internal sealed class ProgramLibraryImporter : ScriptedImporter
     {
         /// <summary>References in scenes contain a hash of the identifier.</summary>

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.IO;
 using UnityEditor;
@@ -8,8 +9,8 @@ using UnityEngine.SceneManagement;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Replaces the names of programs and jars in scenes of earlier versions with references, when a scene is opened and before Play. Names without
-    /// a matching library are kept and reported.
+    /// Replaces the names of programs and jars in scenes of earlier versions and in their prefabs with references, when a scene is opened and before
+    /// Play. Names without a matching library are kept and reported.
     /// </summary>
     internal static class ProgramNames
     {
@@ -35,8 +36,31 @@ namespace Collektive.Unity.Editor
 
         private static void Replace(Scene scene)
         {
-            var settings = new SimulationSettings();
-            foreach (var root in scene.GetRootGameObjects())
+            var prefabs = PrefabsOf(scene);
+            var roots = scene.GetRootGameObjects();
+            var unknown = new HashSet<string>();
+            // Prefabs are saved first, because instances in the scene get their values.
+            var settings = ReplaceInManagers(prefabs, new SimulationSettings());
+            Array.ForEach(prefabs, AssetDatabase.SaveAssetIfDirty);
+            settings = ReplaceInManagers(roots, settings);
+            ReplaceInNodes(prefabs, settings, unknown);
+            Array.ForEach(prefabs, AssetDatabase.SaveAssetIfDirty);
+            ReplaceInNodes(roots, settings, unknown);
+        }
+
+        /// <summary>Returns the prefabs of the project that a saved scene refers to.</summary>
+        private static GameObject[] PrefabsOf(Scene scene)
+        {
+            if (scene.path.Length == 0) return new GameObject[0];
+            var paths = AssetDatabase.GetDependencies(new[] { scene.path }, true);
+            paths = Array.FindAll(paths, path => path.StartsWith("Assets/", StringComparison.Ordinal) && path.EndsWith(".prefab", StringComparison.Ordinal));
+            return Array.FindAll(Array.ConvertAll(paths, AssetDatabase.LoadAssetAtPath<GameObject>), prefab => prefab != null);
+        }
+
+        /// <returns>The settings of the last manager, or the given ones without a manager.</returns>
+        private static SimulationSettings ReplaceInManagers(GameObject[] roots, SimulationSettings settings)
+        {
+            foreach (var root in roots)
             {
                 foreach (var manager in root.GetComponentsInChildren<SimulationManager>(true))
                 {
@@ -44,8 +68,12 @@ namespace Collektive.Unity.Editor
                     if (settings.jars.Count > 0 || settings.schema.Length > 0 || settings.program.Length > 0) Replace(manager);
                 }
             }
-            var unknown = new HashSet<string>();
-            foreach (var root in scene.GetRootGameObjects())
+            return settings;
+        }
+
+        private static void ReplaceInNodes(GameObject[] roots, SimulationSettings settings, HashSet<string> unknown)
+        {
+            foreach (var root in roots)
             {
                 foreach (var node in root.GetComponentsInChildren<Node>(true))
                 {

@@ -100,7 +100,10 @@ namespace Collektive.Unity.Editor
                 return EditorGUI.IntField(line, label, integer).ToString(culture);
             if (parameter.Type == ParameterType.Number && double.TryParse(value, NumberStyles.Float, culture, out var number))
                 return EditorGUI.DoubleField(line, label, number).ToString("R", culture);
-            return EditorGUI.TextField(line, label, value);
+            var values = new List<string>(parameter.Values);
+            var selected = values.IndexOf(value);
+            if (selected < 0) return EditorGUI.TextField(line, label, value);
+            return values[EditorGUI.Popup(line, label, selected, values.ConvertAll(each => new GUIContent(each)).ToArray())];
         }
 
         private static string ValueOf(Node node, ProgramParameter parameter)

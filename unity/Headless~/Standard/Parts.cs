@@ -12,7 +12,7 @@ namespace Collektive.Standard
 
         protected override void Sense(ref SensorData data)
         {
-            data.Position = Node.Position.ToValue();
+            data.Position = Node.Position;
             data.Time = SimulationManager.Current.SimulatedTime;
             data.Random = Node.Random.NextDouble();
             data.Sets = Scene.SetsOf(Node.Id);
@@ -24,19 +24,19 @@ namespace Collektive.Standard
     /// <summary>Senses the velocity.</summary>
     public sealed class StandardVelocity : VelocitySensor<SensorData>
     {
-        protected override void Write(ref SensorData data, Vector3 velocity) => data.Velocity = velocity.ToValue();
+        protected override void Write(ref SensorData data, Vector3 velocity) => data.Velocity = velocity;
     }
 
     /// <summary>Moves the node's body with the program's velocity.</summary>
     public sealed class VelocityActuator : SetVelocityActuator<ActuatorData>
     {
-        protected override Vector3 Read(ActuatorData data) => data.Velocity.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Velocity;
     }
 
     /// <summary>Moves the node's body to the program's target.</summary>
     public sealed class TargetActuator : MoveActuator<ActuatorData>
     {
-        protected override Vector3 Read(ActuatorData data) => data.Target.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Target;
     }
 
     /// <summary>Moves a node without a body at random, with the node's random numbers.</summary>

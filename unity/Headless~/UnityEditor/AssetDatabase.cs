@@ -42,6 +42,13 @@ namespace UnityEditor
             ImportedAsset.Reimport(path);
         }
 
+        /// Only prefabs.
+        public static void SaveAssetIfDirty(Object obj)
+        {
+            AssetState.CheckChange();
+            PrefabFile.Save((UnityEngine.GameObject)obj);
+        }
+
         /// Prefabs become objects that are in no scene, and importers make other assets. Any other file that exists is an asset without content.
         public static T LoadAssetAtPath<T>(string assetPath) where T : Object
         {

@@ -40,6 +40,12 @@ namespace UnityEditor
         public static bool Toggle(Rect position, GUIContent label, bool value) => Draw("toggle", label, value);
         public static string TextField(Rect position, GUIContent label, string text) => Draw("text", label, text);
 
+        public static int Popup(Rect position, GUIContent label, int selectedIndex, GUIContent[] displayedOptions)
+        {
+            Gui.Draw("popup", label.text, showMixedValue ? "(mixed)" : displayedOptions[selectedIndex].text);
+            return Gui.Take(label.text, selectedIndex);
+        }
+
         public static void ObjectField(Rect position, SerializedProperty property, GUIContent label)
         {
             showMixedValue = property.hasMultipleDifferentValues;

@@ -19,6 +19,7 @@ namespace UnityEditor.SceneManagement
         public static Scene OpenScene(string scenePath)
         {
             Headless.SceneFile.Load(scenePath);
+            Loop.ScenePath = scenePath;
             sceneOpened?.Invoke(SceneManager.GetActiveScene(), OpenSceneMode.Single);
             return SceneManager.GetActiveScene();
         }

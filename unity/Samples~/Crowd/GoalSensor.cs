@@ -20,6 +20,6 @@ namespace Collektive.Samples.Crowd
         }
 
         /// <inheritdoc/>
-        protected override void Sense(ref SensorData data) => data.Goal = goal.ToValue();
+        protected override void Sense(ref SensorData data) => data.Goal = goal;
     }
 }

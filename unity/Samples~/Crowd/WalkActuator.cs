@@ -9,6 +9,6 @@ namespace Collektive.Samples.Crowd
     public sealed class WalkActuator : SetVelocityActuator<ActuatorData>
     {
         /// <inheritdoc/>
-        protected override Vector3 Read(ActuatorData data) => data.Velocity.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Velocity;
     }
 }

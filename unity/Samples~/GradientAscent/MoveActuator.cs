@@ -9,6 +9,6 @@ namespace Collektive.Samples.GradientAscent
     public sealed class MoveActuator : MoveActuator<ActuatorData>
     {
         /// <inheritdoc/>
-        protected override Vector3 Read(ActuatorData data) => data.Target.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Target;
     }
 }

@@ -21,7 +21,7 @@ namespace Collektive.Samples.GradientAscent
             Contacts = 0;
             foreach (var obstacle in obstacles)
             {
-                data.Obstacles.Add(obstacle.Vector.ToValue());
+                data.Obstacles.Add(obstacle.Vector);
                 if (obstacle.Distance <= BodyRadius + 0.01f) Contacts++;
             }
         }

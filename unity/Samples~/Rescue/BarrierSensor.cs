@@ -12,7 +12,7 @@ namespace Collektive.Samples.Rescue
         /// <inheritdoc/>
         protected override void Write(ref SensorData data, Span<Obstacle> obstacles)
         {
-            foreach (var obstacle in obstacles) data.Obstacles.Add(obstacle.Vector.ToValue());
+            foreach (var obstacle in obstacles) data.Obstacles.Add(obstacle.Vector);
         }
     }
 }

@@ -9,6 +9,6 @@ namespace Collektive.Samples.Rescue
     public sealed class DriveActuator : SetVelocityActuator<ActuatorData>
     {
         /// <inheritdoc/>
-        protected override Vector3 Read(ActuatorData data) => data.Velocity.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Velocity;
     }
 }

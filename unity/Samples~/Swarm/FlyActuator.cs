@@ -9,6 +9,6 @@ namespace Collektive.Samples.Swarm
     public sealed class FlyActuator : MoveActuator<ActuatorData>
     {
         /// <inheritdoc/>
-        protected override Vector3 Read(ActuatorData data) => data.Target.ToUnity();
+        protected override Vector3 Read(ActuatorData data) => data.Target;
     }
 }

@@ -9,6 +9,6 @@ namespace Collektive.Samples.Swarm
     public sealed class PositionSensor : PositionSensor<SensorData>
     {
         /// <inheritdoc/>
-        protected override void Write(ref SensorData data, Vector3 position) => data.Position = position.ToValue();
+        protected override void Write(ref SensorData data, Vector3 position) => data.Position = position;
     }
 }

@@ -169,7 +169,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             MakeThree();
             var inspector = UnityEditor.Editor.CreateEditor(Manager);
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             var file = Path.Combine(Path.GetTempPath(), "collektive-" + System.Guid.NewGuid().ToString("N") + ".jfr");
             try
             {
@@ -229,7 +229,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             MakeThree();
             var inspector = UnityEditor.Editor.CreateEditor(Manager);
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             Assert.That(inspector.RequiresConstantRepaint(), Is.True);
             foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Messages: 3 sent, 0 dropped, 0 delayed, 0 expired",
                 "label Tick: 1 (0.05 s)", "label JVM: " + TestJvm.Running, "label Errors: 0" })
@@ -237,10 +237,10 @@ namespace Collektive.Headless.Tests.Editor
                 Assert.That(Gui.Lines, Has.Some.EqualTo(line));
             }
             Gui.Act("Pause", true);
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             Assert.That(Manager.Paused, Is.True);
             Gui.Act("Step", true);
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             Assert.That(Manager.Tick, Is.EqualTo(2));
             Assert.That(Manager.Paused, Is.True);
         }
@@ -250,11 +250,11 @@ namespace Collektive.Headless.Tests.Editor
         {
             Configure("double", settings => settings.network = new NetworkModel { loss = 1 });
             MakeThree();
-            UnityEditor.Editor.CreateEditor(Manager).OnInspectorGUI();
+            Gui.Passes(UnityEditor.Editor.CreateEditor(Manager).OnInspectorGUI);
             Assert.That(Gui.Lines, Has.Some.EqualTo("label Messages: 3 sent, 3 dropped, 0 delayed, 0 expired"));
             Configure("double", settings => settings.network = new NetworkModel { delay = 1 });
             MakeThree();
-            UnityEditor.Editor.CreateEditor(Manager).OnInspectorGUI();
+            Gui.Passes(UnityEditor.Editor.CreateEditor(Manager).OnInspectorGUI);
             Assert.That(Gui.Lines, Has.Some.EqualTo("label Messages: 3 sent, 0 dropped, 3 delayed, 0 expired"));
         }
 
@@ -293,7 +293,7 @@ namespace Collektive.Headless.Tests.Editor
                 Assert.That(Directory.GetFiles(Recorder.Folder, "collektive-*.jfr").Length, Is.EqualTo(1));
                 Assert.That(Directory.GetFiles(Recorder.Folder, "dump-*.jfr").Length, Is.EqualTo(1));
                 Gui.Act("Show Recordings", true);
-                inspector.OnInspectorGUI();
+                Gui.Passes(inspector.OnInspectorGUI);
                 Assert.That(Project.Revealed, Is.EqualTo(Recorder.Folder));
                 Gui.Act("Recording settings", "fastest");
                 Gui.Act("Start Recording", true);
@@ -319,7 +319,7 @@ namespace Collektive.Headless.Tests.Editor
             if (TestJvm.Placement == JvmPlacement.OwnProcess) Assert.That(Gui.Lines, Has.Some.StringStarting("label JVM: process "));
             Assert.That(Gui.Lines, Has.None.Contains("help Error"));
             Gui.Act("Maximum heap (MB)", 3);
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             Assert.That(asset.settings.maximumHeapMb, Is.EqualTo(3));
             InspectChecked(inspector);
             Assert.That(Gui.Lines, Has.Some.Contains("help Error: maximum heap is 3: it must be 16"));
@@ -344,18 +344,18 @@ namespace Collektive.Headless.Tests.Editor
         {
             MakeThree();
             var inspector = UnityEditor.Editor.CreateEditor(Manager);
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             Assert.That(Gui.Lines, Has.Some.EqualTo("foldout JVM settings: closed"));
             Gui.Act("JVM settings", true);
             Gui.Act("Maximum heap (MB)", 512);
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             Assert.That(Manager.Settings.jvm.settings.maximumHeapMb, Is.EqualTo(512));
         }
 
         /// <summary>Draws the settings of a JVM, waits for their check on another thread, and draws again.</summary>
         private static void InspectChecked(UnityEditor.Editor inspector)
         {
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
             do
             {
                 Menus.Tick();
@@ -363,7 +363,7 @@ namespace Collektive.Headless.Tests.Editor
             }
             while (EditorApplication.update != null);
             Gui.Clear();
-            inspector.OnInspectorGUI();
+            Gui.Passes(inspector.OnInspectorGUI);
         }
 
         /// <summary>Redraws until a control appears: starting and writing a recording takes a moment.</summary>
@@ -373,7 +373,7 @@ namespace Collektive.Headless.Tests.Editor
             do
             {
                 Gui.Clear();
-                inspector.OnInspectorGUI();
+                Gui.Passes(inspector.OnInspectorGUI);
                 foreach (var line in Gui.Lines)
                 {
                     if (line == awaited) return;

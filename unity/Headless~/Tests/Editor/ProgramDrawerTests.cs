@@ -21,7 +21,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             Gui.Clear();
             library = Import("swarm", ProgramLibraryTests.Program("flock"),
-                ProgramLibraryTests.Program("hops", "steps\t3\tNumber of steps.", "range\t2.0\t", "far\tfalse\t", "title\tnone\t"));
+                ProgramLibraryTests.Program("hops", "steps\t3\tNumber of steps.", "range\t2.0\t", "far\tfalse\t", "title\tnone\t", "shape\tRING\t\tRING\tLINE"));
             manager = new GameObject("Manager").AddComponent<SimulationManager>();
             manager.Settings.libraries.Add(library);
             manager.Settings.defaultProgram = library.Find("hops");
@@ -89,6 +89,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Gui.Lines.Skip(1), Is.EqualTo(new[]
             {
                 "object ownProgram: ", "label Parameters of hops", "int steps: 3", "double range: 2", "toggle far: False", "text title: none",
+                "popup shape: RING",
             }));
         }
 
@@ -96,6 +97,7 @@ namespace Collektive.Headless.Tests.Editor
         [TestCase("range", 0.1, "0.1", 2.0)]
         [TestCase("far", true, "true", false)]
         [TestCase("title", "x", "x", "none")]
+        [TestCase("shape", 1, "LINE", 0)]
         public void A_value_is_stored_unless_it_is_the_default(string name, object value, string stored, object byDefault)
         {
             Act(name, value);
@@ -141,6 +143,9 @@ namespace Collektive.Headless.Tests.Editor
             node.Parameters.Add(new NodeParameter("steps", "2.5"));
             Inspect(node);
             Assert.That(Gui.Lines, Has.Some.EqualTo("text steps: 2.5"));
+            node.Parameters[0] = new NodeParameter("shape", "CUBE");
+            Inspect(node);
+            Assert.That(Gui.Lines, Has.Some.EqualTo("text shape: CUBE"));
         }
 
         [Test]
@@ -184,9 +189,10 @@ namespace Collektive.Headless.Tests.Editor
         private static EventType Drag(EventType type, SerializedProperty property, Object dragged, float x = 10)
         {
             DragAndDrop.objectReferences = new[] { dragged };
-            Event.current = new Event { type = type, mousePosition = new Vector2(x, 5) };
-            Menus.DrawerOf(typeof(AggregateProgram)).OnGUI(new Rect(0, 0, 300, 18), property, new GUIContent("Program"));
-            return Event.current.type;
+            var drawer = Menus.DrawerOf(typeof(AggregateProgram));
+            var drag = new Event { type = type, mousePosition = new Vector2(x, 5) };
+            Gui.Passes(() => drawer.OnGUI(new Rect(0, 0, 300, 18), property, new GUIContent("Program")), null, drag);
+            return drag.type;
         }
     }
 }

@@ -71,6 +71,24 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void Prefabs_that_the_scene_refers_to_are_converted_and_saved()
+        {
+            Settings.jars.Add("Library/Collektive/swarm.jar");
+            var prefab = File.ReadAllText(Path.Combine(Root, "unity/Prefabs/Node.prefab"));
+            const string node = "guid: 9c1e09e8ac3777bd27a3ab900fd4df1a, type: 3}\n";
+            string Fields(string reference, string name) => prefab.Replace(node, node + "  ownProgram: " + reference + "\n  program: " + name + "\n");
+            Write("Assets/Robot.prefab", Fields("{fileID: 0}", "flock"));
+            Write("Assets/Unused.prefab", Fields("{fileID: 0}", "flock"));
+            var robot = "{fileID: 1, guid: " + AssetDatabase.AssetPathToGUID("Assets/Robot.prefab") + ", type: 3}";
+            Write("Assets/Robots.unity", "--- !u!114 &1\nMonoBehaviour:\n  robot: " + robot + "\n");
+            EditorSceneManager.OpenScene("Assets/Robots.unity");
+            var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>("Assets/Swarm/swarm.clkprograms");
+            AssetDatabase.TryGetGUIDAndLocalFileIdentifier(library.Find("flock"), out var guid, out var id);
+            Assert.That(File.ReadAllText("Assets/Robot.prefab"), Is.EqualTo(Fields("{fileID: " + id + ", guid: " + guid + ", type: 3}", "")));
+            Assert.That(File.ReadAllText("Assets/Unused.prefab"), Is.StringContaining("program: flock"), "no open scene refers to it");
+        }
+
+        [Test]
         public void A_jar_without_a_library_stays_and_is_reported()
         {
             Settings.jars.Add("build/own.jar");

@@ -34,7 +34,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             var page = Draw(Personal);
             Gui.Act("JDK", "/opt/jdk");
-            page.OnGUI("");
+            Gui.Passes(() => page.OnGUI(""));
             Project.PerformUndo();
             Assert.That(PersonalSettings.instance.jdk, Is.Empty);
             Assert.That(File.ReadAllText("UserSettings/Collektive.asset"), Is.Not.StringContaining("/opt/jdk"));
@@ -65,13 +65,13 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Gui.Lines, Has.Some.Contains("help Warning: the JDK in the preferences, /nowhere/jdk"));
             Assert.That(Gui.Lines, Has.Some.EqualTo("label  : " + Path.GetFullPath("kotlinc")));
             Gui.Act("JDK", "/elsewhere/jdk");
-            page.OnGUI("");
+            Gui.Passes(() => page.OnGUI(""));
             Gui.Clear();
-            page.OnGUI("");
+            Gui.Passes(() => page.OnGUI(""));
             Assert.That(Gui.Lines, Has.Some.Contains("/nowhere/jdk"), "no event of the GUI searches the disk");
             Menus.Tick();
             Gui.Clear();
-            page.OnGUI("");
+            Gui.Passes(() => page.OnGUI(""));
             Assert.That(Gui.Lines, Has.Some.Contains("help Warning: the JDK in the preferences, /elsewhere/jdk"));
         }
 
@@ -80,7 +80,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Clear();
             var page = Menus.SettingsPages().Find(candidate => candidate.settingsPath == path);
             page.OnActivate("", null);
-            page.OnGUI("");
+            Gui.Passes(() => page.OnGUI(""));
             return page;
         }
     }

@@ -23,7 +23,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             Gui.Clear();
             var property = new SerializedObject(ScriptableObject.CreateInstance<Holder>()).FindProperty("text");
-            Menus.DrawerOf(typeof(ReadOnlyAttribute)).OnGUI(default, property, GUIContent.none);
+            Gui.Passes(() => Menus.DrawerOf(typeof(ReadOnlyAttribute)).OnGUI(default, property, GUIContent.none));
             Assert.That(Gui.Lines, Is.EqualTo(new[] { "(disabled) property text" }));
             Assert.That(Gui.DisabledDepth, Is.EqualTo(0));
         }

@@ -11,7 +11,7 @@ namespace Collektive.Headless.Tests.Simulation
         protected override void Sense(ref SensorData data)
         {
             data.Value = Value;
-            data.Position = transform.position.ToValue();
+            data.Position = transform.position;
         }
     }
 }

@@ -152,7 +152,7 @@ namespace Collektive.Headless.Tests.Simulation
 
         public sealed class Place : PositionSensor<SensorData>
         {
-            protected override void Write(ref SensorData data, Vector3 position) => data.Position = position.ToValue();
+            protected override void Write(ref SensorData data, Vector3 position) => data.Position = position;
         }
 
         public sealed class Speed : VelocitySensor<SensorData>

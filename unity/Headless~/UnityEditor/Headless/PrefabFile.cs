@@ -8,7 +8,8 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Reads the objects of a prefab with their components. Of fields, it reads names, scales and parents.
+    /// Reads the objects of a prefab with their components. Of fields, it reads names, scales and parents, and the texts and imported assets of scripts,
+    /// which it also writes.
     static class PrefabFile
     {
         private const RegexOptions Lines = RegexOptions.Multiline | RegexOptions.Singleline;
@@ -19,8 +20,8 @@ namespace UnityEditor.Headless
             ["Rigidbody"] = typeof(Rigidbody),
         };
 
-        /// Prefabs that are loaded and were not instantiated.
-        internal static readonly HashSet<UnityEngine.Object> Loaded = new HashSet<UnityEngine.Object>();
+        /// Prefabs that are loaded and were not instantiated, with their files.
+        internal static readonly Dictionary<UnityEngine.Object, string> Loaded = new Dictionary<UnityEngine.Object, string>();
 
         internal static GameObject Load(string path)
         {
@@ -42,12 +43,42 @@ namespace UnityEditor.Headless
             {
                 var text = part.Groups[1].Value;
                 var type = text.Substring(0, text.IndexOf(':'));
-                if (type == "MonoBehaviour") objects[Reference(text, "m_GameObject")].AddComponent(ScriptOf(text));
+                if (type == "MonoBehaviour") Read(text, objects[Reference(text, "m_GameObject")].AddComponent(ScriptOf(text)));
                 else if (BuiltIn.TryGetValue(type, out var component)) objects[Reference(text, "m_GameObject")].AddComponent(component);
             }
             foreach (var child in objects.Values) child.SetActive(child != root);
-            Loaded.Add(root);
+            Loaded.Add(root, path);
             return root;
+        }
+
+        static void Read(string text, Component script)
+        {
+            foreach (var field in SerializedFields.FieldsOf(script.GetType()))
+            {
+                var line = Regex.Match(text, "^  " + field.Name + ": (.*)$", RegexOptions.Multiline);
+                if (!line.Success) continue;
+                if (field.FieldType == typeof(string)) field.SetValue(script, line.Groups[1].Value);
+                else if (SceneFile.Referred(line.Groups[1].Value) is UnityEngine.Object asset && field.FieldType.IsInstanceOfType(asset)) field.SetValue(script, asset);
+            }
+        }
+
+        internal static void Save(GameObject prefab)
+        {
+            var scripts = new Queue<MonoBehaviour>(prefab.GetComponentsInChildren<MonoBehaviour>(true));
+            var path = Loaded[prefab];
+            File.WriteAllText(path, Regex.Replace(File.ReadAllText(path), @"^--- !u!114 &-?\d+\n(.*?)(?=^---|\z)", part => Written(part.Value, scripts.Dequeue()), Lines));
+        }
+
+        static string Written(string text, MonoBehaviour script)
+        {
+            foreach (var field in SerializedFields.FieldsOf(script.GetType()))
+            {
+                var value = field.GetValue(script);
+                if (value is UnityEngine.Object asset && AssetDatabase.TryGetGUIDAndLocalFileIdentifier(asset, out var guid, out var id))
+                    value = "{fileID: " + id + ", guid: " + guid + ", type: 3}";
+                if (value is string line) text = Regex.Replace(text, "^  " + field.Name + ":.*$", "  " + field.Name + ": " + line, RegexOptions.Multiline);
+            }
+            return text;
         }
 
         /// Like an asset it is inactive, but its copies are not.

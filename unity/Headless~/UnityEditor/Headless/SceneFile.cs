@@ -24,7 +24,7 @@ namespace UnityEditor.Headless
         }
 
         /// The imported object of a reference such as `{fileID: 1, guid: 2, type: 3}`, or null.
-        static object Referred(string reference)
+        internal static object Referred(string reference)
         {
             var parts = Regex.Match(reference, @"fileID: (-?\d+), guid: ([0-9a-f]+)");
             if (!parts.Success) return null;

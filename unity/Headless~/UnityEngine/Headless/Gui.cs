@@ -25,9 +25,9 @@ namespace UnityEngine.Headless
         /// Clears the recorded lines and actions.
         public static void Clear() => Drawn.Clear();
 
-        /// Draws as the editor does: a pass for the layout, and one for the event, here a repaint or what `Act` has ordered. `between` happens
-        /// between the two. A repaint with other controls than the layout is an error; a pass whose event a control has used may have any.
-        public static void Passes(Action draw, Action between = null)
+        /// Draws as the editor does: a pass for the layout, and one for `input`, by default a repaint or what `Act` has ordered. `between` happens
+        /// between the two. Other controls than in the layout are an error, unless a control has used the event.
+        public static void Passes(Action draw, Action between = null, Event input = null)
         {
             var shown = Drawn.Count;
             isPassing = true;
@@ -38,7 +38,7 @@ namespace UnityEngine.Headless
                 var controls = Drawn.GetRange(shown, Drawn.Count - shown).ConvertAll(KindAndName);
                 Drawn.RemoveRange(shown, controls.Count);
                 between?.Invoke();
-                Event.current = new Event { type = Actions.Count > 0 ? EventType.MouseDown : EventType.Repaint };
+                Event.current = input ?? new Event { type = Actions.Count > 0 ? EventType.MouseDown : EventType.Repaint };
                 draw();
                 if (Event.current.type == EventType.Used) return;
                 var repainted = Drawn.GetRange(shown, Drawn.Count - shown).ConvertAll(KindAndName);
@@ -59,15 +59,18 @@ namespace UnityEngine.Headless
         /// Values may change between layout and repaint.
         static string KindAndName(string line) => line.IndexOf(": ", StringComparison.Ordinal) is int end && end >= 0 ? line.Substring(0, end) : line;
 
-        public static void Draw(string kind, string name, string value = null) =>
+        public static void Draw(string kind, string name, string value = null)
+        {
+            if (!isPassing) throw new InvalidOperationException("the control '" + kind + " " + name + "' is drawn outside an event: use Gui.Passes");
             Drawn.Add((DisabledDepth > 0 ? "(disabled) " : "") + kind + " " + name + (value == null ? "" : ": " + value));
+        }
 
         public static T Take<T>(string name, T value)
         {
-            if (DisabledDepth > 0 || isPassing && Event.current.type == EventType.Layout || !Actions.TryGetValue(name, out var changed)) return value;
+            if (DisabledDepth > 0 || Event.current.type == EventType.Layout || !Actions.TryGetValue(name, out var changed)) return value;
             Actions.Remove(name);
             Changed = true;
-            if (isPassing) Event.current.Use();
+            Event.current.Use();
             return (T)changed;
         }
 

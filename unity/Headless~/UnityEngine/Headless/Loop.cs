@@ -26,6 +26,9 @@ namespace UnityEngine.Headless
         /// The value of `Application.dataPath`: by default, the folder of this program.
         public static string DataPath { get; set; } = AppDomain.CurrentDomain.BaseDirectory;
 
+        /// The asset path of the scene that the editor opened.
+        public static string ScenePath { set => SceneManagement.Scene.Active.File = value; }
+
         /// Permutes the orders that Unity does not specify: messages of one execution order in a frame, touches in a step and their two sides, and the
         /// enabling of objects that become active together. 0: orders of creation.
         public static int OrderSeed { get => Orders.Seed; set => Orders.Reset(value); }

@@ -18,12 +18,14 @@ namespace UnityEngine.SceneManagement
         {
             internal readonly List<GameObject> Roots = new List<GameObject>();
             internal string Name;
+            internal string Path = "";
         }
 
         internal List<GameObject> Roots => content.Roots;
+        internal string File { set => content.Path = value; }
 
         public bool IsValid() => content != null;
-        public string path => "";
+        public string path => content == null ? "" : content.Path;
         public string name { get => content == null ? "" : content.Name; set => content.Name = value; }
         public bool isLoaded => Loaded.Contains(this);
         public int buildIndex => Loaded.IndexOf(this);
@@ -47,6 +49,7 @@ namespace UnityEngine.SceneManagement
             Loaded.RemoveRange(1, Loaded.Count - 1);
             Active = Loaded[0];
             Active.name = "Scene";
+            Active.File = "";
         }
 
         public static bool operator ==(Scene lhs, Scene rhs) => lhs.content == rhs.content;

@@ -1,6 +1,6 @@
 namespace Collektive.Bridge
 {
-    /// <summary>The type of a program parameter, which follows from its default value.</summary>
+    /// <summary>The type of a program parameter. It follows from its enum class or its default value.</summary>
     public enum ParameterType
     {
         /// <summary>Any text.</summary>
@@ -14,5 +14,8 @@ namespace Collektive.Bridge
 
         /// <summary><c>true</c> or <c>false</c>; the default is one of them.</summary>
         Boolean,
+
+        /// <summary>A constant of the enum class in the parameter's declaration.</summary>
+        Enum,
     }
 }

@@ -22,12 +22,13 @@ namespace Collektive.Bridge
     /// <summary>A parameter that a program declares.</summary>
     public sealed class ProgramParameter
     {
-        internal ProgramParameter(string name, string defaultValue, string description)
+        internal ProgramParameter(string name, string defaultValue, string description, params string[] values)
         {
             Name = name;
             DefaultValue = defaultValue;
             Description = description;
-            Type = TypeOf(defaultValue);
+            Values = values;
+            Type = values.Length > 0 ? ParameterType.Enum : TypeOf(defaultValue);
         }
 
         /// <summary>The parameter's name.</summary>
@@ -41,6 +42,9 @@ namespace Collektive.Bridge
 
         /// <summary>The type of its values.</summary>
         public ParameterType Type { get; }
+
+        /// <summary>The possible values of <see cref="ParameterType.Enum"/>; empty for other types.</summary>
+        public IReadOnlyList<string> Values { get; }
 
         private static ParameterType TypeOf(string value)
         {

@@ -195,7 +195,9 @@ namespace Collektive.Bridge
                 for (var p = 0; p < parameters.Length; p++)
                 {
                     var parameter = program.Parameters(p).GetValueOrDefault();
-                    parameters[p] = new ProgramParameter(parameter.Name, parameter.DefaultValue, parameter.Description ?? "");
+                    var values = new string[parameter.ValuesLength];
+                    for (var v = 0; v < values.Length; v++) values[v] = parameter.Values(v);
+                    parameters[p] = new ProgramParameter(parameter.Name, parameter.DefaultValue, parameter.Description ?? "", values);
                 }
                 programs[i] = new ProgramInfo(program.Name, parameters);
             }

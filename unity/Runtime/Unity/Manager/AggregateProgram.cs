@@ -32,7 +32,7 @@ namespace Collektive.Unity
 
         /// <summary>The parameters that nodes can set, in the order of their declaration.</summary>
         public IReadOnlyList<ProgramParameter> Parameters =>
-            Array.ConvertAll(parameters, declared => new ProgramParameter(declared.name, declared.defaultValue, declared.description));
+            Array.ConvertAll(parameters, declared => new ProgramParameter(declared.name, declared.defaultValue, declared.description, declared.values));
 
         /// <summary>Sets the content; called once, by the importer.</summary>
         internal void Set(ProgramInfo program)
@@ -42,7 +42,13 @@ namespace Collektive.Unity
             for (var i = 0; i < parameters.Length; i++)
             {
                 var declared = program.Parameters[i];
-                parameters[i] = new Declaration { name = declared.Name, defaultValue = declared.DefaultValue, description = declared.Description };
+                parameters[i] = new Declaration
+                {
+                    name = declared.Name,
+                    defaultValue = declared.DefaultValue,
+                    description = declared.Description,
+                    values = new List<string>(declared.Values).ToArray(),
+                };
             }
         }
 
@@ -57,6 +63,9 @@ namespace Collektive.Unity
 
             [Tooltip("Meaning, unit and range.")]
             public string description;
+
+            [Tooltip("Possible values; empty if any text is possible.")]
+            public string[] values;
         }
     }
 }

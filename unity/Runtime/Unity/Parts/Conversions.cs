@@ -2,31 +2,18 @@ using org.collektive.schema;
 
 namespace Collektive.Unity
 {
-    /// <summary>Converts between Unity's value types and those of <c>types.fbs</c>.</summary>
+    /// <summary>Converts value types of <c>types.fbs</c> to Unity's, for expressions. Assignments convert values implicitly, in both directions.</summary>
     public static class Conversions
     {
-        /// <summary>Converts to schema data.</summary>
-        public static Vector3Value ToValue(this UnityEngine.Vector3 vector) => new Vector3Value(vector.x, vector.y, vector.z);
-
         /// <summary>Converts to Unity's type.</summary>
         public static UnityEngine.Vector3 ToUnity(this Vector3Value value) => new UnityEngine.Vector3(value.X, value.Y, value.Z);
-
-        /// <summary>Converts to schema data.</summary>
-        public static Vector2Value ToValue(this UnityEngine.Vector2 vector) => new Vector2Value(vector.x, vector.y);
 
         /// <summary>Converts to Unity's type.</summary>
         public static UnityEngine.Vector2 ToUnity(this Vector2Value value) => new UnityEngine.Vector2(value.X, value.Y);
 
-        /// <summary>Converts to schema data.</summary>
-        public static QuaternionValue ToValue(this UnityEngine.Quaternion rotation) =>
-            new QuaternionValue(rotation.x, rotation.y, rotation.z, rotation.w);
-
         /// <summary>Converts to Unity's type.</summary>
         public static UnityEngine.Quaternion ToUnity(this QuaternionValue value) =>
             new UnityEngine.Quaternion(value.X, value.Y, value.Z, value.W);
-
-        /// <summary>Converts to schema data. Unity's colour is treated as linear.</summary>
-        public static ColorValue ToValue(this UnityEngine.Color color) => new ColorValue(color.r, color.g, color.b, color.a);
 
         /// <summary>Converts to Unity's type.</summary>
         public static UnityEngine.Color ToUnity(this ColorValue value) => new UnityEngine.Color(value.R, value.G, value.B, value.A);

@@ -12,7 +12,7 @@ namespace Lamps
         {
             data.Brightness = Brightness;
             data.Labels.Add(name);
-            data.Place = transform.position.ToValue();
+            data.Place = transform.position;
         }
     }
 

@@ -1,5 +1,7 @@
 package org.collektive.api
 
+import kotlin.enums.enumEntries
+
 /** One node's values of the parameters that its program declares. Immutable and thread-safe. */
 public class Parameters(values: Map<String, String>) {
     private val names = values.keys.toTypedArray()
@@ -11,7 +13,7 @@ public class Parameters(values: Map<String, String>) {
     /**
      * Returns the text of the parameter [name].
      *
-     * @throws NoSuchElementException when the program does not declare the parameter; [double], [int] and [boolean] throw it, too.
+     * @throws NoSuchElementException when the program does not declare the parameter; [double], [int], [boolean] and [enum] throw it, too.
      */
     public operator fun get(name: String): String = texts[indexOf(name)]
 
@@ -43,6 +45,16 @@ public class Parameters(values: Map<String, String>) {
      */
     public fun boolean(name: String): Boolean =
         requireNotNull(get(name).toBooleanStrictOrNull()) { "parameter '$name' must be true or false, but is '${get(name)}'" }
+
+    /**
+     * Returns the constant of [T] that the parameter [name] names.
+     *
+     * @throws IllegalArgumentException when [T] has no such constant.
+     */
+    public inline fun <reified T : Enum<T>> enum(name: String): T {
+        val text = get(name)
+        return requireNotNull(enumEntries<T>().find { it.name == text }) { "parameter '$name' must be one of ${enumEntries<T>()}, but is '$text'" }
+    }
 
     private fun indexOf(name: String): Int {
         val index = names.indexOf(name)

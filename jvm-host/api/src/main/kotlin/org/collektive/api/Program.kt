@@ -1,5 +1,7 @@
 package org.collektive.api
 
+import kotlin.reflect.KClass
+
 /**
  * Declares a public top-level function as a program that nodes can run:
  *
@@ -23,7 +25,13 @@ public annotation class Program(val name: String, val parameters: Array<Paramete
  * @property name unique in its program.
  * @property default the value of nodes that do not override it, as text.
  * @property description one line for the inspector with meaning, unit and range.
+ * @property values an enum class whose constants are the possible values; [default] is the name of one. Without it any text is possible.
  */
 @Target()
 @Retention(AnnotationRetention.RUNTIME)
-public annotation class Parameter(val name: String, val default: String, val description: String = "")
+public annotation class Parameter(
+    val name: String,
+    val default: String,
+    val description: String = "",
+    val values: KClass<out Enum<*>> = Enum::class,
+)

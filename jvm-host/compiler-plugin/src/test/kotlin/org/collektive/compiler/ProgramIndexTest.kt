@@ -6,7 +6,7 @@ import kotlin.test.assertEquals
 /** The programs of a module and their parameters are listed beside its classes. */
 class ProgramIndexTest {
     @Test
-    fun `programs are listed with their sensor data, parameters, defaults and descriptions`() {
+    fun `programs are listed with their sensor data, parameters, defaults, descriptions and constants`() {
         val index = Compilation.of(
             """
             package swarm
@@ -17,7 +17,8 @@ class ProgramIndexTest {
             @Program("hops", parameters = [Parameter("bright", "90", "Intensity of a source."), Parameter(default = "1.5", name = SPEED)])
             fun Aggregate<Int>.hops(sensors: SensorData): Int = localId
             fun Aggregate<Int>.helper(sensors: SensorData): Int = localId
-            @Program("plain")
+            enum class Shape { RING, LINE; fun next() = LINE }
+            @Program("plain", parameters = [Parameter("shape", "RING", values = Shape::class)])
             fun Aggregate<Int>.plain(sensors: SensorData): Int = localId
             """,
         ).output("META-INF/collektive/programs/swarm.ProgramKt")
@@ -27,6 +28,7 @@ class ProgramIndexTest {
             parameter	bright	90	Intensity of a source.
             parameter	speed	1.5	
             program	plain	swarm.SensorData
+            parameter	shape	RING		RING	LINE
 
             """.trimIndent(),
             index,

@@ -5,10 +5,13 @@ package org.collektive.compiler.programs
 import org.jetbrains.kotlin.backend.common.extensions.IrGenerationExtension
 import org.jetbrains.kotlin.backend.common.extensions.IrPluginContext
 import org.jetbrains.kotlin.ir.declarations.IrAnnotationContainer
+import org.jetbrains.kotlin.ir.declarations.IrClass
+import org.jetbrains.kotlin.ir.declarations.IrEnumEntry
 import org.jetbrains.kotlin.ir.declarations.IrFile
 import org.jetbrains.kotlin.ir.declarations.IrModuleFragment
 import org.jetbrains.kotlin.ir.declarations.IrParameterKind
 import org.jetbrains.kotlin.ir.declarations.IrSimpleFunction
+import org.jetbrains.kotlin.ir.expressions.IrClassReference
 import org.jetbrains.kotlin.ir.expressions.IrConst
 import org.jetbrains.kotlin.ir.expressions.IrConstructorCall
 import org.jetbrains.kotlin.ir.expressions.IrExpression
@@ -28,7 +31,7 @@ import java.io.File
  * separated by tabs, and `\\`, `\t`, `\n`, `\r` stand for these characters in a column:
  *
  * - `program`, the name, the full name of the type of the sensor data;
- * - `parameter` of the program above: the name, the default, the description.
+ * - `parameter` of the program above: the name, the default, the description, and the constants of its enum class.
  */
 internal class ProgramIndex(private val output: File) : IrGenerationExtension {
     override fun generate(moduleFragment: IrModuleFragment, pluginContext: IrPluginContext) {
@@ -49,7 +52,7 @@ internal class ProgramIndex(private val output: File) : IrGenerationExtension {
         val sensors = function.parameters.firstOrNull { it.kind == IrParameterKind.Regular }?.type?.classFqName?.asString().orEmpty()
         val parameters = (program.getOrNull(1) as? IrVararg)?.elements.orEmpty().filterIsInstance<IrConstructorCall>()
         return listOf(record("program", program[0].text(), sensors)) +
-            parameters.map { it.arguments }.map { record("parameter", it[0].text(), it[1].text(), it[2].text()) }
+            parameters.map { it.arguments }.map { record("parameter", it[0].text(), it[1].text(), it[2].text(), *it.getOrNull(3).constants()) }
     }
 
     /** The class that the top-level functions of [file] are compiled to. */
@@ -61,6 +64,11 @@ internal class ProgramIndex(private val output: File) : IrGenerationExtension {
     private fun IrAnnotationContainer.jvmName(): String? = getAnnotation(JVM_NAME)?.arguments?.get(0)?.text()
 
     private fun IrExpression?.text(): String = (this as? IrConst)?.value as? String ?: ""
+
+    private fun IrExpression?.constants(): Array<String> {
+        val type = (this as? IrClassReference)?.symbol?.owner as? IrClass
+        return type?.declarations.orEmpty().filterIsInstance<IrEnumEntry>().map { it.name.asString() }.toTypedArray()
+    }
 
     private fun record(vararg columns: String) = columns.joinToString("\t", postfix = "\n") {
         it.replace("\\", "\\\\").replace("\t", "\\t").replace("\n", "\\n").replace("\r", "\\r")

@@ -1,6 +1,7 @@
 package org.collektive.frames.session
 
 import com.google.flatbuffers.FlatBufferBuilder
+import org.collektive.api.Parameter
 import org.collektive.api.Program
 import org.collektive.frame.FrameLayouts
 import org.collektive.frame.OpenRequest
@@ -32,6 +33,10 @@ public fun openFrame(request: OpenRequestT): ByteBuffer {
 public val OpenRequest.types: Map<String, Long>
     get() = (0 until typesLength()).associate { index -> types(index).let { it.name() to it.hash() } }
 
+/** The names of the parameter's possible values; empty if any text is possible. */
+public val Parameter.constants: List<String>
+    get() = values.java.enumConstants.orEmpty().map { it.name }
+
 /** Writes an `OpenResponse` that lists [programs]. Returns its position, see [AnswerBuffer.finish]. */
 public fun AnswerBuffer.writeOpenResponse(programs: Collection<Program>): Long {
     val vector = OpenResponse.createProgramsVector(builder, writePrograms(programs))
@@ -47,6 +52,7 @@ internal fun AnswerBuffer.writePrograms(programs: Collection<Program>): IntArray
                 builder.createString(it.name),
                 builder.createString(it.default),
                 builder.createString(it.description),
+                ParameterInfo.createValuesVector(builder, it.constants.map(builder::createString).toIntArray()),
             )
         }
         val name = builder.createString(program.name)

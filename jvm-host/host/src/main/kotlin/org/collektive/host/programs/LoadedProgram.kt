@@ -5,6 +5,7 @@ import org.collektive.api.Parameters
 import org.collektive.api.Program
 import org.collektive.engine.NodeProgram
 import org.collektive.engine.RoundDevice
+import org.collektive.frames.session.constants
 import org.collektive.host.jfr.RoundSampling
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
@@ -28,7 +29,15 @@ internal class LoadedProgram(
 ) : NodeProgram {
     override val name: String get() = info.name
 
+    private val constants = info.parameters.associate { it.name to it.constants }
+
     private val defaults = Parameters(info.parameters.associate { it.name to it.default })
+
+    init {
+        for (declared in info.parameters) {
+            checkConstant(declared.name, declared.default) { "program '$name': the default of the parameter '${declared.name}' is" }
+        }
+    }
 
     override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any? {
         val argument: Device = device // invokeExact needs this static type
@@ -45,7 +54,8 @@ internal class LoadedProgram(
     /**
      * Returns the parameters of [node], which overrides [values].
      *
-     * @throws HostException when a value is not a number although its default is one, or its parameter is not declared.
+     * @throws HostException when a value is not a number although its default is one, not a constant of the parameter's enum class, or its
+     * parameter is not declared.
      */
     fun parameters(node: Int, values: Map<String, String>): Parameters {
         if (values.isEmpty()) return defaults
@@ -63,9 +73,16 @@ internal class LoadedProgram(
                     "node $node sets the parameter '$name' of program '${this.name}' to '$value': it must be a number like its default ${all[name]}",
                 )
             }
+            checkConstant(name, value) { "node $node sets the parameter '$name' of program '${this.name}' to" }
             all[name] = value
         }
         return Parameters(all)
+    }
+
+    private inline fun checkConstant(name: String, value: String, subject: () -> String) {
+        val possible = constants.getValue(name)
+        if (possible.isEmpty() || value in possible) return
+        throw HostException(HostError.PROGRAM, "${subject()} '$value': it must be one of $possible")
     }
 
     companion object {

@@ -10,8 +10,13 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
 class LoadedProgramTest {
-    private val program = LoadedProgram(
-        Program("steer", parameters = arrayOf(Parameter("speed", "1.5", "m/s"), Parameter("mode", "fast", ""))),
+    private enum class Shape { RING, LINE }
+
+    private val program =
+        program(Parameter("speed", "1.5", "m/s"), Parameter("mode", "fast", ""), Parameter("shape", "RING", values = Shape::class))
+
+    private fun program(vararg parameters: Parameter) = LoadedProgram(
+        Program("steer", parameters = arrayOf(*parameters)),
         MethodHandles.empty(LoadedProgram.TYPE),
         "steer.SteerKt.steer",
         javaClass.classLoader,
@@ -25,6 +30,15 @@ class LoadedProgramTest {
             refused.message,
         )
         assertEquals(2.0, program.parameters(3, mapOf("speed" to "2", "mode" to "slow")).double("speed"))
+    }
+
+    @Test
+    fun `a value and the default must be constants of the parameter's enum class`() {
+        val refused = assertFailsWith<HostException> { program.parameters(3, mapOf("shape" to "CUBE")) }
+        assertEquals("node 3 sets the parameter 'shape' of program 'steer' to 'CUBE': it must be one of [RING, LINE]", refused.message)
+        assertEquals(Shape.LINE, program.parameters(3, mapOf("shape" to "LINE")).enum<Shape>("shape"))
+        val misdeclared = assertFailsWith<HostException> { program(Parameter("shape", "ring", values = Shape::class)) }
+        assertEquals("program 'steer': the default of the parameter 'shape' is 'ring': it must be one of [RING, LINE]", misdeclared.message)
     }
 
     @Test

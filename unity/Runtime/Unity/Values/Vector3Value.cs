@@ -3,9 +3,9 @@ using Collektive.Bridge;
 
 namespace org.collektive.schema
 {
-    /// <summary>Mirror of <c>Quaternion</c> of <c>types.fbs</c>.</summary>
+    /// <summary>Mirror of <c>Vector3</c> of <c>types.fbs</c>.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    public struct QuaternionValue : IMirror
+    public struct Vector3Value : IMirror
     {
         /// <summary>Field <c>x</c>.</summary>
         public float X;
@@ -16,17 +16,19 @@ namespace org.collektive.schema
         /// <summary>Field <c>z</c>.</summary>
         public float Z;
 
-        /// <summary>Field <c>w</c>.</summary>
-        public float W;
-
         /// <summary>Creates a value from its fields.</summary>
-        public QuaternionValue(float x, float y, float z, float w)
+        public Vector3Value(float x, float y, float z)
         {
             X = x;
             Y = y;
             Z = z;
-            W = w;
         }
+
+        /// <summary>Converts to schema data.</summary>
+        public static implicit operator Vector3Value(UnityEngine.Vector3 value) => new Vector3Value(value.x, value.y, value.z);
+
+        /// <summary>Converts to Unity's type.</summary>
+        public static implicit operator UnityEngine.Vector3(Vector3Value value) => new UnityEngine.Vector3(value.X, value.Y, value.Z);
 
         /// <inheritdoc/>
         public string FindNotFinite()
@@ -34,7 +36,6 @@ namespace org.collektive.schema
             if (!float.IsFinite(X)) return "x";
             if (!float.IsFinite(Y)) return "y";
             if (!float.IsFinite(Z)) return "z";
-            if (!float.IsFinite(W)) return "w";
             return null;
         }
     }

@@ -20,6 +20,12 @@ namespace org.collektive.schema
             Y = y;
         }
 
+        /// <summary>Converts to schema data.</summary>
+        public static implicit operator Vector2Value(UnityEngine.Vector2 value) => new Vector2Value(value.x, value.y);
+
+        /// <summary>Converts to Unity's type.</summary>
+        public static implicit operator UnityEngine.Vector2(Vector2Value value) => new UnityEngine.Vector2(value.X, value.Y);
+
         /// <inheritdoc/>
         public string FindNotFinite()
         {

@@ -28,6 +28,12 @@ namespace org.collektive.schema
             A = a;
         }
 
+        /// <summary>Converts to schema data. Unity's colour is treated as linear.</summary>
+        public static implicit operator ColorValue(UnityEngine.Color value) => new ColorValue(value.r, value.g, value.b, value.a);
+
+        /// <summary>Converts to Unity's type.</summary>
+        public static implicit operator UnityEngine.Color(ColorValue value) => new UnityEngine.Color(value.R, value.G, value.B, value.A);
+
         /// <inheritdoc/>
         public string FindNotFinite()
         {
