@@ -33,6 +33,9 @@ IMPORTERS = {
     ".prefab": "PrefabImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".shader": "ShaderImporter:\n  externalObjects: {}\n  defaultTextures: []\n  nonModifiableTextures: []\n  preprocessorOverride: 0\n"
                "  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
+    ".png": "TextureImporter:\n  externalObjects: {}\n  serializedVersion: 13\n  mipmaps:\n    enableMipMap: 0\n"
+            "  textureSettings:\n    wrapU: 1\n    wrapV: 1\n  nPOTScale: 0\n  alphaIsTransparency: 1\n  textureType: 2\n"
+            "  userData: \n  assetBundleName: \n  assetBundleVariant: \n",
     ".dll": PLUGIN % (PLATFORM % ("Any: ", 1, " {}") + PLATFORM % ("Editor: Editor", 0, "\n        DefaultValueInitialized: true")),
     ".json": TEXT,
     "package.json": "PackageManifestImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n",

@@ -11,7 +11,7 @@ from pathlib import Path
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [os.path.dirname(HERE), HERE]
-from validator import asmdefs, guids, packing, players, plugins, references, serialized_fields  # noqa: E402
+from validator import asmdefs, guids, icons, packing, players, plugins, references, serialized_fields  # noqa: E402
 from validator.assets import Assets  # noqa: E402
 from validator.serialized_fields import ScriptClass  # noqa: E402
 
@@ -24,6 +24,7 @@ def problems(root: str | Path, classes: Mapping[str, ScriptClass], guids_file: s
     assets = Assets(root)
     yield from guids.problems(assets, classes, guids_file)
     yield from asmdefs.problems(assets)
+    yield from icons.problems(assets)
     yield from references.problems(assets, classes)
     yield from packing.problems(assets)
     yield from players.problems(assets)

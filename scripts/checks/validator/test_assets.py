@@ -111,6 +111,10 @@ class ValidatorTest(unittest.TestCase):
         self.assertEqual(guids.read(self.guids_file), before)
         self.assert_problem(PREFAB, "its GUID", "is missing")
 
+    def test_finds_a_component_without_an_icon(self) -> None:
+        self.change("unity/Runtime/Unity/Nodes/Node.cs.meta", r"icon: .*", "icon: {instanceID: 0}")
+        self.assert_problem("Node.cs.meta", "no icon")
+
     def test_finds_a_script_reference_to_nothing(self) -> None:
         self.change(PREFAB, r"guid: [0-9a-f]{32}", "guid: " + 32 * "b")
         self.assert_problem(PREFAB, "MonoBehaviour.m_Script", 32 * "b")

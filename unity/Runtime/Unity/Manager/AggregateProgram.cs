@@ -6,6 +6,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>A program of a <see cref="ProgramLibrary"/>, which the Simulation Manager and nodes refer to.</summary>
+    [HelpPage("programs.md#select-programs")]
     public sealed class AggregateProgram : ScriptableObject
     {
         [SerializeField]

@@ -1,6 +1,7 @@
 using System;
 using System.IO;
 using System.Runtime.InteropServices;
+using System.Text.RegularExpressions;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -77,6 +78,16 @@ namespace Collektive.Unity
             if (!file.StartsWith(Package + "/", StringComparison.Ordinal)) return ToPhysical(file);
             var content = ToPhysical(Package + "/unity");
             return Directory.Exists(content) ? Path.Combine(content, file.Substring(Package.Length + 1)) : ToPhysical(file);
+        }
+
+        /// <summary>Returns the address of a page of the manual: in the repository of a release, otherwise the package's own file.</summary>
+        internal static string AddressOf(string page)
+        {
+            var manifest = ToPhysical(Package + "/package.json");
+            var index = Regex.Match(File.Exists(manifest) ? File.ReadAllText(manifest) : "", "\"documentationUrl\": *\"([^\"]*)/index\\.md\"");
+            if (index.Success) return index.Groups[1].Value + "/" + page;
+            var parts = page.Split('#');
+            return new Uri(ToPhysical(Package + "/Documentation~/" + parts[0])).AbsoluteUri + (parts.Length > 1 ? "#" + parts[1] : "");
         }
 
         /// <summary>

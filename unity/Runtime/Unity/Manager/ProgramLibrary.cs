@@ -8,6 +8,7 @@ namespace Collektive.Unity
     /// A jar with compiled programs, imported from a <c>.clkprograms</c> file. The Simulation Manager lists the libraries whose programs nodes
     /// can run, and players contain the libraries that their scenes refer to.
     /// </summary>
+    [HelpPage("programs.md#select-programs")]
     public sealed class ProgramLibrary : ScriptableObject
     {
         /// <summary>Extension of the files, without a dot.</summary>

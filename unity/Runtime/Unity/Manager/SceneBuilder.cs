@@ -9,6 +9,7 @@ namespace Collektive.Unity
     /// inspector, in a scenario file and on the command line. The scene needs a <see cref="SimulationManager"/>.
     /// A subclass with its own <c>Awake</c> overrides this one and calls it.
     /// </summary>
+    [HelpPage("tutorial-scene-builder.md")]
     public abstract class SceneBuilder : MonoBehaviour
     {
         /// <summary>Names of the scene's metrics.</summary>

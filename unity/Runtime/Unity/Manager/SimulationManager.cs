@@ -16,6 +16,7 @@ namespace Collektive.Unity
     [AddComponentMenu("Collektive/Simulation Manager")]
     [DisallowMultipleComponent]
     [DefaultExecutionOrder(-1000)]
+    [HelpPage("way-of-a-tick.md")]
     public sealed class SimulationManager : MonoBehaviour
     {
         /// <summary>Limit of ticks per frame. The remaining time is dropped.</summary>

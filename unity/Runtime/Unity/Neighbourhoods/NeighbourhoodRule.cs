@@ -7,6 +7,7 @@ namespace Collektive.Unity
     /// Decides which nodes receive a node's messages. Before each tick <see cref="FindNeighbours"/> collects the neighbours; the rule adds
     /// and removes the links. A node may have several rules: a link exists while one of them, or a script, references it.
     /// </summary>
+    [HelpPage("neighbourhoods.md")]
     public abstract class NeighbourhoodRule : NodePart
     {
         [SerializeField]

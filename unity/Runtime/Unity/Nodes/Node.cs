@@ -12,6 +12,7 @@ namespace Collektive.Unity
     /// </summary>
     [AddComponentMenu("Collektive/Node")]
     [DisallowMultipleComponent]
+    [HelpPage("schedules-and-network.md#nodes-and-links")]
     public sealed class Node : MonoBehaviour
     {
         internal PartList Sensors;

@@ -10,6 +10,7 @@ namespace Collektive.Unity
     /// reads the number; add one component anywhere in the scene. A node keeps its colour while it has no answer.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
+    [HelpPage("sensors-and-actuators.md#views")]
     public abstract class FieldView<TData> : MonoBehaviour
     {
         [SerializeField]

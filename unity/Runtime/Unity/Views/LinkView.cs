@@ -12,6 +12,7 @@ namespace Collektive.Unity
     /// </summary>
     [AddComponentMenu("Collektive/Link View")]
     [DisallowMultipleComponent]
+    [HelpPage("sensors-and-actuators.md#views")]
     public sealed class LinkView : MonoBehaviour
     {
         /// <summary>Of the two bars of a pair, as the shader makes them.</summary>

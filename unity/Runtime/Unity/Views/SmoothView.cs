@@ -9,6 +9,7 @@ namespace Collektive.Unity
     /// </summary>
     [AddComponentMenu("Collektive/Smooth View")]
     [DisallowMultipleComponent]
+    [HelpPage("sensors-and-actuators.md#views")]
     public sealed class SmoothView : MonoBehaviour
     {
         private SimulationManager shown;
