@@ -27,13 +27,8 @@ namespace Collektive.Unity.Editor
             Add("Physics", Milliseconds(times.Physics));
             Add("Whole tick", Milliseconds(times.Total));
             Add("Digest", manager.Digest.ToString("x16", CultureInfo.InvariantCulture));
-            Add("JVM", Jvm.State.ToString().ToLowerInvariant() + (Jvm.Process == 0 ? "" : ", process " + Jvm.Process));
             return lines;
         }
-
-        /// <summary>Describes a JVM in a separate process: id, start time and heap.</summary>
-        internal static string OfProcess(JvmStatus status) => FormattableString.Invariant(
-            $"process {status.Process}, since {DateTime.Now - status.Uptime:HH:mm:ss}, heap {status.HeapUsed >> 20} of {status.HeapMaximum >> 20} MB");
 
         internal static string State(SimulationManager manager)
         {

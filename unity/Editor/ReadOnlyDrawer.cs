@@ -3,8 +3,8 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Draws fields marked with <see cref="ReadOnlyAttribute"/>: as usual, but disabled.</summary>
-    [CustomPropertyDrawer(typeof(ReadOnlyAttribute))]
+    /// <summary>Draws fields marked with <see cref="InspectorReadOnlyAttribute"/>: as usual, but disabled.</summary>
+    [CustomPropertyDrawer(typeof(InspectorReadOnlyAttribute))]
     internal sealed class ReadOnlyDrawer : PropertyDrawer
     {
         /// <inheritdoc/>

@@ -46,6 +46,9 @@ namespace Collektive.Unity.Editor
             });
         }
 
+        [MenuItem(Menu + "Tutorial", false, 40)]
+        private static void OpenTutorial() => Application.OpenURL(Installation.AddressOf("first-swarm-in-unity.md"));
+
         [MenuItem(Menu + "Diagnostics", false, 20)]
         private static void OpenDiagnostics() => DiagnosticsWindow.Open();
 

@@ -1,6 +1,8 @@
+using System;
 using System.Collections.Generic;
 using UnityEditor;
 using UnityEngine;
+using UnityEngine.UIElements;
 
 namespace Collektive.Unity.Editor
 {
@@ -9,54 +11,66 @@ namespace Collektive.Unity.Editor
     internal sealed class DiagnosticsWindow : EditorWindow
     {
         private const int MaxErrors = 200;
+        private const int NodesTab = 0;
+        private const int JvmTab = 4;
 
         private static readonly string[] Tabs = { "Nodes", "Errors", "Times", "Log", "JVM" };
 
+        private static readonly NodeColumn[] Columns =
+        {
+            new NodeColumn("Id", 60, row => row.Id.ToString(), (a, b) => a.Id.CompareTo(b.Id)),
+            new NodeColumn("Name", 160, row => row.Name, (a, b) => string.CompareOrdinal(a.Name, b.Name)),
+            new NodeColumn("Program", 120, row => row.Program, (a, b) => string.CompareOrdinal(a.Program, b.Program)),
+            new NodeColumn("Receives from", 90, row => row.SenderCount.ToString(), (a, b) => a.SenderCount.CompareTo(b.SenderCount)),
+            new NodeColumn("Sends to", 70, row => row.ReceiverCount.ToString(), (a, b) => a.ReceiverCount.CompareTo(b.ReceiverCount)),
+            new NodeColumn("Error", 200, row => row.Error, (a, b) => string.CompareOrdinal(a.Error, b.Error)),
+        };
+
         private readonly Recorder recorder = new Recorder();
 
+        private MultiColumnListView list;
+        private IMGUIContainer body;
         private Diagnostics diagnostics;
-        private List<NodeRow> rows;
-        private Vector2 listScroll;
+        private List<NodeRow> rows = new List<NodeRow>();
         private Vector2 scroll;
         private string filter = "";
-        private string filtered;
-        private bool isStale;
         private int tab;
         private int selected = -1;
 
         internal static DiagnosticsWindow Open() => GetWindow<DiagnosticsWindow>("Collektive");
+
+        private void CreateGUI()
+        {
+            rootVisualElement.Add(new IMGUIContainer(DrawHeader));
+            list = new MultiColumnListView
+            {
+                sortingMode = ColumnSortingMode.Custom, showAlternatingRowBackgrounds = AlternatingRowBackground.ContentOnly, itemsSource = rows,
+            };
+            foreach (var column in Columns)
+            {
+                list.columns.Add(new Column
+                {
+                    name = column.Name, title = column.Name, width = column.Width, stretchable = true, makeCell = () => new Label(),
+                    bindCell = (cell, index) => ((Label)cell).text = column.Text(rows[index]),
+                });
+            }
+            list.columnSortingChanged += Refresh;
+            list.selectionChanged += Select;
+            list.style.flexGrow = 1;
+            rootVisualElement.Add(list);
+            body = new IMGUIContainer(DrawBody);
+            body.style.flexGrow = 1;
+            rootVisualElement.Add(body);
+            Refresh();
+        }
 
         private void OnDisable() => Detach();
 
         /// <summary>Ten times a second, by the editor.</summary>
         private void OnInspectorUpdate()
         {
-            isStale = true;
+            Refresh();
             Repaint();
-        }
-
-        private void OnGUI()
-        {
-            Attach();
-            if (diagnostics == null)
-            {
-                EditorGUILayout.HelpBox("Press Play in a scene with a Simulation Manager.", MessageType.Info);
-                return;
-            }
-            EditorGUILayout.LabelField("Simulation", Dashboard.State(diagnostics.Manager) + ", tick " + diagnostics.Manager.Tick);
-            tab = GUILayout.Toolbar(tab, Tabs);
-            if (tab == 0) DrawNodes();
-            else DrawTab();
-        }
-
-        private void DrawTab()
-        {
-            scroll = GUILayout.BeginScrollView(scroll);
-            if (tab == 1) DrawErrors();
-            else if (tab == 2) DrawTimes();
-            else if (tab == 3) DrawLog();
-            else recorder.Draw();
-            GUILayout.EndScrollView();
         }
 
         private void Attach()
@@ -71,52 +85,80 @@ namespace Collektive.Unity.Editor
         {
             diagnostics?.Dispose();
             diagnostics = null;
-            rows = null;
-            isStale = true;
             selected = -1;
         }
 
-        /// <summary>Draws the visible part of the list of nodes, and the details of the selected node.</summary>
-        private void DrawNodes()
+        /// <summary>Reads the nodes, and shows the parts of the window that the tab has.</summary>
+        private void Refresh()
         {
-            filter = EditorGUILayout.TextField("Filter", filter);
-            // A repaint must draw the controls of the layout before it.
-            if (Event.current.type == EventType.Layout && (isStale || filter != filtered)) TakeRows();
-            var height = EditorGUIUtility.singleLineHeight + EditorGUIUtility.standardVerticalSpacing;
-            var viewHeight = selected < 0 ? position.height : position.height / 2;
-            var first = Mathf.Clamp((int)(listScroll.y / height), 0, rows.Count);
-            var last = Mathf.Min(first + (int)(viewHeight / height) + 2, rows.Count);
-            listScroll = selected < 0 ? GUILayout.BeginScrollView(listScroll) : GUILayout.BeginScrollView(listScroll, GUILayout.Height(viewHeight));
-            GUILayout.Space(first * height);
-            for (var i = first; i < last; i++) DrawNode(rows[i]);
-            GUILayout.Space((rows.Count - last) * height);
-            GUILayout.EndScrollView();
-            if (selected < 0) return;
-            scroll = GUILayout.BeginScrollView(scroll);
-            var node = diagnostics.Manager.Find(selected);
-            if (node != null) DrawDetails(node);
-            GUILayout.EndScrollView();
+            Attach();
+            if (list == null) return;
+            var isShown = tab == NodesTab && diagnostics != null;
+            list.style.display = isShown ? DisplayStyle.Flex : DisplayStyle.None;
+            body.style.display = isShown && selected < 0 ? DisplayStyle.None : DisplayStyle.Flex;
+            if (!isShown) return;
+            list.itemsSource = rows = diagnostics.Nodes(filter);
+            foreach (var _ in list.sortedColumns)
+            {
+                rows.Sort(Compare);
+                break;
+            }
+            list.RefreshItems();
+            var index = rows.FindIndex(row => row.Id == selected);
+            list.SetSelectionWithoutNotify(index < 0 ? new int[0] : new[] { index });
         }
 
-        private void TakeRows()
+        private int Compare(NodeRow a, NodeRow b)
         {
-            isStale = false;
-            filtered = filter;
-            rows = diagnostics.Nodes(filter);
+            foreach (var sorted in list.sortedColumns)
+            {
+                var order = Array.Find(Columns, column => column.Name == sorted.columnName).Compare(a, b);
+                if (order != 0) return sorted.direction == SortDirection.Ascending ? order : -order;
+            }
+            return a.Id.CompareTo(b.Id);
         }
 
-        private void DrawNode(NodeRow row)
+        private void Select(IEnumerable<object> items)
         {
-            var name = row.Node == null ? "(destroyed)" : row.Node.name;
-            var title = row.Id + "  " + name + "  (" + row.Program + ")  receives from " + row.SenderCount + ", sends to " + row.ReceiverCount
-                + (row.Node != null && row.Node.LastError.Length > 0 ? "  ERROR" : "");
-            var open = EditorGUILayout.Foldout(selected == row.Id, title, true);
-            if (open && selected != row.Id)
+            selected = -1;
+            foreach (NodeRow row in items)
             {
                 selected = row.Id;
                 if (row.Node != null) EditorGUIUtility.PingObject(row.Node);
             }
-            if (!open && selected == row.Id) selected = -1;
+            Refresh();
+        }
+
+        private void DrawHeader()
+        {
+            // A repaint must draw the controls of the layout before it.
+            if (Event.current.type == EventType.Layout) Attach();
+            EditorGUI.BeginChangeCheck();
+            tab = GUILayout.Toolbar(tab, Tabs);
+            if (diagnostics != null)
+            {
+                EditorGUILayout.LabelField("Simulation", Dashboard.State(diagnostics.Manager) + ", tick " + diagnostics.Manager.Tick);
+                if (tab == NodesTab) filter = EditorGUILayout.TextField("Filter", filter);
+            }
+            else if (tab != JvmTab) EditorGUILayout.HelpBox("Press Play in a scene with a Simulation Manager.", MessageType.Info);
+            if (EditorGUI.EndChangeCheck()) Refresh();
+        }
+
+        private void DrawBody()
+        {
+            scroll = GUILayout.BeginScrollView(scroll);
+            if (tab == JvmTab) recorder.Draw();
+            else if (diagnostics != null) DrawTab();
+            GUILayout.EndScrollView();
+        }
+
+        private void DrawTab()
+        {
+            var node = diagnostics.Manager.Find(selected);
+            if (tab == 1) DrawErrors();
+            else if (tab == 2) DrawTimes();
+            else if (tab == 3) DrawLog();
+            else if (node != null) DrawDetails(node);
         }
 
         private void DrawDetails(Node node)

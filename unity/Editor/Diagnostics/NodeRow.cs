@@ -17,6 +17,11 @@ namespace Collektive.Unity.Editor
 
         internal int Id { get; }
 
+        internal string Name => Node == null ? "(destroyed)" : Node.name;
+
+        /// <summary>The node's last error, or an empty text.</summary>
+        internal string Error => Node == null ? "" : Node.LastError;
+
         /// <summary>Its own program, or the manager's.</summary>
         internal string Program { get; }
 

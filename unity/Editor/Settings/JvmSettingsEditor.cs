@@ -7,12 +7,11 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The inspector of JVM settings. Shows the unit, the value in effect and the error of each.</summary>
+    /// <summary>The inspector of JVM settings. Shows the running JVM, and the unit, the value in effect and the error of each setting.</summary>
     [CustomEditor(typeof(JvmSettingsAsset))]
     internal sealed class JvmSettingsEditor : UnityEditor.Editor
     {
-        private const int StopLimitMs = 5000;
-
+        private readonly JvmPanel jvm = new JvmPanel();
         private JvmReport report;
         private string failure = "";
         private string reported;
@@ -26,7 +25,7 @@ namespace Collektive.Unity.Editor
             serializedObject.Update();
             if (failure.Length > 0) EditorGUILayout.HelpBox(failure, MessageType.Error);
             if (report != null && report.Notice.Length > 0) EditorGUILayout.HelpBox(report.Notice, MessageType.Info);
-            DrawProcess();
+            jvm.Draw();
             var fields = serializedObject.FindProperty("settings");
             foreach (var setting in JvmSetting.All)
             {
@@ -34,30 +33,6 @@ namespace Collektive.Unity.Editor
                 Draw(setting, fields.FindPropertyRelative(setting.Key));
             }
             serializedObject.ApplyModifiedProperties();
-        }
-
-        /// <summary>Draws the state of a JVM in a separate process, which can be restarted between plays.</summary>
-        private void DrawProcess()
-        {
-            if (Jvm.Process == 0 || Jvm.State != JvmState.Running) return;
-            if (report?.Status != null) EditorGUILayout.LabelField("JVM", Dashboard.OfProcess(report.Status));
-            using (new EditorGUI.DisabledScope(Application.isPlaying))
-            {
-                if (GUILayout.Button("Restart JVM")) Stop();
-            }
-        }
-
-        /// <summary>The next Play starts a new JVM.</summary>
-        private void Stop()
-        {
-            try
-            {
-                Jvm.Stop(StopLimitMs);
-            }
-            catch (BridgeException error)
-            {
-                Debug.LogWarning(error.Message, target);
-            }
         }
 
         private void Draw(JvmSetting setting, SerializedProperty field)

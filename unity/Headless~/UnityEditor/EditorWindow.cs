@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using UnityEngine;
+using UnityEngine.UIElements;
 
 namespace UnityEditor
 {
@@ -9,6 +10,8 @@ namespace UnityEditor
         static readonly Dictionary<Type, EditorWindow> Windows = new Dictionary<Type, EditorWindow>();
 
         public GUIContent titleContent { get; set; }
+        public VisualElement rootVisualElement { get; } = new VisualElement();
+        internal bool HasGui { get; set; }
         public Rect position { get; set; } = new Rect(0f, 0f, 400f, 600f);
 
         public static T GetWindow<T>(string title) where T : EditorWindow

@@ -1,5 +1,6 @@
 using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using Collektive.Bridge;
 using Collektive.Headless.Tests.Simulation;
 using Collektive.Unity;
@@ -9,6 +10,7 @@ using UnityEditor;
 using UnityEditor.Headless;
 using UnityEngine;
 using UnityEngine.Headless;
+using UnityEngine.UIElements;
 
 namespace Collektive.Headless.Tests.Editor
 {
@@ -119,13 +121,13 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void Expanding_a_node_in_the_window_shows_its_values()
+        public void Selecting_a_node_in_the_window_shows_its_values()
         {
             MakeThree();
             Draw();
-            var title = "1  Probe  (double)  receives from 1, sends to 1";
-            Assert.That(Gui.Lines, Has.Some.EqualTo("foldout " + title + ": closed"));
-            Gui.Act(title, true);
+            Assert.That(Rows()[1], Is.EqualTo("row 1 | Probe | double | 1 | 1 | "));
+            Assert.That(Gui.Lines, Has.None.EqualTo("label Value: 4"));
+            Table.ClickRow(1);
             Draw();
             Assert.That(Gui.Lines, Has.Some.EqualTo("label Value: 4"));
             Assert.That(Gui.Lines, Has.Some.EqualTo("label from 0: 1.00 m, attenuation 0"));
@@ -133,22 +135,33 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
-        public void The_window_draws_only_visible_rows_and_can_scroll_to_the_last()
+        public void Rows_are_sorted_by_the_clicked_column_and_the_selected_node_stays_selected()
+        {
+            MakeThree();
+            Draw();
+            Table.ClickRow(0);
+            Table.ClickHeader("Sends to", SortDirection.Ascending);
+            Draw();
+            Assert.That(Rows().ConvertAll(row => row.Substring(0, 5)), Is.EqualTo(new[] { "row 2", "row 1", "row 0" }));
+            Assert.That(Table.selectedIndex, Is.EqualTo(2));
+            Table.ClickHeader("Sends to", SortDirection.Descending);
+            Draw();
+            Assert.That(Rows()[0], Is.StringStarting("row 0 | Probe"));
+            Assert.That(Table.selectedIndex, Is.EqualTo(0));
+        }
+
+        [Test]
+        public void The_window_filters_nodes_and_binds_only_visible_rows()
         {
             for (var i = 0; i < 1000; i++) MakeNode(0, i * Vector3.right);
             Play(1);
             Draw();
-            var rows = Rows();
-            Assert.That(rows.Count, Is.InRange(20, 40));
-            Assert.That(rows[0], Is.StringStarting("foldout 0  "));
-            Gui.Act("scroll", new Vector2(0, 1e6f));
+            Assert.That(Rows().Count, Is.InRange(20, 40));
+            Assert.That(Table.itemsSource.Count, Is.EqualTo(1000));
+            Gui.Act("Filter", "999");
             Draw();
             Draw();
-            Assert.That(Rows().Count, Is.EqualTo(0), "no rows beyond the end");
-            Gui.Act("scroll", new Vector2(0, 20 * 990));
-            Draw();
-            Draw();
-            Assert.That(Rows()[Rows().Count - 1], Is.StringStarting("foldout 999  "));
+            Assert.That(Rows(), Is.EqualTo(new[] { "row 999 | Probe | double | 0 | 0 | " }));
         }
 
         [Test]
@@ -158,10 +171,34 @@ namespace Collektive.Headless.Tests.Editor
             Draw();
             Object.DestroyImmediate(nodes[2].Node.gameObject);
             Draw();
-            Assert.That(Rows()[2], Is.StringStarting("foldout 2  (destroyed)  "));
+            Assert.That(Rows()[2], Is.StringStarting("row 2 | (destroyed) | "));
             Menus.Send(DiagnosticsWindow.Open(), "OnInspectorUpdate");
             Draw();
             Assert.That(Rows().Count, Is.EqualTo(2));
+        }
+
+        [Test]
+        public void The_window_shows_the_JVM_without_a_simulation_and_restarts_one_in_its_own_process()
+        {
+            MakeThree();
+            EditorApplication.isPlaying = false;
+            Object.DestroyImmediate(Manager.gameObject);
+            Draw();
+            Gui.Act("toolbar", 4);
+            AwaitInWindow("label Running since: ");
+            Assert.That(Gui.Lines, Has.Some.StringStarting("label Heap: ").And.Some.StringStarting("label JVM: ").And.Some.StringStarting("label Placement: "));
+            Assert.That(Gui.Lines, Has.None.StringStarting("help"));
+            if (TestJvm.Placement == JvmPlacement.InProcess)
+            {
+                Assert.That(Gui.Lines, Has.Some.EqualTo("(disabled) button Restart JVM"));
+                Assert.That(Gui.Lines, Has.Some.EqualTo("label  : A JVM in the editor's process restarts with the editor."));
+                return;
+            }
+            var before = Jvm.Process;
+            Gui.Act("Restart JVM", true);
+            AwaitInWindow("label JVM: stopped");
+            TestJvm.Start();
+            Assert.That(Jvm.Process, Is.Not.EqualTo(before));
         }
 
         [Test]
@@ -197,7 +234,7 @@ namespace Collektive.Headless.Tests.Editor
             MakeThree();
             Draw();
             foreach (var (tab, line) in new[] { (1, "label No errors."), (2, "label Last 0 ticks: mean, largest"),
-                (3, "toolbar Nodes Errors Times Log JVM: Log") })
+                (3, "toolbar Nodes Errors Times Log JVM: Log"), (4, "toolbar Nodes Errors Times Log JVM: JVM") })
             {
                 Gui.Act("toolbar", tab);
                 Draw();
@@ -211,7 +248,10 @@ namespace Collektive.Headless.Tests.Editor
         {
             Object.DestroyImmediate(Manager.gameObject);
             Draw();
-            Assert.That(Gui.Lines, Is.EqualTo(new[] { "help Info: Press Play in a scene with a Simulation Manager." }));
+            Assert.That(Gui.Lines, Is.EqualTo(new[]
+            {
+                "toolbar Nodes Errors Times Log JVM: Nodes", "help Info: Press Play in a scene with a Simulation Manager.",
+            }));
         }
 
         [Test]
@@ -232,7 +272,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Passes(inspector.OnInspectorGUI);
             Assert.That(inspector.RequiresConstantRepaint(), Is.True);
             foreach (var line in new[] { "label State: running", "label Nodes: 3", "label Links: 3", "label Messages: 3 sent, 0 dropped, 0 delayed, 0 expired",
-                "label Tick: 1 (0.05 s)", "label JVM: " + TestJvm.Running, "label Errors: 0" })
+                "label Tick: 1 (0.05 s)", "label JVM: running", "label Errors: 0" })
             {
                 Assert.That(Gui.Lines, Has.Some.EqualTo(line));
             }
@@ -316,7 +356,8 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Gui.Lines, Has.Some.EqualTo("property Maximum heap (MB): 0"));
             Assert.That(Gui.Lines, Has.Some.EqualTo("label  : in effect: 256 MB"));
             Assert.That(Gui.Lines, Has.Some.Contains("Changes take effect " + TestJvm.WhenChangesTakeEffect));
-            if (TestJvm.Placement == JvmPlacement.OwnProcess) Assert.That(Gui.Lines, Has.Some.StringStarting("label JVM: process "));
+            Inspect(inspector, "(disabled) button Restart JVM");
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label Placement: " + (Jvm.Process == 0 ? "in the editor's process" : "process " + Jvm.Process)));
             Assert.That(Gui.Lines, Has.None.Contains("help Error"));
             Gui.Act("Maximum heap (MB)", 3);
             Gui.Passes(inspector.OnInspectorGUI);
@@ -394,12 +435,31 @@ namespace Collektive.Headless.Tests.Editor
             return nodes;
         }
 
-        private static List<string> Rows() => new List<string>(Gui.Lines).FindAll(line => line.StartsWith("foldout "));
+        private static List<string> Rows() => new List<string>(Gui.Lines).FindAll(line => line.StartsWith("row "));
 
         private static void Draw()
         {
             Gui.Clear();
-            Menus.Send(DiagnosticsWindow.Open(), "OnGUI");
+            Menus.Draw(DiagnosticsWindow.Open());
+        }
+
+        private static MultiColumnListView Table => DiagnosticsWindow.Open().rootVisualElement.Children().OfType<MultiColumnListView>().Single();
+
+        /// <summary>Redraws the window until a control appears: the JVM is asked in the background.</summary>
+        private static void AwaitInWindow(string start)
+        {
+            var clock = System.Diagnostics.Stopwatch.StartNew();
+            do
+            {
+                Draw();
+                foreach (var line in Gui.Lines)
+                {
+                    if (line.StartsWith(start)) return;
+                }
+                System.Threading.Thread.Sleep(50);
+            }
+            while (clock.Elapsed.TotalSeconds < 30);
+            Assert.Fail("'" + start + "' did not appear: " + string.Join("\n", Gui.Lines));
         }
 
         private sealed class BrokenSensor : Unity.Sensor<probe.SensorData>

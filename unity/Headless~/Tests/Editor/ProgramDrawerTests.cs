@@ -20,8 +20,8 @@ namespace Collektive.Headless.Tests.Editor
         public void MakeScene()
         {
             Gui.Clear();
-            library = Import("swarm", ProgramLibraryTests.Program("flock"),
-                ProgramLibraryTests.Program("hops", "steps\t3\tNumber of steps.", "range\t2.0\t", "far\tfalse\t", "title\tnone\t", "shape\tRING\t\tRING\tLINE"));
+            library = Import("swarm", ProgramLibraryTests.Program("flock"), ProgramLibraryTests.Program(
+                "hops", "steps\t3\tNumber of steps.", "range\t2.0\t", "far\tfalse\t", "title\tnone\t", "shape\tRING\t\tRING\tLINE"));
             manager = new GameObject("Manager").AddComponent<SimulationManager>();
             manager.Settings.libraries.Add(library);
             manager.Settings.defaultProgram = library.Find("hops");

@@ -11,19 +11,19 @@ namespace Collektive.Headless.Tests.Editor
     {
         private sealed class Holder : ScriptableObject
         {
-            [ReadOnly]
+            [InspectorReadOnly]
             public string text = "seen";
         }
 
         [Test]
-        public void A_list_is_read_only_as_a_whole() => Assert.That(new ReadOnlyAttribute().applyToCollection, Is.True);
+        public void A_list_is_read_only_as_a_whole() => Assert.That(new InspectorReadOnlyAttribute().applyToCollection, Is.True);
 
         [Test]
         public void The_field_is_drawn_but_disabled()
         {
             Gui.Clear();
             var property = new SerializedObject(ScriptableObject.CreateInstance<Holder>()).FindProperty("text");
-            Gui.Passes(() => Menus.DrawerOf(typeof(ReadOnlyAttribute)).OnGUI(default, property, GUIContent.none));
+            Gui.Passes(() => Menus.DrawerOf(typeof(InspectorReadOnlyAttribute)).OnGUI(default, property, GUIContent.none));
             Assert.That(Gui.Lines, Is.EqualTo(new[] { "(disabled) property text" }));
             Assert.That(Gui.DisabledDepth, Is.EqualTo(0));
         }

@@ -33,9 +33,6 @@ namespace Collektive.Headless.Tests
         /// <summary>The inspector's text for when changed settings take effect.</summary>
         internal static string WhenChangesTakeEffect => Placement == JvmPlacement.OwnProcess ? "at the next Play" : "after a restart of the editor";
 
-        /// <summary>The dashboard's text for a running JVM.</summary>
-        internal static string Running => Placement == JvmPlacement.OwnProcess ? "running, process " + Jvm.Process : "running";
-
         internal static JvmLaunch Launch(JvmSettings settings) => settings.ToLaunch(Home, HostJar, "unused");
 
         internal static void Start() => Jvm.Start(Launch(Settings));

@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Reflection;
 using UnityEngine;
+using UnityEngine.UIElements;
 
 namespace UnityEditor.Headless
 {
@@ -84,6 +85,23 @@ namespace UnityEditor.Headless
             var call = (Action)method?.CreateDelegate(typeof(Action), receiver);
             if (message == "OnGUI") UnityEngine.Headless.Gui.Passes(call);
             else call?.Invoke();
+        }
+
+        /// Draws the shown elements of a window, which creates them at the first time. Rows of tables are lines such as "row 0 | Name".
+        public static void Draw(EditorWindow window)
+        {
+            if (!window.HasGui) Send(window, "CreateGUI");
+            window.HasGui = true;
+            UnityEngine.Headless.Gui.Passes(() =>
+            {
+                foreach (var element in window.rootVisualElement.Children())
+                {
+                    if (element.style.display.value == DisplayStyle.None) continue;
+                    if (element is IMGUIContainer container) container.onGUIHandler();
+                    else if (element is MultiColumnListView table)
+                        foreach (var row in table.VisibleRows(window.position.height)) UnityEngine.Headless.Gui.Draw("row", row);
+                }
+            });
         }
 
         internal static IEnumerable<Type> EditorTypes()

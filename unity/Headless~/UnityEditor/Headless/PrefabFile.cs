@@ -57,8 +57,9 @@ namespace UnityEditor.Headless
             {
                 var line = Regex.Match(text, "^  " + field.Name + ": (.*)$", RegexOptions.Multiline);
                 if (!line.Success) continue;
-                if (field.FieldType == typeof(string)) field.SetValue(script, line.Groups[1].Value);
-                else if (SceneFile.Referred(line.Groups[1].Value) is UnityEngine.Object asset && field.FieldType.IsInstanceOfType(asset)) field.SetValue(script, asset);
+                var value = line.Groups[1].Value;
+                if (field.FieldType == typeof(string)) field.SetValue(script, value);
+                else if (SceneFile.Referred(value) is UnityEngine.Object asset && field.FieldType.IsInstanceOfType(asset)) field.SetValue(script, asset);
             }
         }
 
@@ -66,7 +67,9 @@ namespace UnityEditor.Headless
         {
             var scripts = new Queue<MonoBehaviour>(prefab.GetComponentsInChildren<MonoBehaviour>(true));
             var path = Loaded[prefab];
-            File.WriteAllText(path, Regex.Replace(File.ReadAllText(path), @"^--- !u!114 &-?\d+\n(.*?)(?=^---|\z)", part => Written(part.Value, scripts.Dequeue()), Lines));
+            var text = File.ReadAllText(path);
+            const string behaviour = @"^--- !u!114 &-?\d+\n(.*?)(?=^---|\z)";
+            File.WriteAllText(path, Regex.Replace(text, behaviour, part => Written(part.Value, scripts.Dequeue()), Lines));
         }
 
         static string Written(string text, MonoBehaviour script)

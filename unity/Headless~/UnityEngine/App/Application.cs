@@ -39,6 +39,9 @@ namespace UnityEngine
         public static string productName => "collektive-headless";
         public static RuntimePlatform platform => RuntimePlatform.LinuxPlayer;
 
+        /// Opens nothing: `Headless.Loop.OpenedUrl` is the last address.
+        public static void OpenURL(string url) => Headless.Loop.OpenedUrl = url;
+
         public static void Quit() => Quit(0);
 
         /// Ends the player after the current frame, unless a `wantsToQuit` handler refuses.

@@ -29,6 +29,9 @@ namespace UnityEngine.Headless
         /// The asset path of the scene that the editor opened.
         public static string ScenePath { set => SceneManagement.Scene.Active.File = value; }
 
+        /// The last address that a script opened in a browser.
+        public static string OpenedUrl { get; internal set; } = "";
+
         /// Permutes the orders that Unity does not specify: messages of one execution order in a frame, touches in a step and their two sides, and the
         /// enabling of objects that become active together. 0: orders of creation.
         public static int OrderSeed { get => Orders.Seed; set => Orders.Reset(value); }

@@ -1,0 +1,77 @@
+using System;
+using System.Threading.Tasks;
+using Collektive.Bridge;
+using UnityEditor;
+using UnityEngine;
+
+namespace Collektive.Unity.Editor
+{
+    /// <summary>Draws which JVM runs, where, since when and with how much memory, and restarts it.</summary>
+    internal sealed class JvmPanel
+    {
+        private const double Interval = 0.5;
+        private const int StopLimitMs = 5000;
+
+        private double lastQuery = double.NegativeInfinity;
+
+        // On another thread, because the JVM answers between two ticks only, which may take as long as the limit of a tick.
+        private Task<JvmStatus> query;
+        private string failure = "";
+
+        /// <summary>The last answer; null without a running JVM.</summary>
+        internal JvmStatus Status { get; private set; }
+
+        internal void Draw()
+        {
+            // A repaint must draw the controls of the layout before it.
+            if (Event.current.type == EventType.Layout) Update();
+            if (failure.Length > 0) EditorGUILayout.HelpBox(failure, MessageType.Error);
+            if (Status == null)
+            {
+                EditorGUILayout.LabelField("JVM", Jvm.State == JvmState.None ? "not started" : Jvm.State.ToString().ToLowerInvariant());
+                return;
+            }
+            EditorGUILayout.LabelField("JVM", Status.Version + ", " + Status.Home);
+            EditorGUILayout.LabelField("Placement", Status.Process == 0 ? "in the editor's process" : "process " + Status.Process);
+            EditorGUILayout.LabelField("Running since", (DateTime.Now - Status.Uptime).ToString("yyyy-MM-dd HH:mm:ss"));
+            EditorGUILayout.LabelField(
+                "Heap", Mebibytes(Status.HeapUsed) + " of " + Mebibytes(Status.HeapMaximum) + ", " + Status.Collections + " collections");
+            EditorGUILayout.LabelField("Classes", Status.Classes + ", " + Mebibytes(Status.MetaspaceUsed));
+            var isOwnProcess = Status.Process != 0;
+            using (new EditorGUI.DisabledScope(!isOwnProcess || EditorApplication.isPlaying))
+            {
+                if (GUILayout.Button("Restart JVM")) Ask(() => Jvm.Stop(StopLimitMs));
+            }
+            if (!isOwnProcess) EditorGUILayout.LabelField(" ", "A JVM in the editor's process restarts with the editor.");
+            else if (EditorApplication.isPlaying) EditorGUILayout.LabelField(" ", "Leave play mode to restart the JVM.");
+        }
+
+        /// <summary>Acts on the JVM after the query in progress, and then queries the status.</summary>
+        internal void Ask(Action action)
+        {
+            lastQuery = EditorApplication.timeSinceStartup;
+            var before = query ?? Task.FromResult(Status);
+            query = before.ContinueWith(_ =>
+            {
+                action();
+                return Jvm.TryGetStatus();
+            }, TaskScheduler.Default);
+        }
+
+        /// <summary>Takes the answer of the last query, and begins the next one when it is due.</summary>
+        private void Update()
+        {
+            if (query != null && query.IsCompleted)
+            {
+                failure = query.IsFaulted ? query.Exception.GetBaseException().Message : "";
+                Status = query.IsFaulted ? Status : query.Result;
+                query = null;
+            }
+            if (query != null || EditorApplication.timeSinceStartup - lastQuery < Interval) return;
+            lastQuery = EditorApplication.timeSinceStartup;
+            query = Task.Run(Jvm.TryGetStatus);
+        }
+
+        private static string Mebibytes(long bytes) => FormattableString.Invariant($"{bytes >> 20} MB");
+    }
+}
