@@ -2,7 +2,7 @@ using Collektive.Unity;
 using channel;
 using UnityEngine;
 
-namespace Collektive.Samples.Channel
+namespace CollektiveSamples.Channel
 {
     /// <summary>Colours the nodes of the channel.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/Channel Colour")]

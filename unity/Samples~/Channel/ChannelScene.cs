@@ -4,7 +4,7 @@ using Collektive.Unity;
 using channel;
 using UnityEngine;
 
-namespace Collektive.Samples.Channel
+namespace CollektiveSamples.Channel
 {
     /// <summary>
     /// Nodes scattered over a plane of 100 x 60 m find a channel between two of them. Two walls, which radio does not pass, stand across the straight

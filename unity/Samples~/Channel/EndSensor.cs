@@ -2,7 +2,7 @@ using Collektive.Unity;
 using channel;
 using UnityEngine;
 
-namespace Collektive.Samples.Channel
+namespace CollektiveSamples.Channel
 {
     /// <summary>Writes whether the channel begins or ends at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/End Sensor")]

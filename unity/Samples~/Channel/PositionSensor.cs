@@ -2,7 +2,7 @@ using Collektive.Unity;
 using channel;
 using UnityEngine;
 
-namespace Collektive.Samples.Channel
+namespace CollektiveSamples.Channel
 {
     /// <summary>Measures the node's position.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/Position Sensor")]

@@ -3,7 +3,7 @@ using Collektive.Unity;
 using crowd;
 using UnityEngine;
 
-namespace Collektive.Samples.Crowd
+namespace CollektiveSamples.Crowd
 {
     /// <summary>Counts collisions with other walkers. The program does not receive them.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Bump Sensor")]

@@ -4,7 +4,7 @@ using Collektive.Unity;
 using crowd;
 using UnityEngine;
 
-namespace Collektive.Samples.Crowd
+namespace CollektiveSamples.Crowd
 {
     /// <summary>
     /// Two crowds walk towards each other through a street of 80 x 20 m with pillars in the middle, each to the far end.

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using crowd;
 using UnityEngine;
 
-namespace Collektive.Samples.Crowd
+namespace CollektiveSamples.Crowd
 {
     /// <summary>Writes the walker's goal to the sensor data.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Goal Sensor")]

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using crowd;
 using UnityEngine;
 
-namespace Collektive.Samples.Crowd
+namespace CollektiveSamples.Crowd
 {
     /// <summary>Measures the walker's position.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Position Sensor")]

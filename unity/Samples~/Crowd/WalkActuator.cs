@@ -2,7 +2,7 @@ using Collektive.Unity;
 using crowd;
 using UnityEngine;
 
-namespace Collektive.Samples.Crowd
+namespace CollektiveSamples.Crowd
 {
     /// <summary>Moves the walker at the program's velocity.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Walk Actuator")]

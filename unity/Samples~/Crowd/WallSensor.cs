@@ -3,7 +3,7 @@ using Collektive.Unity;
 using crowd;
 using UnityEngine;
 
-namespace Collektive.Samples.Crowd
+namespace CollektiveSamples.Crowd
 {
     /// <summary>Detects walls and pillars. Walkers are on another layer and are known from their messages.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Wall Sensor")]

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using crowd;
 using UnityEngine;
 
-namespace Collektive.Samples.Crowd
+namespace CollektiveSamples.Crowd
 {
     /// <summary>Colours walkers by the density around them, and warned walkers red.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Warning Colour")]

@@ -2,7 +2,7 @@ using System;
 using System.Collections.Generic;
 using UnityEngine;
 
-namespace Collektive.Samples.GradientAscent
+namespace CollektiveSamples.GradientAscent
 {
     /// <summary>Places on the ground that keep a distance from each other. Testing a place takes constant time.</summary>
     internal sealed class FreePlaces

@@ -2,7 +2,7 @@ using System.Collections.Generic;
 using Collektive.Unity;
 using UnityEngine;
 
-namespace Collektive.Samples.GradientAscent
+namespace CollektiveSamples.GradientAscent
 {
     /// <summary>
     /// A flat arena of 100 x 60 m with a rim. A swarm climbs towards a source; four obstacles stand across the straight way. Each node perceives
@@ -38,6 +38,14 @@ namespace Collektive.Samples.GradientAscent
         /// <summary>Factor on the field's length and width, and on the source's reach. It does not move the source.</summary>
         [Min(0.1f)]
         public float fieldScale = 1;
+
+        [SerializeField]
+        [Tooltip("Prefab of the nodes. None, as in runs without Unity: an equal object is built.")]
+        private Node nodePrefab;
+
+        [SerializeField]
+        [Tooltip("The source in the scene. None: one is built.")]
+        private IntensitySource sourceObject;
 
         private readonly List<float> distances = new List<float>();
         private SimulationManager manager;
@@ -87,7 +95,7 @@ namespace Collektive.Samples.GradientAscent
             }
             this.manager = manager;
             slippery = new PhysicsMaterial { dynamicFriction = 0, staticFriction = 0, bounciness = 0, frictionCombine = PhysicsMaterialCombine.Minimum };
-            intensity = new GameObject("Source").AddComponent<IntensitySource>();
+            intensity = sourceObject != null ? sourceObject : new GameObject("Source").AddComponent<IntensitySource>();
             intensity.transform.position = source;
             intensity.Falloff /= fieldScale;
             var length = 100 * fieldScale;
@@ -103,7 +111,9 @@ namespace Collektive.Samples.GradientAscent
                     MakeObstacle("Obstacle", new Vector3(10 * fieldScale, 1.5f, place * fieldScale), new Vector3(1, 3, 5 * fieldScale));
             }
             var places = new FreePlaces(2 * bodyRadius);
-            for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(i, FreePlace(manager, places));
+            var original = nodePrefab != null ? nodePrefab.gameObject : MakeOriginal();
+            for (var i = 0; i < nodes && manager.Failure.Length == 0; i++) MakeNode(original, i, FreePlace(manager, places));
+            if (nodePrefab == null) Destroy(original);
         }
 
         /// <summary>A place in x -35..5, z -25..25, times the field's scale, where a body overlaps no other.</summary>
@@ -126,22 +136,31 @@ namespace Collektive.Samples.GradientAscent
             return box;
         }
 
-        private void MakeNode(int index, Vector3 place)
+        private void MakeNode(GameObject original, int index, Vector3 place)
         {
-            var node = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            var node = Instantiate(original, place, Quaternion.identity);
             node.name = "Node " + index;
-            node.transform.position = place;
             node.transform.localScale = 2 * bodyRadius * Vector3.one;
             node.GetComponent<SphereCollider>().sharedMaterial = slippery;
-            var body = node.AddComponent<Rigidbody>();
-            body.mass = 1;
-            body.constraints = RigidbodyConstraints.FreezeRotation;
-            node.AddComponent<Node>();
-            node.AddComponent<RadiusNeighbourhood>().Radius = range;
-            node.AddComponent<PositionSensor>();
-            node.AddComponent<IntensitySensor>().Source = intensity;
-            node.AddComponent<ObstacleSensor>().BodyRadius = bodyRadius;
-            node.AddComponent<MoveActuator>();
+            node.GetComponent<RadiusNeighbourhood>().Radius = range;
+            node.GetComponent<IntensitySensor>().Source = intensity;
+            node.GetComponent<ObstacleSensor>().BodyRadius = bodyRadius;
+            node.SetActive(true);
+        }
+
+        /// <summary>Builds what the prefab contains, inactive.</summary>
+        private static GameObject MakeOriginal()
+        {
+            var original = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            original.SetActive(false);
+            original.AddComponent<Rigidbody>().constraints = RigidbodyConstraints.FreezeRotation;
+            original.AddComponent<Node>();
+            original.AddComponent<RadiusNeighbourhood>();
+            original.AddComponent<PositionSensor>();
+            original.AddComponent<IntensitySensor>();
+            original.AddComponent<ObstacleSensor>();
+            original.AddComponent<MoveActuator>();
+            return original;
         }
     }
 }

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using gradientascent;
 using UnityEngine;
 
-namespace Collektive.Samples.GradientAscent
+namespace CollektiveSamples.GradientAscent
 {
     /// <summary>Measures the intensity of a source at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Intensity Sensor")]

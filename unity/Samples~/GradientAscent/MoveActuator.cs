@@ -2,7 +2,7 @@ using Collektive.Unity;
 using gradientascent;
 using UnityEngine;
 
-namespace Collektive.Samples.GradientAscent
+namespace CollektiveSamples.GradientAscent
 {
     /// <summary>Drives the node's rigid body towards the program's target.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Move Actuator")]

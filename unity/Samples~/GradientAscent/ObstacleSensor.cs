@@ -3,7 +3,7 @@ using Collektive.Unity;
 using gradientascent;
 using UnityEngine;
 
-namespace Collektive.Samples.GradientAscent
+namespace CollektiveSamples.GradientAscent
 {
     /// <summary>Detects colliders around the node, both obstacles and other bodies.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Obstacle Sensor")]

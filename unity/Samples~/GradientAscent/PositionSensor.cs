@@ -2,7 +2,7 @@ using Collektive.Unity;
 using gradientascent;
 using UnityEngine;
 
-namespace Collektive.Samples.GradientAscent
+namespace CollektiveSamples.GradientAscent
 {
     /// <summary>Measures the node's position.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Position Sensor")]

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using leaderelection;
 using UnityEngine;
 
-namespace Collektive.Samples.LeaderElection
+namespace CollektiveSamples.LeaderElection
 {
     /// <summary>Gives all nodes of one leader the same colour.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Leader Colour")]

@@ -4,7 +4,7 @@ using Collektive.Unity;
 using leaderelection;
 using UnityEngine;
 
-namespace Collektive.Samples.LeaderElection
+namespace CollektiveSamples.LeaderElection
 {
     /// <summary>
     /// Nodes scattered over a plane of 100 x 60 m divide themselves into regions, each with a leader. After a while all leaders fail, and new

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using leaderelection;
 using UnityEngine;
 
-namespace Collektive.Samples.LeaderElection
+namespace CollektiveSamples.LeaderElection
 {
     /// <summary>Shows a lamp above each leader.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Leader Lamp")]

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using leaderelection;
 using UnityEngine;
 
-namespace Collektive.Samples.LeaderElection
+namespace CollektiveSamples.LeaderElection
 {
     /// <summary>Measures the node's position.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Position Sensor")]

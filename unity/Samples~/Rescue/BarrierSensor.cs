@@ -3,7 +3,7 @@ using Collektive.Unity;
 using rescue;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>Detects walls, stones and vehicles. Other robots and the ground are on another layer.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Barrier Sensor")]

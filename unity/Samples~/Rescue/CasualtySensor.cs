@@ -3,7 +3,7 @@ using Collektive.Unity;
 using rescue;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>Detects the first casualty that is near and visible, and writes whether the node is the base.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Casualty Sensor")]

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using rescue;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>Drives the robot at the program's velocity.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Drive Actuator")]

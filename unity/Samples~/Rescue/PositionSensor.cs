@@ -2,7 +2,7 @@ using Collektive.Unity;
 using rescue;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>Measures the robot's position.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Position Sensor")]

@@ -4,7 +4,7 @@ using Collektive.Unity;
 using rescue;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>
     /// Robots leave their base, spread through two ruined buildings, find three casualties, and keep a channel of robots from each to the base.

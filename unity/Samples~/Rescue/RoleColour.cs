@@ -2,7 +2,7 @@ using Collektive.Unity;
 using rescue;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>Colours each robot by its role.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Role Colour")]

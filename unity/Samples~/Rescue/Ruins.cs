@@ -2,7 +2,7 @@ using System.Collections.Generic;
 using Collektive.Bridge;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>The ground and what stands on it, 80 x 50 m: two buildings with rooms and doors, rubble, a dam with slopes, vehicles.</summary>
     internal static class Ruins

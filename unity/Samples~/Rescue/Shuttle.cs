@@ -1,7 +1,7 @@
 using Collektive.Unity;
 using UnityEngine;
 
-namespace Collektive.Samples.Rescue
+namespace CollektiveSamples.Rescue
 {
     /// <summary>A vehicle that drives to and fro between two places, in simulated time.</summary>
     [RequireComponent(typeof(Rigidbody))]

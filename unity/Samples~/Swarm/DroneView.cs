@@ -4,7 +4,7 @@ using Collektive.Unity;
 using drones;
 using UnityEngine;
 
-namespace Collektive.Samples.Swarm
+namespace CollektiveSamples.Swarm
 {
     /// <summary>
     /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers: 10,000 of them would take

@@ -2,7 +2,7 @@ using Collektive.Unity;
 using drones;
 using UnityEngine;
 
-namespace Collektive.Samples.Swarm
+namespace CollektiveSamples.Swarm
 {
     /// <summary>Flies towards the target of the program.</summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Fly Actuator")]

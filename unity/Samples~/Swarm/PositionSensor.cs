@@ -2,7 +2,7 @@ using Collektive.Unity;
 using drones;
 using UnityEngine;
 
-namespace Collektive.Samples.Swarm
+namespace CollektiveSamples.Swarm
 {
     /// <summary>Measures the drone's position.</summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Position Sensor")]

@@ -4,7 +4,7 @@ using Collektive.Unity;
 using drones;
 using UnityEngine;
 
-namespace Collektive.Samples.Swarm
+namespace CollektiveSamples.Swarm
 {
     /// <summary>
     /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and the news
