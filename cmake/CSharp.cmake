@@ -45,18 +45,26 @@ endfunction()
 set(generator "${COLLEKTIVE_JAVA_HOME}/bin/java" -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -jar "${GENERATOR_JAR}" --flatc "${COLLEKTIVE_FLATC}"
   --include "${PROJECT_SOURCE_DIR}/schema")
 
+# The runtime of FlatBuffers in a namespace of its own.
+collektive_python(rename_flatbuffers build/rename_flatbuffers.py)
+collektive_step(flatbuffers_code OUTPUT "${GENERATED}/flatbuffers.stamp"
+  COMMAND ${rename_flatbuffers} "${GENERATED}/flatbuffers" "${COLLEKTIVE_BUILD}/flatbuffers/net/FlatBuffers"
+  AND "${CMAKE_COMMAND}" -E touch "${GENERATED}/flatbuffers.stamp" DEPENDS scripts/build/rename_flatbuffers.py
+  FOLDERS "${COLLEKTIVE_BUILD}/flatbuffers/net/FlatBuffers")
+
 # Generated C# of frames and value types.
 collektive_step(bridge_code OUTPUT "${GENERATED}/bridge.stamp"
   COMMAND "${CMAKE_COMMAND}" -E rm -rf "${GENERATED}/bridge"
   AND flatc --csharp -o "${GENERATED}/bridge" "${PROJECT_SOURCE_DIR}/schema/types.fbs" "${PROJECT_SOURCE_DIR}/schema/frame.fbs"
+  AND ${rename_flatbuffers} "${GENERATED}/bridge"
   AND "${CMAKE_COMMAND}" -E touch "${GENERATED}/bridge.stamp"
-  DEPENDS flatc schema/types.fbs schema/frame.fbs)
+  DEPENDS flatc scripts/build/rename_flatbuffers.py schema/types.fbs schema/frame.fbs)
 
 library("${ROSLYN}/Newtonsoft.Json.dll")
 # Part of Mono, but not on CoreCLR.
 library(/usr/lib/mono/4.5/Mono.Posix.dll)
-assembly(Collektive.FlatBuffers.dll SOURCES "${COLLEKTIVE_BUILD}/flatbuffers/net/FlatBuffers"
-  OPTIONS ${symbols} -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618 -debug-)
+assembly(Collektive.FlatBuffers.dll SOURCES "${GENERATED}/flatbuffers"
+  OPTIONS ${symbols} -warnaserror- -nowarn:1570,1572,1573,1587,1591,0618 -debug- DEPENDS "${GENERATED}/flatbuffers.stamp")
 assembly(Collektive.Bridge.dll SOURCES "${UNITY}/Runtime/Bridge" "${GENERATED}/bridge" OPTIONS ${symbols} REFERENCES Collektive.FlatBuffers.dll
   DEPENDS "${GENERATED}/bridge.stamp")
 assembly(UnityEngine.dll SOURCES "${HEADLESS}/UnityEngine" OPTIONS -unsafe+)

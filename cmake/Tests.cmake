@@ -90,7 +90,7 @@ suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleRep
 suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED SCRIPT pages.py live RESULTS)
 suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED PARALLEL SCRIPT pages.py site RESULTS)
 
-set(acceptance NEEDS build:runtime build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
+set(acceptance NEEDS build:runtime build:sample_code build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2 --dist loadgroup)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
 suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)

@@ -11,7 +11,7 @@ from build.site import reference
 
 # Sections and their pages, in order. Documentation~ is at the top of the site, docs/ in `repository`. Other pages come last in How-to.
 SECTIONS = {
-    "Start": ["getting-started", "without-unity", "first-study"],
+    "Start": ["getting-started", "first-swarm-in-unity", "without-unity", "first-study"],
     "Concepts": ["aggregate-computing", "unity-for-researchers", "way-of-a-tick", "schedules-and-network", "reproducibility"],
     "Tutorials": ["tutorial-first-swarm", "tutorial-own-parts", "tutorial-own-rule", "tutorial-scene-builder", "tutorial-live", "tutorial-debugging",
                   "tutorial-profiling", "tutorial-experiment", "tutorial-from-collektive"],

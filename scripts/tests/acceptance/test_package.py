@@ -27,7 +27,7 @@ class InstalledProject:
         subprocess.run(["tar", "-xzf", archive, "-C", self.package, "--strip-components=1"], check=True)
         installed.compile_project(Path(self.folder))
         sample = "Packages/org.collektive.unity/unity/Samples~/GradientAscent"
-        scenario = {"version": 1, "scene": "Collektive.Samples.GradientAscent.GradientAscentScene", "scripts": sample,
+        scenario = {"version": 1, "scene": "CollektiveSamples.GradientAscent.GradientAscentScene", "scripts": sample,
                     "schema": sample + "/gradient_ascent.fbs", "programs": sample + "/gradient_ascent.clkprograms",
                     "program": "gradient-ascent", "fields": {"nodes": 30}, "seconds": 1}
         with open(os.path.join(self.folder, "scenario.json"), "w") as file:

@@ -1,4 +1,5 @@
 """Tests the commands and code of pages."""
+import csv
 import json
 import os
 import re
@@ -57,6 +58,29 @@ import org.collektive.api.Program
         result = collektive("run", self.path("swarm.json"), "--out", self.path("out"))
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
+
+    def test_the_tutorial_for_the_editor_works(self) -> None:
+        """Runs both programs of the page with its components, in a scene like the one that the reader builds."""
+        scene = self.SCENE.replace("HopsColour>();", "SwarmMove>();\n            node.AddComponent<SwarmPosition>();")
+        files = {block.title: block.text for block in of_kind("project") if block.page == "Documentation~/first-swarm-in-unity.md"}
+        files["Assets/Swarm/Example.cs"] = scene.replace("RadiusNeighbourhood>()", "RadiusNeighbourhood>().Radius = 12")
+        for name, text in files.items():
+            os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
+            with open(self.path(name), "w") as file:
+                file.write(text)
+        distances = {}
+        for program in "gather", "climb":
+            scenario = {"version": 1, "scene": "Example", "scripts": "Assets/Swarm", "schema": "Assets/Swarm/swarm.fbs", "programs": "Assets/Swarm/Programs",
+                        "program": program, "seconds": 30, "metrics": {"distance": "avg(abs(x - 20))"}, "outputs": {"metrics": True}}
+            with open(self.path(f"{program}.json"), "w") as file:
+                json.dump(scenario, file)
+            result = collektive("run", self.path(f"{program}.json"), "--out", self.path(program))
+            self.assertEqual(result.returncode, 0, result.stderr)
+            with open(self.path(program, "metrics.csv")) as file:
+                distances[program] = [float(row["distance"]) for row in csv.DictReader(file)][-1]
+        # The nodes begin at 0, 2 ... 38 m, and the lamp is at 20 m.
+        self.assertLess(distances["climb"], distances["gather"])
+        self.assertLess(distances["climb"], 3)
 
     @pytest.mark.quick
     def test_pictures_and_links_of_the_page_exist(self) -> None:

@@ -1,7 +1,7 @@
 using System.Diagnostics;
 using Collektive.Bridge;
 using gradientascent;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Headless.Bench
 {

@@ -5,7 +5,7 @@ using System.IO;
 using System.Net;
 using System.Net.Sockets;
 using System.Runtime.InteropServices;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Headless.Bench
 {

@@ -14,7 +14,7 @@ namespace Collektive.Headless.Faults
 
         private static readonly Type[] Parts =
         {
-            typeof(Google.FlatBuffers.FlatBufferBuilder), typeof(Bridge.Jvm), typeof(UnityEngine.Object), typeof(Unity.SimulationManager), typeof(ShimCounts),
+            typeof(FlatBuffers.FlatBufferBuilder), typeof(Bridge.Jvm), typeof(UnityEngine.Object), typeof(Unity.SimulationManager), typeof(ShimCounts),
         };
 
         /// <summary>Returns whether all plays succeeded and released their sessions, slots and threads.</summary>

@@ -250,7 +250,8 @@ namespace Collektive.Headless
                         Fields.Add(prefix + member.Name);
                         Getters.Add(Expression.Lambda<Func<T, double>>(Number(value, value.Type, inner), data).Compile());
                     }
-                    else if (inner.IsValueType && inner.Namespace != "Google.FlatBuffers" && inner.Namespace != "System" && depth < MaxDepth && inner != type)
+                    else if (inner.IsValueType && inner.Namespace != "Collektive.FlatBuffers" && inner.Namespace != "System" && depth < MaxDepth
+                        && inner != type)
                     {
                         if (inner == value.Type) Add(data, value, inner, prefix + member.Name + "_", depth + 1);
                         else AddOptional(data, value, inner, prefix + member.Name + "_", depth + 1);

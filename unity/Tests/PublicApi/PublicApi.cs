@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.ComponentModel;
 using System.Globalization;
 using System.Reflection;
 using System.Text;
@@ -12,23 +13,25 @@ namespace Collektive.Unity.PublicApi.Tests
         private const BindingFlags Declared =
             BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
-        /// <summary>Lists the types in Collektive's namespaces, which exclude generated code.</summary>
+        /// <summary>Lists the types in Collektive's namespaces, which exclude generated code, without those that only generated code needs.</summary>
         internal static string Of(Assembly assembly)
         {
             var lines = new List<string>();
             foreach (var type in assembly.GetExportedTypes())
             {
-                if (type.Namespace == null || !type.Namespace.StartsWith("Collektive.", StringComparison.Ordinal)) continue;
+                if (type.Namespace == null || !type.Namespace.StartsWith("Collektive.", StringComparison.Ordinal) || IsHidden(type)) continue;
                 lines.Add(Name(type) + " : " + Kind(type));
                 foreach (var member in type.GetMembers(Declared))
                 {
-                    var text = Text(member);
+                    var text = IsHidden(member) ? null : Text(member);
                     if (text != null) lines.Add(Name(type) + "." + text);
                 }
             }
             lines.Sort(StringComparer.Ordinal);
             return string.Join("\n", lines) + "\n";
         }
+
+        private static bool IsHidden(MemberInfo member) => member.GetCustomAttribute<EditorBrowsableAttribute>()?.State == EditorBrowsableState.Never;
 
         private static string Kind(Type type)
         {

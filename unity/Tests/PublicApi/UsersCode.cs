@@ -7,7 +7,7 @@ namespace Collektive.Unity.PublicApi.Tests
 
     internal sealed class UsersSensor : Sensor<float>
     {
-        [ReadOnly]
+        [InspectorReadOnly]
         [SerializeField]
         private float last;
 

@@ -1,6 +1,6 @@
 using System;
 using Collektive.Bridge;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 using NUnit.Framework;
 using test.blocks;
 

@@ -4,7 +4,7 @@ using System.Globalization;
 using System.Reflection;
 using System.Text;
 using Collektive.Bridge;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Headless.Tests.Schema
 {

@@ -2,7 +2,7 @@ using System;
 using System.IO;
 using System.Text;
 using Collektive.Bridge;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Headless.Tests.Schema
 {

@@ -1,5 +1,5 @@
 using Collektive.Bridge;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 using NUnit.Framework;
 using org.collektive.schema;
 using Blocks = test.blocks;

@@ -90,7 +90,7 @@ namespace Collektive.Headless.Tests.Simulation
         private ulong PlaySample(string sample, string program, string size, int count)
         {
             var samples = Assembly.LoadFrom(Path.Combine(AppDomain.CurrentDomain.BaseDirectory, "Collektive.Samples.dll"));
-            var scene = samples.GetType("Collektive.Samples." + sample + "." + sample + "Scene", true);
+            var scene = samples.GetType("CollektiveSamples." + sample + "." + sample + "Scene", true);
             Configure(program, settings =>
             {
                 settings.schema = Array.Find(samples.GetTypes(), type => type.Name == sample + "Schema").FullName;

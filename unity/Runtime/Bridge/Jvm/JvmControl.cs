@@ -1,5 +1,5 @@
 using System.Collections.Generic;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge

@@ -1,4 +1,4 @@
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {

@@ -1,11 +1,13 @@
 using System;
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
     /// <summary>
     /// Reads the actuator data of this tick and of the previous one. Not thread-safe; no allocation once the capacities are reached.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class ActuatorBuffer
     {
         /// <summary>The type of an element, the T of an <c>Actuator&lt;T&gt;</c>.</summary>
@@ -40,6 +42,7 @@ namespace Collektive.Bridge
     }
 
     /// <summary>An <see cref="ActuatorBuffer"/> with typed elements.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class ActuatorBuffer<T> : ActuatorBuffer
     {
         private int count;

@@ -1,5 +1,5 @@
 using System;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {

@@ -1,4 +1,5 @@
 using System.Collections.Generic;
+using System.ComponentModel;
 
 namespace Collektive.Bridge
 {
@@ -6,6 +7,7 @@ namespace Collektive.Bridge
     /// A user schema: creates buffers for sensor and actuator data whose fields only generated code
     /// knows. Implemented by <c>./collektive generate</c>; instances are stateless.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class DataSchema
     {
         /// <summary>Name of the schema, the same as in the JVM.</summary>

@@ -1,18 +1,23 @@
+using System.ComponentModel;
+
 namespace Collektive.Bridge
 {
     /// <summary>
     /// Staging object of one table. FlatBuffers requires children before their table, and several sensors fill different
     /// fields of the same data, so the fields wait here. Reused every tick; not thread-safe.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class Draft
     {
         /// <summary>Sets all fields to the defaults of the schema. Lists keep their capacity.</summary>
         public abstract void Clear();
 
         /// <summary>Returns the path of the first field that is NaN or infinite, or null.</summary>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public abstract string FindNotFinite();
 
         /// <summary>Writes the table after its children, and returns its offset. Called by the buffers.</summary>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public abstract int Write(DraftWriter writer);
     }
 
@@ -20,6 +25,7 @@ namespace Collektive.Bridge
     /// A <see cref="Draft"/> whose table is in the frame as <typeparamref name="TRow"/>: room for all fields, absent ones too, so that a table is one
     /// block. Used by generated code.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class Draft<TRow> : Draft where TRow : unmanaged
     {
         /// <summary>Creates a draft with the row layout <paramref name="layout"/>.</summary>
@@ -31,6 +37,7 @@ namespace Collektive.Bridge
         internal RowLayout Layout { get; }
 
         /// <summary>Writes what the table leads to and keeps the offsets; a bit for each slot that is absent.</summary>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public abstract ulong WriteChildren(DraftWriter writer);
 
         /// <summary>
@@ -38,9 +45,11 @@ namespace Collektive.Bridge
         /// bytes
         /// from the end of the frame.
         /// </summary>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public abstract void Fill(ref TRow row, int vtable, int place);
 
         /// <inheritdoc/>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public sealed override int Write(DraftWriter writer) => writer.Table(this);
     }
 }

@@ -1,6 +1,7 @@
 using System;
+using System.ComponentModel;
 using System.Text;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
@@ -9,6 +10,7 @@ namespace Collektive.Bridge
     /// block: a call of the builder for each part would cost more than the part. Places are bytes from the end of the frame to the start of what was
     /// written, as the builder's are. Memory is reused every tick. Used by generated code.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class DraftWriter
     {
         /// <summary>The largest alignment of a field.</summary>

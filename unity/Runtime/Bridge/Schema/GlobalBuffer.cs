@@ -1,9 +1,11 @@
 using System;
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
     /// <summary>Buffer for the global data. Not thread-safe; no allocation once the capacities are reached.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class GlobalBuffer
     {
         /// <summary>The type of the staged data.</summary>
@@ -21,6 +23,7 @@ namespace Collektive.Bridge
     }
 
     /// <summary>A <see cref="GlobalBuffer"/> with typed data.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class GlobalBuffer<T> : GlobalBuffer
     {
         /// <summary>The staged data.</summary>

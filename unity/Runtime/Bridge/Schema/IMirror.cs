@@ -1,6 +1,9 @@
+using System.ComponentModel;
+
 namespace Collektive.Bridge
 {
     /// <summary>A C# struct with exactly the memory layout of a struct of the schema.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public interface IMirror
     {
         /// <summary>Returns the path of the first field that is NaN or infinite, or null.</summary>

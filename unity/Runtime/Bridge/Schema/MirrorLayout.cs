@@ -1,8 +1,10 @@
 using System;
+using System.ComponentModel;
 
 namespace Collektive.Bridge
 {
     /// <summary>Checks at start-up that mirrors have the layout of the schema. Used by generated code.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public static class MirrorLayout
     {
         /// <summary>Throws if a mirror has another size.</summary>

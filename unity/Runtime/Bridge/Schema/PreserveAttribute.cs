@@ -1,4 +1,5 @@
 using System;
+using System.ComponentModel;
 
 namespace Collektive.Bridge
 {
@@ -7,6 +8,7 @@ namespace Collektive.Bridge
     /// name; this one is for code that does not refer to the engine.
     /// </summary>
     [AttributeUsage(AttributeTargets.Class)]
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class PreserveAttribute : Attribute
     {
     }

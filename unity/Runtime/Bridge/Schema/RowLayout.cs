@@ -1,6 +1,9 @@
+using System.ComponentModel;
+
 namespace Collektive.Bridge
 {
     /// <summary>The offsets of a table's fields in its rows: see <see cref="Draft{TRow}"/>. Used by generated code.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class RowLayout
     {
         /// <summary>

@@ -1,5 +1,6 @@
 using System;
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
@@ -7,6 +8,7 @@ namespace Collektive.Bridge
     /// Buffer for one tick's sensor data: element i belongs to the i-th due node. Not thread-safe; no allocation once the
     /// capacities are reached.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class SensorBuffer
     {
         /// <summary>The type of an element, the T of a <c>Sensor&lt;T&gt;</c>.</summary>
@@ -33,6 +35,7 @@ namespace Collektive.Bridge
     }
 
     /// <summary>A <see cref="SensorBuffer"/> with typed elements.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class SensorBuffer<T> : SensorBuffer
     {
         /// <summary>The elements; <see cref="SensorBuffer.EnsureCapacity"/> may replace the array.</summary>

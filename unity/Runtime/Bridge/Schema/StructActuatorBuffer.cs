@@ -1,6 +1,7 @@
 using System;
+using System.ComponentModel;
 using System.Runtime.InteropServices;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
@@ -8,6 +9,7 @@ namespace Collektive.Bridge
     /// Actuator data that is a struct in the schema: all elements come out of the frame by one block copy, as sensor data go in. Looking up each one in the
     /// frame's memory costs Mono ten times as much.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class StructActuatorBuffer<T> : ActuatorBuffer<T> where T : unmanaged, IMirror
     {
         private T[] items = Array.Empty<T>();

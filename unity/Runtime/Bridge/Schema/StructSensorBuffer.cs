@@ -1,8 +1,10 @@
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
     /// <summary>Sensor data that is a struct in the schema: all elements go into the frame by one block copy.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class StructSensorBuffer<T> : SensorBuffer<T> where T : unmanaged, IMirror
     {
         private readonly int alignment;

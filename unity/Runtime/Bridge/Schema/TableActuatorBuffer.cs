@@ -1,5 +1,6 @@
 using System;
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
@@ -7,6 +8,7 @@ namespace Collektive.Bridge
     /// Actuator data that is a table in the schema: elements are flatc's readers over the frame's memory. The previous ones are read from a copy of their
     /// frame, made in one block.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class TableActuatorBuffer<T> : ActuatorBuffer<T> where T : struct, IFlatbufferObject
     {
         private readonly TableShape shape;

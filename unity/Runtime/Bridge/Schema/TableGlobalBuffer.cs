@@ -1,8 +1,10 @@
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
     /// <summary>Global data, which is always a table: staged in one reused draft.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class TableGlobalBuffer<T> : GlobalBuffer<T> where T : Draft, new()
     {
         private readonly DraftWriter writer = new DraftWriter();

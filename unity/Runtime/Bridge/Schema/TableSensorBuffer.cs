@@ -1,9 +1,11 @@
 using System;
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
     /// <summary>Sensor data that is a table in the schema: staged in one reused draft per element; all tables go into the frame by one block copy.</summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class TableSensorBuffer<TDraft, TRow> : SensorBuffer<TDraft> where TDraft : Draft<TRow>, new() where TRow : unmanaged
     {
         private readonly DraftWriter writer = new DraftWriter();

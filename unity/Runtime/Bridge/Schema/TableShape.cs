@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
-using Google.FlatBuffers;
+using System.ComponentModel;
+using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
@@ -8,6 +9,7 @@ namespace Collektive.Bridge
     /// The fields of a table that are stored outside of it, to copy tables. Used by generated code, which adds the fields once;
     /// slots are the places of fields in the table's declaration. Deprecated fields are not copied.
     /// </summary>
+    [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class TableShape
     {
         private const int FirstEntry = 2 * sizeof(ushort);

@@ -1,4 +1,4 @@
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge

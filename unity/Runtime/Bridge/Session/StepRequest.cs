@@ -1,6 +1,6 @@
 using System;
 using System.Collections.Generic;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge

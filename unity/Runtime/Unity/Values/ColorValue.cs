@@ -1,3 +1,4 @@
+using System.ComponentModel;
 using System.Runtime.InteropServices;
 using Collektive.Bridge;
 
@@ -35,6 +36,7 @@ namespace org.collektive.schema
         public static implicit operator UnityEngine.Color(ColorValue value) => new UnityEngine.Color(value.R, value.G, value.B, value.A);
 
         /// <inheritdoc/>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public string FindNotFinite()
         {
             if (!float.IsFinite(R)) return "r";

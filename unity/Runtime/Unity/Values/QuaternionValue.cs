@@ -1,3 +1,4 @@
+using System.ComponentModel;
 using System.Runtime.InteropServices;
 using Collektive.Bridge;
 
@@ -35,6 +36,7 @@ namespace org.collektive.schema
         public static implicit operator UnityEngine.Quaternion(QuaternionValue value) => new UnityEngine.Quaternion(value.X, value.Y, value.Z, value.W);
 
         /// <inheritdoc/>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public string FindNotFinite()
         {
             if (!float.IsFinite(X)) return "x";

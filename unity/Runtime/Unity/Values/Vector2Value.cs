@@ -1,3 +1,4 @@
+using System.ComponentModel;
 using System.Runtime.InteropServices;
 using Collektive.Bridge;
 
@@ -27,6 +28,7 @@ namespace org.collektive.schema
         public static implicit operator UnityEngine.Vector2(Vector2Value value) => new UnityEngine.Vector2(value.X, value.Y);
 
         /// <inheritdoc/>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public string FindNotFinite()
         {
             if (!float.IsFinite(X)) return "x";

@@ -1,3 +1,4 @@
+using System.ComponentModel;
 using System.Runtime.InteropServices;
 using Collektive.Bridge;
 
@@ -31,6 +32,7 @@ namespace org.collektive.schema
         public static implicit operator UnityEngine.Vector3(Vector3Value value) => new UnityEngine.Vector3(value.X, value.Y, value.Z);
 
         /// <inheritdoc/>
+        [EditorBrowsable(EditorBrowsableState.Never)]
         public string FindNotFinite()
         {
             if (!float.IsFinite(X)) return "x";

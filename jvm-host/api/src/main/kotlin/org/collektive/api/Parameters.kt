@@ -53,7 +53,8 @@ public class Parameters(values: Map<String, String>) {
      */
     public inline fun <reified T : Enum<T>> enum(name: String): T {
         val text = get(name)
-        return requireNotNull(enumEntries<T>().find { it.name == text }) { "parameter '$name' must be one of ${enumEntries<T>()}, but is '$text'" }
+        val constants = enumEntries<T>()
+        return requireNotNull(constants.find { it.name == text }) { "parameter '$name' must be one of $constants, but is '$text'" }
     }
 
     private fun indexOf(name: String): Int {

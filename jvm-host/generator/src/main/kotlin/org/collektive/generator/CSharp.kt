@@ -295,13 +295,14 @@ internal class CSharp(private val schema: UserSchema) {
         private val TAKEN = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
 
         /**
-         * Adds the symbols with which the FlatBuffers assembly was compiled to flatc's C#. Defined per file, they need no settings in users'
-         * projects.
+         * Adapts flatc's C# to our FlatBuffers assembly: its namespace, and the symbols with which it was compiled. Defined per file, they need no
+         * settings in users' projects.
          */
-        fun defineSymbols(text: String): String {
+        fun adapt(text: String): String {
             val header = "// </auto-generated>\n"
             require(header in text) { "flatc's C# has no header" }
-            return text.replaceFirst(header, "$header#define UNSAFE_BYTEBUFFER\n#define ENABLE_SPAN_T\n")
+            val ours = text.replace("global::Google.", "Google.").replace("Google.FlatBuffers", "global::Collektive.FlatBuffers")
+            return ours.replaceFirst(header, "$header#define UNSAFE_BYTEBUFFER\n#define ENABLE_SPAN_T\n")
         }
     }
 }

@@ -61,7 +61,7 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
         val output = OutputFolder(folder)
         val csharp = CSharp(schema)
         files.forEach { sanitized.csharp(copies.of(it), work.resolve("csharp")) }
-        output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.defineSymbols(text) else null }
+        output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.adapt(text) else null }
         for ((name, model) in csharp.mirrors()) output.write("${path(name)}.cs", Templates.render("Mirror.cs", model))
         for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
         output.write("${path(schema.name)}.cs", Templates.render("Schema.cs", csharp.schema()))

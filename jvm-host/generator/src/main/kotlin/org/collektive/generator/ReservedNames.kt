@@ -27,7 +27,8 @@ internal object ReservedNames {
     val types: Set<String> = words(
         """
         BaseVector Boolean BooleanArray BooleanVector Byte ByteArray ByteBuffer ByteOrder ByteVector Class Constants Double DoubleArray
-        DoubleVector FlatBufferBuilder FlatBufferConstants Float FloatArray FloatVector Google IFlatbufferObject Int IntArray IntVector
+        DoubleVector EditorBrowsableAttribute EditorBrowsableState FlatBufferBuilder FlatBufferConstants Float FloatArray FloatVector
+        IFlatbufferObject Int IntArray IntVector
         JvmOverloads LayoutKind List Long LongArray LongVector Map Short ShortArray ShortVector String StringOffset StringVector Struct
         StructLayoutAttribute SuppressWarnings Table UnionVector VectorOffset
         """,
@@ -36,7 +37,7 @@ internal object ReservedNames {
     /** First parts of namespaces that libraries or generated Kotlin use. */
     val roots: Set<String> = words(
         """
-        java javax jdk sun kotlin kotlinx System Google Microsoft Mono Unity UnityEngine UnityEditor Bridge actuatorReader actuatorType
+        java javax jdk sun kotlin kotlinx System Microsoft Mono Unity UnityEngine UnityEditor Bridge actuatorReader actuatorType
         actuatorWriter builder constant data depth fault globalReader i init it items name pack place result sensorReader sensorType
         sensorView target types
         """,
@@ -47,7 +48,7 @@ internal object ReservedNames {
         """
         com com.google com.google.flatbuffers org org.collektive org.collektive.frame org.collektive.frames org.collektive.frames.data
         org.collektive.schema org.collektive.host org.collektive.api org.collektive.engine Collektive Collektive.Bridge Collektive.Unity
-        Google.FlatBuffers it it.unibo
+        Collektive.FlatBuffers it it.unibo
         """,
     )
 }

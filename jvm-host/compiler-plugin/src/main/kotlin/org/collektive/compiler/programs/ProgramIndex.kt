@@ -52,7 +52,9 @@ internal class ProgramIndex(private val output: File) : IrGenerationExtension {
         val sensors = function.parameters.firstOrNull { it.kind == IrParameterKind.Regular }?.type?.classFqName?.asString().orEmpty()
         val parameters = (program.getOrNull(1) as? IrVararg)?.elements.orEmpty().filterIsInstance<IrConstructorCall>()
         return listOf(record("program", program[0].text(), sensors)) +
-            parameters.map { it.arguments }.map { record("parameter", it[0].text(), it[1].text(), it[2].text(), *it.getOrNull(3).constants()) }
+            parameters.map { it.arguments }.map {
+                record("parameter", it[0].text(), it[1].text(), it[2].text(), *it.getOrNull(3).constants())
+            }
     }
 
     /** The class that the top-level functions of [file] are compiled to. */
