@@ -45,7 +45,7 @@ endfunction()
 set(generator "${COLLEKTIVE_JAVA_HOME}/bin/java" -XX:+UseSerialGC -XX:TieredStopAtLevel=1 -jar "${GENERATOR_JAR}" --flatc "${COLLEKTIVE_FLATC}"
   --include "${PROJECT_SOURCE_DIR}/schema")
 
-# The runtime of FlatBuffers in a namespace of its own.
+# The runtime of FlatBuffers in its own namespace.
 collektive_python(rename_flatbuffers build/rename_flatbuffers.py)
 collektive_step(flatbuffers_code OUTPUT "${GENERATED}/flatbuffers.stamp"
   COMMAND ${rename_flatbuffers} "${GENERATED}/flatbuffers" "${COLLEKTIVE_BUILD}/flatbuffers/net/FlatBuffers"

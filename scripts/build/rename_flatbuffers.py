@@ -1,6 +1,6 @@
 """rename_flatbuffers.py FOLDER [SOURCE]: renames the namespace of FlatBuffers in the C# of FOLDER, which is a new copy of SOURCE if that is named.
 
-With a namespace of its own, the package works in projects that contain another copy of FlatBuffers.
+With its own namespace, the package works in projects that contain another copy of FlatBuffers.
 """
 import shutil
 import sys

@@ -121,8 +121,9 @@ namespace Collektive.Unity.Editor
         private void Select(IEnumerable<object> items)
         {
             selected = -1;
-            foreach (NodeRow row in items)
+            foreach (var item in items)
             {
+                if (!(item is NodeRow row)) continue;
                 selected = row.Id;
                 if (row.Node != null) EditorGUIUtility.PingObject(row.Node);
             }

@@ -17,6 +17,9 @@ namespace Collektive.Unity.Editor
         private string reported;
         private Task<JvmReport> check;
 
+        /// <summary>The JVM answers in the background, and its memory changes.</summary>
+        public override bool RequiresConstantRepaint() => Jvm.State == JvmState.Running;
+
         /// <inheritdoc/>
         public override void OnInspectorGUI()
         {

@@ -41,11 +41,11 @@ namespace CollektiveSamples.GradientAscent
 
         [SerializeField]
         [Tooltip("Prefab of the nodes. None, as in runs without Unity: an equal object is built.")]
-        private Node nodePrefab;
+        private Node nodePrefab = null;
 
         [SerializeField]
         [Tooltip("The source in the scene. None: one is built.")]
-        private IntensitySource sourceObject;
+        private IntensitySource sourceObject = null;
 
         private readonly List<float> distances = new List<float>();
         private SimulationManager manager;
