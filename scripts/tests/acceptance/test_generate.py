@@ -2,6 +2,7 @@
 import glob
 import os
 import subprocess
+import sys
 
 import pytest
 from command import SAMPLE, Folder, collektive
@@ -19,6 +20,7 @@ class Generated(Folder):
         flatc = os.path.join(BUILD, "flatc")
         schemas = [os.path.join(ROOT, "schema", name) for name in ["frame.fbs", "types.fbs"]]
         subprocess.run([flatc, "--csharp", "-o", self.path("core"), *schemas], check=True)
+        subprocess.run([sys.executable, os.path.join(ROOT, "scripts/build/rename_flatbuffers.py"), self.path("core")], check=True)
         self.same(self.path("core"), os.path.join(BUILD, "generated/bridge"))
 
     def same(self, made, built) -> None:
