@@ -59,12 +59,12 @@ namespace Collektive.Headless.WithoutLibrary
         {
             Gui.Clear();
             Gui.Act("JVM settings", true);
-            UnityEditor.Editor.CreateEditor(manager).OnInspectorGUI();
-            UnityEditor.Editor.CreateEditor(manager.Settings.jvm).OnInspectorGUI();
+            Gui.Passes(UnityEditor.Editor.CreateEditor(manager).OnInspectorGUI);
+            Gui.Passes(UnityEditor.Editor.CreateEditor(manager.Settings.jvm).OnInspectorGUI);
             for (var tab = 0; tab < 5; tab++)
             {
                 Gui.Act("toolbar", tab);
-                Menus.Send(DiagnosticsWindow.Open(), "OnGUI");
+                Menus.Draw(DiagnosticsWindow.Open());
             }
         }
 
