@@ -3,7 +3,7 @@ using System.Collections;
 using System.Globalization;
 using System.Reflection;
 using Collektive.Unity;
-using Google.FlatBuffers;
+using Collektive.FlatBuffers;
 using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
