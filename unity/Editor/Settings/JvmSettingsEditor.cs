@@ -57,7 +57,7 @@ namespace Collektive.Unity.Editor
             var now = Jvm.State + " " + Jvm.Process + TextOf(settings);
             if (now == reported || check != null) return;
             reported = now;
-            // The package's files are looked for on the main thread, but not during an event of the GUI.
+            // Files of the package are located on the main thread, but not during a GUI event.
             EditorApplication.delayCall += () => Start(settings.Copy());
         }
 

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>Senses everything but the velocity.</summary>
+    /// <summary>Writes all sensor data except the velocity.</summary>
     public sealed class StandardSensor : Sensor<SensorData>
     {
         internal StandardScene Scene;

@@ -77,7 +77,7 @@ namespace UnityEditor
             return found.ToArray();
         }
 
-        /// Only the filter "t:TYPE" of types that importers make.
+        /// Supports only the filter "t:TYPE" for types that importers create.
         public static string[] FindAssets(string filter)
         {
             var found = new List<string>();

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Channel
 {
     /// <summary>
-    /// Nodes scattered over a plane of 100 x 60 m find a channel between two of them. Two walls, which radio does not pass, stand across the straight
-    /// way, each with a gap at either end. After a while the nodes in the gaps of the channel fail, and it finds the other way.
+    /// Nodes scattered over a plane of 100 x 60 m find a channel between two of them. Two walls, which block radio, stand across the direct
+    /// path, each with a gap at either end. After a while the nodes in the gaps of the channel fail, and it finds another path.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Channel Scene")]
     public sealed class ChannelScene : SceneBuilder
@@ -141,7 +141,7 @@ namespace CollektiveSamples.Channel
 
         private static float DistanceToWall(Vector3 place) => Mathf.Abs(Mathf.Abs(place.x) - WallPlace);
 
-        /// <summary>A place that is not in a wall.</summary>
+        /// <summary>Returns a random position outside the walls.</summary>
         private static Vector3 FreePlace(SimulationManager manager)
         {
             for (; ; )
@@ -156,7 +156,7 @@ namespace CollektiveSamples.Channel
             var holder = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             holder.SetActive(false);
             holder.name = isSource ? "Source" : isTarget ? "Target" : "Node";
-            // Other nodes' bodies do not stand in the way of radio.
+            // Bodies of other nodes do not block radio.
             holder.layer = IgnoreRaycastLayer;
             holder.transform.position = place;
             if (isSource || isTarget) holder.transform.localScale = 2 * Vector3.one;

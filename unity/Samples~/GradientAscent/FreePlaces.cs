@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.GradientAscent
 {
-    /// <summary>Places on the ground that keep a distance from each other. Testing a place takes constant time.</summary>
+    /// <summary>Positions on the ground with a minimum distance from each other. Testing a place takes constant time.</summary>
     internal sealed class FreePlaces
     {
         /// <summary>
@@ -19,7 +19,7 @@ namespace CollektiveSamples.GradientAscent
         /// <param name="distance">Metres, greater than 0.</param>
         internal FreePlaces(float distance) => this.distance = distance;
 
-        /// <summary>Takes a place if those taken before are far enough from it.</summary>
+        /// <summary>Takes a place unless an earlier one is too near, and returns whether it did.</summary>
         internal bool TryTake(Vector3 place)
         {
             var x = CellOf(place.x);

@@ -5,8 +5,8 @@ using UnityEngine;
 namespace CollektiveSamples.GradientAscent
 {
     /// <summary>
-    /// A flat arena of 100 x 60 m with a rim. A swarm climbs towards a source; four obstacles stand across the straight way. Each node perceives
-    /// the intensity where it is and what is around it, and talks to the nodes within its range.
+    /// A flat arena of 100 x 60 m with a rim. A swarm climbs towards a source; four obstacles block the direct path. Each node perceives
+    /// the intensity where it is and what is around it, and exchanges messages with the nodes within its range.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent Scene")]
     public sealed class GradientAscentScene : SceneBuilder
@@ -32,7 +32,7 @@ namespace CollektiveSamples.GradientAscent
         /// <summary>Where the source stands.</summary>
         public Vector3 source = new Vector3(25, 0, 0);
 
-        /// <summary>Whether the four obstacles stand in the way.</summary>
+        /// <summary>Whether the four obstacles exist.</summary>
         public bool obstacles = true;
 
         /// <summary>Factor on the field's length and width, and on the source's reach. It does not move the source.</summary>

@@ -23,7 +23,7 @@ namespace CollektiveSamples.LeaderElection
         [Min(0)]
         public float range = 6;
 
-        /// <summary>Metres from a leader to the farthest of its region.</summary>
+        /// <summary>Maximum distance of a node from its leader in metres.</summary>
         [Min(0.1f)]
         public float radius = 20;
 

@@ -154,7 +154,7 @@ namespace CollektiveSamples.Rescue
             }
         }
 
-        /// <summary>Finds the robots that links between robots of channels join with the base.</summary>
+        /// <summary>Finds the robots that a chain of channel robots connects to the base.</summary>
         private void FindReached()
         {
             reached.Clear();
@@ -183,7 +183,7 @@ namespace CollektiveSamples.Rescue
             var robot = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             robot.SetActive(false);
             robot.name = isBase ? "Base" : "Robot";
-            // Other robots' bodies do not stand in the way of radio.
+            // Bodies of other robots do not block radio.
             robot.layer = Ruins.GroundLayer;
             robot.transform.position = place;
             robot.transform.localScale = 2 * BodyRadius * Vector3.one;

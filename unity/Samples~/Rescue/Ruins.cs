@@ -25,7 +25,7 @@ namespace CollektiveSamples.Rescue
             new Vector2(-28, -14), new Vector2(-27, 16), new Vector2(-3, -3), new Vector2(9, 9), new Vector2(20, 18), new Vector2(34, 8), new Vector2(-4, -18),
         };
 
-        /// <summary>Builds all of it.</summary>
+        /// <summary>Builds the ground and everything on it.</summary>
         internal static void Build(RandomStream random)
         {
             var ground = Box("Ground", new Vector3(0, -0.5f, 0), new Vector3(82, 1, 52));

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Rescue
 {
-    /// <summary>A vehicle that drives to and fro between two places, in simulated time.</summary>
+    /// <summary>A vehicle that drives back and forth between two points, in simulated time.</summary>
     [RequireComponent(typeof(Rigidbody))]
     [AddComponentMenu("Collektive/Samples/Rescue/Shuttle")]
     public sealed class Shuttle : MonoBehaviour
@@ -24,7 +24,7 @@ namespace CollektiveSamples.Rescue
         private SimulationManager manager;
         private Rigidbody body;
 
-        /// <summary>Sets its way: two places in metres, and metres per second. Call it before the component is enabled.</summary>
+        /// <summary>Sets the two turning points in metres and the speed in metres per second. Call it before the component is enabled.</summary>
         public void Set(Vector3 from, Vector3 to, float speed)
         {
             this.from = from;

@@ -35,7 +35,7 @@ namespace CollektiveSamples.Swarm
         private Vector3[] after = new Vector3[0];
         private ulong tick;
 
-        /// <summary>Metres from the middle of a drone to its skin.</summary>
+        /// <summary>Radius of a drone in metres.</summary>
         public float Radius { get; set; } = 0.3f;
 
         /// <summary>

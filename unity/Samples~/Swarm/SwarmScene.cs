@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Swarm
 {
     /// <summary>
-    /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and the news
-    /// passes through the swarm from neighbour to neighbour. After a while the leader fails, and another drone replaces it.
+    /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and its choice
+    /// spreads through the swarm from neighbour to neighbour. After a while the leader fails, and another drone replaces it.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm Scene")]
     public sealed class SwarmScene : SceneBuilder
@@ -33,7 +33,7 @@ namespace CollektiveSamples.Swarm
         [Min(0)]
         public float failAfter = 20;
 
-        /// <summary>Metres per second of the fastest flight.</summary>
+        /// <summary>Maximum speed in metres per second.</summary>
         [Min(0.1f)]
         public float speed = 8;
 

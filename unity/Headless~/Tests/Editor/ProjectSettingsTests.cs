@@ -68,7 +68,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Passes(() => page.OnGUI(""));
             Gui.Clear();
             Gui.Passes(() => page.OnGUI(""));
-            Assert.That(Gui.Lines, Has.Some.Contains("/nowhere/jdk"), "no event of the GUI searches the disk");
+            Assert.That(Gui.Lines, Has.Some.Contains("/nowhere/jdk"), "GUI events do not search the disk");
             Menus.Tick();
             Gui.Clear();
             Gui.Passes(() => page.OnGUI(""));

@@ -47,7 +47,7 @@ namespace UnityEditor.Headless
             return null;
         }
 
-        /// The drawer of a field, which has it for an attribute or for its type.
+        /// The drawer of a field, chosen by an attribute or by its type.
         internal static PropertyDrawer DrawerOf(FieldInfo field)
         {
             foreach (var attribute in field.GetCustomAttributes<PropertyAttribute>())

@@ -4,10 +4,10 @@ using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Asks the host about the JVM itself, in frames that belong to no session. From any thread; allocates.</summary>
+    /// <summary>Queries the host about the JVM itself, in frames that belong to no session. From any thread; allocates.</summary>
     internal static unsafe class JvmControl
     {
-        /// <summary>Held while an answer is read: the next question, and the end of the JVM, would overwrite it.</summary>
+        /// <summary>Held while an answer is read, because the next query or the end of the JVM would overwrite it.</summary>
         internal static readonly object Gate = new object();
 
         private const int FirstCapacity = 4096;

@@ -35,7 +35,7 @@ namespace Collektive.Bridge
         /// <summary>Index of the element that is being written; -1 for global data.</summary>
         internal int Element { private get; set; }
 
-        /// <summary>Of what was written last.</summary>
+        /// <summary>Place of the most recently written data.</summary>
         private int Place => origin + memory.Length - free;
 
         /// <summary>Begins a block; <see cref="End"/> puts it into the frame.</summary>

@@ -6,7 +6,7 @@ namespace Collektive.Bridge
     /// <summary>A copy of a table of a frame with its children. No allocation once the capacity is reached.</summary>
     internal sealed class TableCopy
     {
-        /// <summary>The largest alignment of the schema language's numbers.</summary>
+        /// <summary>The largest alignment of a FlatBuffers number.</summary>
         private const int Alignment = sizeof(ulong);
 
         private byte[] bytes = new byte[64];

@@ -22,7 +22,7 @@ namespace Collektive.Bridge
         /// <summary>Adds a vector of strings.</summary>
         public TableShape Texts(int slot) => Add(new Child(slot, Kind.Texts, 0, null));
 
-        /// <summary>Adds a vector of numbers or structs of so many bytes.</summary>
+        /// <summary>Adds a vector of numbers or structs of the given size in bytes.</summary>
         public TableShape Values(int slot, int elementBytes) => Add(new Child(slot, Kind.Values, elementBytes, null));
 
         /// <summary>Adds a table.</summary>

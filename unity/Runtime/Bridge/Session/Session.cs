@@ -12,7 +12,7 @@ namespace Collektive.Bridge
     internal sealed unsafe class Session : IDisposable
     {
         private const int FirstCapacity = 64 * 1024;
-        private const int ForgottenLimitMs = 1000;
+        private const int FinalizerLimitMs = 1000;
         private const int OpeningWaitMs = 1000;
 
         /// <summary>Simulated times are multiples of a nanosecond.</summary>
@@ -151,7 +151,7 @@ namespace Collektive.Bridge
         ~Session()
         {
             if (handle == 0) return;
-            Shim.clk_session_close(handle, ForgottenLimitMs);
+            Shim.clk_session_close(handle, FinalizerLimitMs);
             Shim.clk_slot_release(slot.Slot);
         }
 

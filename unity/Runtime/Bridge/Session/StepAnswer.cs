@@ -19,7 +19,7 @@ namespace Collektive.Bridge
         /// <summary>The actuator data; element i belongs to <see cref="Node"/>(i).</summary>
         public ActuatorBuffer Actuators { get; }
 
-        /// <summary>How many rounds gave an answer.</summary>
+        /// <summary>Number of rounds that produced an answer.</summary>
         public int NodeCount => response.NodesLength;
 
         /// <summary>The tick that was run.</summary>
@@ -31,10 +31,10 @@ namespace Collektive.Bridge
         /// <summary>Rounds that failed in this tick.</summary>
         public int ErrorCount => response.ErrorsLength;
 
-        /// <summary>Nodes that the engine holds.</summary>
+        /// <summary>Number of nodes in the engine.</summary>
         public int EngineNodes => response.NodeCount;
 
-        /// <summary>Directed links that the engine holds.</summary>
+        /// <summary>Number of directed links in the engine.</summary>
         public int EngineLinks => response.LinkCount;
 
         /// <summary>Microseconds that the JVM spent on the step.</summary>

@@ -91,7 +91,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Where below its streaming assets a player has a file that the settings name from the project's folder. Files outside of that folder get a
+        /// Path, below a player's streaming assets, of a file that the settings name relative to the project's folder. Files outside of that folder get a
         /// name derived from their path.
         /// </summary>
         internal static string NameInPlayer(string file)

@@ -126,7 +126,7 @@ namespace Collektive.Unity
         /// <summary>
         /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> receives messages from <paramref name="a"/>, and vice versa unless
         /// <paramref name="directed"/>. The length is the distance now. May be called from any script's message method, <c>OnTriggerEnter</c>
-        /// for instance; it takes effect at the next tick. If a node takes no part in the simulation, nothing happens but one warning.
+        /// for instance; it takes effect at the next tick. If a node is not in the simulation, the call only logs one warning.
         /// </summary>
         public void AddLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Add(a, b, directed);
 
@@ -135,7 +135,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Writes the scene's global data, which programs see as <c>device.globals</c> from the next tick on. May be called at any time, and
-        /// several times in a tick; <paramref name="write"/> runs when the next tick begins, and finds what was written before.
+        /// several times in a tick; <paramref name="write"/> runs when the next tick begins, and sees the data written before.
         /// </summary>
         /// <typeparam name="T">The draft that generated code has for the schema's <c>GlobalData</c>.</typeparam>
         public void SetGlobals<T>(Action<T> write) => globals.Set(write ?? throw new ArgumentNullException(nameof(write)));

@@ -66,7 +66,7 @@ namespace Collektive.Unity
             var sight = Node.Simulation.SightLines;
             if (!sight.Rules.Has(this))
             {
-                // The rule came in this tick.
+                // The rule was added in this tick.
                 AddWithoutBatch(neighbours, sight);
                 return;
             }

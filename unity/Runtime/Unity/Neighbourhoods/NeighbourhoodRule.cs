@@ -32,7 +32,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Metres, 0 or greater. A link's length is sent to the JVM when it is made, and again when it changed by more than this: in a
+        /// Metres, 0 or greater. A link's length is sent to the JVM when the link is created, and again after it changed by more than this: in a
         /// swarm all lengths change a little in each tick, and sending them can cost as much as the rounds.
         /// </summary>
         public float LengthTolerance
@@ -65,7 +65,7 @@ namespace Collektive.Unity
             try
             {
                 FindNeighbours(neighbours);
-                // Not when the rule or its node left in the rule's own call, and the links with it.
+                // Skipped if the call removed the rule or its node, and with it the links.
                 if (IsAttached && Node.Id >= 0) simulation.Links.Take(NumberIn(simulation.Links), Node.Id, neighbours.All, lengthTolerance, !directed);
             }
             finally

@@ -278,7 +278,7 @@ namespace Collektive.Unity
             StartCoroutine(WarnWithoutManager());
         }
 
-        /// <summary>After a frame: an additive scene may bring the manager.</summary>
+        /// <summary>Checked after a frame, because an additive scene may contain the manager.</summary>
         private IEnumerator WarnWithoutManager()
         {
             yield return null;

@@ -40,7 +40,7 @@ namespace Collektive.Unity
         private bool hasWarnedMovedCollider;
 
         /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
-        /// <param name="globals">What is written there goes out with the next tick.</param>
+        /// <param name="globals">Data written to it is sent with the next tick.</param>
         /// <param name="manager">For neighbourhood rules, and to select by a click on a message; null without a scene.</param>
         internal Simulation(SimulationSettings settings, SceneGlobals globals, SimulationManager manager)
         {

@@ -68,7 +68,7 @@ namespace Collektive.Unity
         /// <summary>The number in a node's answer; a node whose number is not finite keeps its colour.</summary>
         protected abstract float Read(TData data);
 
-        /// <summary>The legend has its place; Unity's layout would allocate with each event.</summary>
+        /// <summary>Disables Unity's layout, which would allocate at each event; the legend has a fixed position.</summary>
         protected virtual void OnEnable() => useGUILayout = false;
 
         /// <summary>Frees the place of the legend.</summary>
@@ -81,11 +81,11 @@ namespace Collektive.Unity
             if (manager == null || shown == manager && tick == manager.Tick) return;
             shown = manager;
             tick = manager.Tick;
-            TakeNumbers(manager);
+            ReadNumbers(manager);
             Paint(manager);
         }
 
-        private void TakeNumbers(SimulationManager manager)
+        private void ReadNumbers(SimulationManager manager)
         {
             scale.Begin();
             for (var i = 0; i < manager.Nodes.Count; i++)

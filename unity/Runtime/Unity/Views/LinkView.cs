@@ -18,7 +18,7 @@ namespace Collektive.Unity
         /// <summary>Of the two bars of a pair, as the shader makes them.</summary>
         private const int VerticesPerPair = 48;
 
-        /// <summary>The step that the shader draws nothing for.</summary>
+        /// <summary>The shader draws nothing for this step.</summary>
         private const int NoLink = 255;
 
         [SerializeField]
@@ -181,10 +181,10 @@ namespace Collektive.Unity
                 hasReportedLimit = true;
                 return;
             }
-            TakePlaces(manager);
+            CollectPositions(manager);
             var all = links.Pairs;
             if (pairs.Length < all.Length) Array.Resize(ref pairs, links.PairCapacity);
-            if (colouring != LinkColouring.Direction) TakeNumbers(all, links.PairCapacity);
+            if (colouring != LinkColouring.Direction) ReadNumbers(all, links.PairCapacity);
             for (var i = 0; i < all.Length; i++)
             {
                 ref var pair = ref all[i];
@@ -209,7 +209,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Takes the number of each link, and makes room for it if the scale is automatic.</summary>
-        private void TakeNumbers(Span<LinkPair> all, int capacity)
+        private void ReadNumbers(Span<LinkPair> all, int capacity)
         {
             if (numbers.Length < 2 * all.Length) Array.Resize(ref numbers, 2 * capacity);
             var least = float.PositiveInfinity;
@@ -238,7 +238,7 @@ namespace Collektive.Unity
             return Value == null ? 0 : Value(direction.Record(from, to));
         }
 
-        private void TakePlaces(SimulationManager manager)
+        private void CollectPositions(SimulationManager manager)
         {
             var nodes = manager.Nodes;
             if (places.Length < nodes.Count) Array.Resize(ref places, Math.Max(nodes.Count, 2 * places.Length));

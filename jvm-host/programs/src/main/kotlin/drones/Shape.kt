@@ -11,9 +11,9 @@ import kotlin.math.sqrt
  * A surface around the origin. Shapes of one radius have about the same area.
  *
  * @property isRound whether drones can turn around the vertical axis and stay on the surface.
- * @property wayTo from a place to the nearest point of the surface of a radius, or to one near it.
+ * @property vectorToSurface from a place to the nearest point of the surface of a radius, or to one near it.
  */
-internal class Shape(val isRound: Boolean, val wayTo: (place: Point3D, radius: Double) -> Point3D)
+internal class Shape(val isRound: Boolean, val vectorToSurface: (place: Point3D, radius: Double) -> Point3D)
 
 /** The shapes, in order. */
 internal val SHAPES: List<Shape> = listOf(

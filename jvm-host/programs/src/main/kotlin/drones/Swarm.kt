@@ -38,7 +38,7 @@ public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorDa
     if (turn != NOT_YET) {
         val fromMiddle = here - Point3D(Triple(0.0, MIDDLE * radius, 0.0))
         val shape = SHAPES[turn % SHAPES.size]
-        val toShape = shape.wayTo(fromMiddle, radius)
+        val toShape = shape.vectorToSurface(fromMiddle, radius)
         off = toShape.length
         way += toShape * PULL
         if (shape.isRound) way += fromMiddle.around() * (ROTATION_SHARE * device.parameters.double("speed"))
@@ -77,17 +77,17 @@ private fun Point3D.toVector() = Vector3Value(x = x.toFloat(), y = y.toFloat(), 
 
 private val ORIGIN = Point3D(Triple(0.0, 0.0, 0.0))
 
-/** Leaders of the whole swarm: no two drones are farther from each other. */
+/** Bound of the election: no two drones are more hops apart, so one drone leads the whole swarm. */
 private const val MAX_HOPS = 120
 private const val NOT_YET = -1
 
-/** Height of the shapes' middle, in radii. */
+/** Height of the centre of the shapes, in radii. */
 private const val MIDDLE = 1.75
 
-/** Metres that a drone goes in a second for each metre from the shape. */
+/** Speed of a drone in metres per second, for each metre of distance from the shape. */
 private const val PULL = 1.5
 
-/** Metres between drones below which they push each other away, and how strongly. */
+/** Distance in metres below which drones repel each other, and the strength of the repulsion. */
 private const val MIN_DISTANCE = 1.5
 private const val PUSH = 3.0
 

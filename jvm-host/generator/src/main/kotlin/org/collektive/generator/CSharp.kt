@@ -147,7 +147,7 @@ internal class CSharp(private val schema: UserSchema) {
         is StringType, is TableType -> "$member = null;"
     }
 
-    /** Checks for NaN and infinity; a field whose default is one of them may hold them. */
+    /** Checks for NaN and infinity; a field whose default is one of them may contain them. */
     private fun finiteCheck(owner: Composite, field: Field): String? {
         val member = member(owner, field)
         val nullable = field.optional || owner is TableType && field.type is StructType && !field.required

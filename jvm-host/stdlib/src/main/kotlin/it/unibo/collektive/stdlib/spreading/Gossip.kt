@@ -130,7 +130,7 @@ private fun <ID : Any, V> best(
     return if (former.value == best && former.path.extends(path, id)) former else GossipValue(best, path + id)
 }
 
-/** The least number of hops, at least [least], among the received paths; -1 if there is none. */
+/** The least number of hops, at least [least], among the received paths, or -1 if no path was received. */
 private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.shortestPath(least: Int): Int {
     var shortest = -1
     for (index in 0 until neighborCount) {
