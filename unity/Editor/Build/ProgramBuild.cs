@@ -157,18 +157,20 @@ namespace Collektive.Unity.Editor
                 Debug.LogError("the Kotlin compiler crashed: the compiler plugin may be built for another version of the compiler; use the plugin's version");
             var built = current;
             Finish(code == 0 ? Progress.Status.Succeeded : Progress.Status.Failed);
-            if (code == 0)
-            {
-                AssetDatabase.ImportAsset(built.Jar);
-                ReloadWhilePlaying();
-            }
+            if (code == 0) AssetDatabase.ImportAsset(built.Jar);
+            UpdateWhilePlaying(code == 0);
             if (built.HasGeneratedSince(begun)) AssetDatabase.Refresh();
         }
 
-        /// <summary>Gives a running simulation the new programs, unless the project's settings forbid it.</summary>
-        internal static void ReloadWhilePlaying()
+        /// <summary>
+        /// Gives a running simulation the new programs, or shows in the Game view that it continues with the previous ones, unless the project's settings
+        /// forbid it.
+        /// </summary>
+        internal static void UpdateWhilePlaying(bool isBuilt)
         {
-            if (SimulationManager.Current != null && ProjectSettings.instance.reloadWhilePlaying) SimulationManager.Current.ReloadPrograms();
+            if (SimulationManager.Current == null || !ProjectSettings.instance.reloadWhilePlaying) return;
+            BuildFailureLabel.Show(!isBuilt);
+            if (isBuilt) SimulationManager.Current.ReloadPrograms();
         }
 
         /// <summary>Other builds would fail for the same reason: a missing tool.</summary>
@@ -177,6 +179,7 @@ namespace Collektive.Unity.Editor
             Waiting.Clear();
             Debug.LogError(error.Message);
             Finish(Progress.Status.Failed);
+            UpdateWhilePlaying(false);
         }
 
         private static void Cancel()

@@ -1,9 +1,11 @@
 using System;
 using System.Collections;
+using System.Collections.Generic;
 using System.Globalization;
 using System.Reflection;
-using Collektive.Unity;
+using Collektive.Bridge;
 using Collektive.FlatBuffers;
+using Collektive.Unity;
 using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
@@ -13,7 +15,7 @@ namespace Collektive.Headless
     {
         private const int MaxRows = 60;
 
-        /// <returns>Sensor data, answer and last error of a node; null for an unknown node.</returns>
+        /// <returns>Sensor data, answer, last error and incoming links of a node; null for an unknown node.</returns>
         internal static JObject Of(SimulationManager manager, int id)
         {
             var node = id < 0 ? null : manager.Find(id);
@@ -21,7 +23,18 @@ namespace Collektive.Headless
             return new JObject(
                 new JProperty("id", id), new JProperty("program", manager.Settings.ProgramOf(node)),
                 new JProperty("sensors", Rows(Sensed(manager.Simulation, id))), new JProperty("answer", Rows(node.Answer)),
-                new JProperty("error", node.LastError));
+                new JProperty("error", node.LastError), new JProperty("links", Links(manager, id)));
+        }
+
+        /// <summary>Returns the sender and the length of each link on which a node receives.</summary>
+        private static JArray Links(SimulationManager manager, int id)
+        {
+            var rows = new JArray();
+            var links = new List<LinkRecord>();
+            manager.CopyLinks(links);
+            foreach (var link in links)
+                if (link.To == id && rows.Count < MaxRows) rows.Add(new JArray("node " + link.From, Text(link.Length) + " m"));
+            return rows;
         }
 
         private static object Sensed(Simulation simulation, int id)

@@ -191,7 +191,7 @@ suite('live', { timeout: 300000 }, async (t) => {
   await t.test('inspects, adds and removes nodes', async () => {
     await view.evaluate(() => window.replay.select(7));
     await view.waitForFunction(() => /Intensity/.test(document.getElementById('inspection').textContent), null, { polling: 100 });
-    assert.match(await view.textContent('#inspection'), /Sensors.*Position\.X.*Answer/s);
+    assert.match(await view.textContent('#inspection'), /Sensors.*Position\.X.*Answer.*Receives from(node \d+[\d.]+ m|valueno node)/s);
     await picture(tab, 'inspected');
     await tab.click('#add');
     await eventually(() => state(view), ({ nodes }) => nodes === 110, '50 nodes should join');

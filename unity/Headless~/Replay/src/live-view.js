@@ -115,7 +115,8 @@ class LivePlayer extends Player {
     element('inspection').hidden = !shown;
     if (!shown) return;
     element('inspection').replaceChildren(
-      ...rows('Sensors', shown.sensors), ...rows('Answer', shown.answer), ...(shown.error ? rows('Last error', [['', shown.error]]) : []));
+      ...rows('Sensors', shown.sensors), ...rows('Answer', shown.answer),
+      ...rows('Receives from', shown.links.length > 0 ? shown.links : [['', 'no node']]), ...(shown.error ? rows('Last error', [['', shown.error]]) : []));
     for (const term of element('inspection').children) if (term.nextSibling?.textContent === '' && term.tagName === 'DT') term.className = 'group';
   }
 

@@ -5,7 +5,9 @@ using Collektive.Bridge;
 using Collektive.Unity;
 using Collektive.Unity.Editor;
 using NUnit.Framework;
+using UnityEditor.Headless;
 using UnityEngine;
+using UnityEngine.Headless;
 using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
@@ -158,10 +160,28 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(0);
             Play(1);
             ProjectSettings.instance.reloadWhilePlaying = isAllowed;
-            ProgramBuild.ReloadWhilePlaying();
+            ProgramBuild.UpdateWhilePlaying(isBuilt: true);
             Play(1);
             ProjectSettings.instance.reloadWhilePlaying = true;
             Assert.That(Log.FindAll(line => line.Contains("programs reloaded")).Count, Is.EqualTo(expected));
+        }
+
+        [Test]
+        public void A_label_in_the_Game_view_shows_that_a_build_failed_until_one_succeeds()
+        {
+            Configure("count");
+            var node = MakeNode(0);
+            Play(1);
+            for (var i = 0; i < 2; i++) ProgramBuild.UpdateWhilePlaying(isBuilt: false);
+            Play(1);
+            var label = Object.FindObjectsByType<BuildFailureLabel>(FindObjectsSortMode.None).Single();
+            Gui.Placed.Clear();
+            Menus.Send(label, "OnGUI");
+            Assert.That(Gui.Placed[0].Text, Is.StringContaining("not compiled; the previous ones continue"));
+            Assert.That(node.Answer, Is.EqualTo(2));
+            ProgramBuild.UpdateWhilePlaying(isBuilt: true);
+            Play(1);
+            Assert.That(Object.FindObjectsByType<BuildFailureLabel>(FindObjectsSortMode.None), Is.Empty);
         }
 
         [Test]

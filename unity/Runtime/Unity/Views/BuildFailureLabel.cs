@@ -1,0 +1,25 @@
+using UnityEngine;
+
+namespace Collektive.Unity
+{
+    /// <summary>Shows in the Game view that the nodes run the previous programs, because the last build failed.</summary>
+    [AddComponentMenu("")]
+    internal sealed class BuildFailureLabel : MonoBehaviour
+    {
+        private const string Text = "The programs were not compiled; the previous ones continue. The Console has the errors.";
+
+        private static BuildFailureLabel shown;
+
+        /// <summary>Shows or removes the label. It ends with its scene.</summary>
+        internal static void Show(bool hasFailed)
+        {
+            if (hasFailed == (shown != null)) return;
+            if (hasFailed) shown = new GameObject("Build Failure Label") { hideFlags = HideFlags.HideInHierarchy }.AddComponent<BuildFailureLabel>();
+            else Destroy(shown.gameObject);
+        }
+
+        private void OnDisable() => Legends.Remove(this);
+
+        private void OnGUI() => GUI.Label(Legends.PlaceOf(this), Text);
+    }
+}
