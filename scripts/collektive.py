@@ -25,6 +25,7 @@ COMMANDS = {
     "generate": "generate C#, Java and Kotlin from a FlatBuffers schema",
     "demo": "run the case study without Unity",
     "live": "run a scenario in real time and change its programs in the browser",
+    "new": "create a project",
     "check": "check scenarios and experiments before their runs",
     "run": "run a scenario without Unity",
     "repeat": "repeat a run from its manifest and compare the results",

@@ -1,0 +1,60 @@
+"""Creates a project that runs immediately, in the new folder NAME: a schema, a program with a test, a scene in C#, a scenario and an experiment.
+
+NAME consists of lower-case letters and digits. It becomes the namespace of the C# and the package of the Kotlin."""
+import argparse
+import re
+import tempfile
+from pathlib import Path
+
+from build.console import Failure
+from build.places import ROOT
+
+TEMPLATE = ROOT / "scripts/template"
+# Keywords of C# and Kotlin, and namespaces of the package and of FlatBuffers.
+RESERVED = frozenset("""
+    abstract as base bool break byte case catch char checked class collektive const continue decimal default delegate do double else enum event explicit
+    extern false finally fixed float for foreach fun goto if implicit in int interface internal is it kotlin lock long namespace new null object
+    operator org out override package params private protected public readonly ref return sbyte sealed short sizeof stackalloc standard static string
+    struct super switch system this throw true try typealias typeof uint ulong unchecked union unity unsafe ushort using val var virtual void volatile
+    when while
+""".split())
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("name", metavar="NAME", type=_name)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    folder = Path(arguments.name)
+    if folder.exists():
+        raise Failure(f"new: '{folder}' already exists; choose another name")
+    # The project appears complete or not at all.
+    with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=".") as work:
+        project = Path(work) / folder.name
+        _copy(project, folder.name)
+        project.rename(folder)
+    print(f"""{folder}: created. Next:
+  ./collektive run {folder}/scenario.json --out out/{folder}
+  ./collektive test {folder}
+  ./collektive live {folder}/scenario.json
+  ./collektive sweep {folder}/experiment.json --out out/{folder}-sweep""")
+    return 0
+
+
+def _name(text: str) -> str:
+    if not re.fullmatch("[a-z][a-z0-9]*", text):
+        raise argparse.ArgumentTypeError(f"'{text}' must consist of lower-case letters and digits, and begin with a letter")
+    if text in RESERVED:
+        raise argparse.ArgumentTypeError(f"'{text}' is a reserved word")
+    return text
+
+
+def _copy(project: Path, name: str) -> None:
+    """Copies the template and replaces its names."""
+    def fill(text: str) -> str:
+        return text.replace("__name__", name).replace("__Name__", name.capitalize())
+    for source in sorted(TEMPLATE.rglob("*")):
+        if source.is_file():
+            target = project / fill(str(source.relative_to(TEMPLATE)))
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(fill(source.read_text(encoding="utf-8")), encoding="utf-8")
