@@ -1,8 +1,9 @@
 """Runs a scenario in real time and prints the address of a local page that shows it. In the page, change the Kotlin programs, their parameters and
 the scene while the simulation runs. Documentation~/live.md describes the page.
 
-SCENARIO is a scenario file or the name of a sample. By default it is the case study, GradientAscent. Samples are copied to out/live/NAME once, so
-that their programs can be changed; delete the folder to start again with the original.
+SCENARIO is a scenario file, or the name of a sample or of a lesson: gradient, channel, leader, collection, gossip, healing, sparse, flocking. By default
+it is the case study, GradientAscent. Samples and lessons are copied to out/live/NAME once, so that their programs can be changed; delete the folder to
+start again with the original.
 
 Ctrl-C ends the simulation. Exit code: 0 the simulation was started; 1 it was not."""
 import argparse
@@ -14,6 +15,7 @@ from build import fetch, graph, processes, sample_programs
 from build.console import Failure
 from build.places import LIVE_PYTHON, ROOT
 
+LESSONS = ROOT / "scripts/lessons"
 # Files that only Unity needs.
 UNITY_FILES = ("*.meta", "*.unity", "*.asmdef", "*.mat", "*.prefab")
 
@@ -31,11 +33,11 @@ def run(arguments: argparse.Namespace) -> int:
     graph.build("runtime", "replay_page")
     fetch.fetch("live", "kotlinc")
     scenario = Path(arguments.scenario)
-    named = sample_programs.SAMPLES / arguments.scenario / "scenario.json"
-    if not scenario.exists() and named.is_file():
-        scenario = named
+    if not scenario.exists():
+        named = [folder / arguments.scenario / "scenario.json" for folder in (sample_programs.SAMPLES, LESSONS)]
+        scenario = next(filter(Path.is_file, named), scenario)
     scenario = scenario.resolve()
-    if scenario.parent.parent == sample_programs.SAMPLES:
+    if scenario.parent.parent in (sample_programs.SAMPLES, LESSONS):
         scenario = copy_sample(scenario, Path("out/live") / scenario.parent.name)
     options = {**vars(arguments), "scenario": str(scenario)}
     del options["run"]
@@ -46,13 +48,15 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def copy_sample(scenario: Path, folder: Path) -> Path:
-    """Copies a sample with its Kotlin, unless the folder exists. Returns the scenario of the copy."""
+    """Copies a sample or lesson with its Kotlin, unless the folder exists. Returns the scenario of the copy."""
     copy = folder.absolute() / scenario.name
     if copy.is_file():
         return copy
     if folder.exists():
         raise Failure(f"'{folder}' exists and has no {scenario.name}: delete or rename the folder")
     shutil.copytree(scenario.parent, folder, ignore=shutil.ignore_patterns(*UNITY_FILES))
+    if scenario.parent.parent == LESSONS:
+        return copy
     (schema,) = scenario.parent.glob("*.fbs")
     shutil.copytree(sample_programs.folder(schema), folder / "programs")
     values = json.loads(scenario.read_text(encoding="utf-8"))

@@ -40,13 +40,8 @@ namespace Collektive.Headless
                 var values = Enum.GetValues(type);
                 return value => Array.IndexOf(values, value) is var place && place >= 0 ? place : double.NaN;
             }
-            if (type.IsPrimitive && type != typeof(char)) return value => Storable(Convert.ToDouble(value));
+            if (type.IsPrimitive && type != typeof(char)) return value => Convert.ToDouble(value);
             return null;
         }
-
-        /// <summary>
-        /// Infinity and numbers beyond the range of float, such as the distance without a source, count as missing, because the page stores floats.
-        /// </summary>
-        private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
     }
 }

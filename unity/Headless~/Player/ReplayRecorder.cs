@@ -196,8 +196,13 @@ namespace Collektive.Headless
         {
             var kind = colouring.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
             fields.Add(new ReplayField(colouring.Name, kind) { Unit = colouring.Unit, Categories = colouring.Categories });
-            readers.Add(colouring.Read);
+            readers.Add(node => Storable(colouring.Read(node)));
         }
+
+        /// <summary>
+        /// Infinity and numbers beyond the range of float, such as the distance without a source, count as missing, because the page stores floats.
+        /// </summary>
+        private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
 
         private void AddColours(List<ReplayField> fields)
         {

@@ -1,0 +1,16 @@
+// Aggregate programs heal themselves. At second 5 the source moves to the opposite corner. Nobody tells the nodes:
+// their distances become right again within a few rounds, because each round computes them anew from the
+// neighbours' messages.
+//
+// Question: which nodes are right first? Remove nodes in live, and watch the distances around the gap.
+
+package healing
+
+import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.stdlib.spreading.hopDistanceTo
+import org.collektive.api.Program
+import standard.ActuatorData
+import standard.SensorData
+
+@Program("healing")
+fun Aggregate<Int>.healing(sensors: SensorData): ActuatorData = ActuatorData(value = hopDistanceTo(sensors.sets() != 0L).toDouble())
