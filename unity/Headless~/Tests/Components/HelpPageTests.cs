@@ -30,7 +30,7 @@ namespace Collektive.Headless.Tests.Components
 
         [Test]
         public void Components_of_users_inherit_the_page() =>
-            Assert.That(typeof(UsersSensor).GetCustomAttribute<HelpURLAttribute>(true).URL, Is.StringEnding("/sensors-and-actuators.md#ready-components"));
+            Assert.That(typeof(UsersSensor).GetCustomAttribute<HelpURLAttribute>(true).URL, Is.StringEnding("/sensors-and-actuators.md#ready-made-components"));
 
         [Test]
         public void A_release_opens_its_repository_and_a_clone_its_own_file()

@@ -7,7 +7,7 @@ namespace Collektive.Unity
     /// A component that belongs to the <see cref="Collektive.Unity.Node"/> on its GameObject or on the nearest parent.
     /// A subclass with its own <c>OnEnable</c>, <c>OnDisable</c> or another message method of its base overrides it and calls the base method.
     /// </summary>
-    [HelpPage("sensors-and-actuators.md#ready-components")]
+    [HelpPage("sensors-and-actuators.md#ready-made-components")]
     public abstract class NodePart : MonoBehaviour
     {
         internal const int MaxFailuresInRow = 10;

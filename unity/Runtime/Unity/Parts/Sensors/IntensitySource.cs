@@ -8,7 +8,7 @@ namespace Collektive.Unity
     /// may override that.
     /// </summary>
     [AddComponentMenu("Collektive/Intensity Source")]
-    [HelpPage("sensors-and-actuators.md#ready-components")]
+    [HelpPage("sensors-and-actuators.md#ready-made-components")]
     public class IntensitySource : MonoBehaviour
     {
         private static readonly List<IntensitySource> EnabledSources = new List<IntensitySource>();
