@@ -27,7 +27,7 @@ add_custom_target(roundtrip DEPENDS TestSchemas.dll RoundTrip.exe)
 suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go setup:prose PYTEST "${SCRIPTS}/checks/test_lint.py" -n 2)
 suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts" "--ignore=${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(maven scripts LABELS all NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
-suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 UNLOCKED SCRIPT jvm.py RESULTS)
+suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 UNLOCKED PARALLEL SCRIPT jvm.py RESULTS)
 # Most of these JVMs run too briefly for the second compiler.
 suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests UNLOCKED
   SCRIPT jvm.py RESULTS -DexcludedGroups=slow "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
@@ -83,7 +83,7 @@ suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT PARALLEL SCRIPT faults/faults.py --results RESULTS/faults.xml)
-suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 8 --results RESULTS/exits.xml)
+suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED PARALLEL SCRIPT pages.py page RESULTS)
