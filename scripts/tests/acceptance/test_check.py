@@ -42,7 +42,7 @@ class CheckTest(Project):
         result = collektive("check", *errors, valid)
         self.assertEqual(result.returncode, 1, result.stderr)
         for path, error in errors.items():
-            self.assertIn(error, result.stderr)
+            self.assertEqual(result.stderr.count(error), 1, result.stderr)
             self.assertRegex(result.stdout, f"(?m)^{path}: invalid (scenario|experiment)$")
         self.assertIn(f"{valid}: valid scenario", result.stdout)
 

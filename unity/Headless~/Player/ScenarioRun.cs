@@ -61,6 +61,7 @@ namespace Collektive.Headless
             Installation.JavaHome = options.JavaHome;
             Loop.PhysicsThreads = scenario.Settings.threads;
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
+            RunLog.Install();
             // Each frame runs one tick, regardless of its length.
             Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, scenario.Settings.deltaTime);
             var manager = MakeManager();

@@ -13,6 +13,9 @@ namespace Collektive.Unity
     /// </summary>
     internal sealed class Simulation
     {
+        /// <summary>Beginning of the message of a simulation that stopped.</summary>
+        internal const string StopPrefix = "Simulation stopped: ";
+
         /// <summary>Relative tolerance of times in ticks, because sums of ticks are not exact.</summary>
         private const double Tolerance = 1e-3;
 
@@ -222,7 +225,7 @@ namespace Collektive.Unity
         {
             if (Failure.Length > 0) return;
             Failure = message;
-            Debug.LogError("Simulation stopped: " + message, context != null ? context : Manager);
+            Debug.LogError(StopPrefix + message, context != null ? context : Manager);
             if (Manager != null) Manager.enabled = false;
             else End();
         }
