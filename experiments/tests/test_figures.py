@@ -41,7 +41,7 @@ def write_sweep(folder: Path, seeds: int = 5, losses: Sequence[float] = LOSSES, 
     folder.mkdir(exist_ok=True)
     pd.DataFrame(rows).to_parquet(folder / "runs.parquet")
     pd.DataFrame(series).to_parquet(folder / "series.parquet")
-    (folder / "sweep.json").write_text(json.dumps({"version": 2, "experiment": "e.json", "keys": list(keys), "set": {}, "measure": {"error": "m"}, **settings},
+    (folder / "sweep.json").write_text(json.dumps({"version": 3, "experiment": "e.json", "keys": list(keys), "set": {}, "measure": {"error": "m"}, **settings},
                                                   indent=1))
     return str(folder)
 
