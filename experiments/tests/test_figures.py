@@ -171,7 +171,7 @@ def test_figures_and_labels_of_the_experiment_are_on_the_page(tmp_path: Path) ->
 
 def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
     figure = {"metric": "error", "x": "network.loss"}
-    with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe a figure that exists: 'error-line-network.loss-"):
+    with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe an existing figure: 'error-line-network.loss-"):
         plot(write_sweep(tmp_path / "out", 1, figures=[figure, figure]))
     assert not (tmp_path / "out/figures").exists()
 

@@ -52,7 +52,7 @@ def _name(text: str) -> str:
 def _copy(project: Path, name: str) -> None:
     """Copies the template and replaces its names."""
     def fill(text: str) -> str:
-        return text.replace("__name__", name).replace("__Name__", name.capitalize())
+        return text.replace("template", name).replace("Template", name.capitalize())
     for source in sorted(TEMPLATE.rglob("*")):
         if source.is_file():
             target = project / fill(str(source.relative_to(TEMPLATE)))

@@ -1,7 +1,7 @@
 using Collektive.Unity;
 using UnityEngine;
 
-namespace __name__
+namespace template
 {
     /// <summary>Senses whether the node is a source.</summary>
     public sealed class SourceSensor : Sensor<SensorData>

@@ -9,7 +9,7 @@ class NewTest(Folder):
         created = collektive("new", "herd", cwd=self.folder)
         self.assertEqual(created.returncode, 0, created.stderr)
         self.assertEqual(os.listdir(self.folder), ["herd"])
-        self.assertNotIn("__", "".join(os.listdir(self.path("herd"))))
+        self.assertEqual(sorted(os.listdir(self.path("herd"))), ["experiment.json", "herd.fbs", "programs", "scenario.json", "scene", "tests"])
         checked = collektive("check", "herd", cwd=self.folder)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("24 runs", checked.stdout)

@@ -20,5 +20,9 @@ fun Aggregate<Int>.channel(sensors: SensorData, device: Device): ActuatorData {
     val toSource = hopDistanceTo(sensors.source())
     val toTarget = hopDistanceTo(isTarget)
     val length = hopGradientCast(sensors.source(), toTarget)
-    return ActuatorData(value = (toSource + toTarget).toDouble(), flag = length > 0 && toSource + toTarget <= length + device.parameters.int("width"))
+    return ActuatorData(
+        value = (toSource + toTarget).toDouble(),
+        flag =
+        length > 0 && toSource + toTarget <= length + device.parameters.int("width"),
+    )
 }

@@ -1,5 +1,5 @@
 // Gossip finds the greatest reading in the swarm. Node 0 reads 100 degrees until second 5, all others 20. A simple
-// gossip never forgets the 100. The gossip of the library forwards values with their path, so it notices when the
+// gossip never forgets the 100. The gossip of the library forwards values with their path, so it detects when the
 // source of a value has gone.
 //
 // Question: the category is the simple gossip. Which of the two would you use for an alarm, and which for a record

@@ -24,11 +24,11 @@ namespace Collektive.Headless.Tests.Components
         public void RemoveScene() => Loop.Reset();
 
         [Test]
-        public void Every_component_is_in_the_Collektive_menu()
+        public void Every_public_component_is_in_the_Collektive_menu()
         {
             foreach (var type in typeof(Node).Assembly.GetTypes())
             {
-                if (type.IsAbstract || !typeof(MonoBehaviour).IsAssignableFrom(type)) continue;
+                if (!type.IsPublic || type.IsAbstract || !typeof(MonoBehaviour).IsAssignableFrom(type)) continue;
                 var menu = type.GetCustomAttribute<AddComponentMenu>();
                 Assert.That(menu == null ? "" : menu.componentMenu, Is.StringStarting("Collektive/"), type.Name);
             }

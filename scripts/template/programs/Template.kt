@@ -1,4 +1,4 @@
-package __name__
+package template
 
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.stdlib.spreading.distanceTo

@@ -1,10 +1,10 @@
-package __name__
+package template
 
 import org.collektive.testing.TestNetwork
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
-class __Name__Test {
+class TemplateTest {
     @Test
     fun `the distance is the length of the shortest path, and -1 without a path`() = TestNetwork().use { network ->
         network.add(0, 1, 2, 3)

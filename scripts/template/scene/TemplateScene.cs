@@ -2,10 +2,10 @@ using System.Collections.Generic;
 using Collektive.Unity;
 using UnityEngine;
 
-namespace __name__
+namespace template
 {
     /// <summary>Moving nodes on a square. The first one is the source.</summary>
-    public sealed class __Name__Scene : SceneBuilder
+    public sealed class TemplateScene : SceneBuilder
     {
         private static readonly string[] Names = { "reached", "farthest" };
 
