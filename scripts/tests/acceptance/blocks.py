@@ -9,7 +9,8 @@ from build.places import ROOT
 
 FENCE = re.compile(r'(?m)^( *)```(\w*)(?: title="([^"]+)")?\n(.*?)^\1```$', re.S)
 STORIES = ["Documentation~/without-unity.md", "Documentation~/first-study.md",
-           *sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "Documentation~/tutorial-*.md")))]
+           # The suite live follows tutorial-live.md.
+           *sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "Documentation~/tutorial-*.md")) if "tutorial-live" not in path)]
 PROJECTS = ["README.md", "Documentation~/getting-started.md", "Documentation~/first-swarm-in-unity.md"]
 PAGES = sorted(os.path.relpath(path, ROOT) for pattern in ("*.md", "docs/*.md", "Documentation~/*.md") for path in glob.glob(os.path.join(ROOT, pattern)))
 
