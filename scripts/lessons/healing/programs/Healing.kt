@@ -1,5 +1,5 @@
 // Aggregate programs heal themselves. At second 5 the source moves to the opposite corner. The nodes are not
-// informed. Their distances become right again within a few rounds, because each round computes them anew from the
+// informed. Their distances become right again within a few rounds, because each round computes them again from the
 // neighbours' messages.
 //
 // Question: which nodes are right first? Remove nodes in live, and watch the distances around the gap.
