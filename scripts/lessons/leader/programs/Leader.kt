@@ -1,7 +1,7 @@
-// An election without a centre: each node proposes itself, and forwards the best candidate that it has heard of.
+// An election without a centre: each node proposes itself, and forwards the best candidate that it has received.
 // Here the greatest id wins.
 //
-// Question: the leader leaves if you remove node 99 in live. Do the others notice? Read the documentation of
+// Question: the leader leaves if you remove node 99 in live. Do the others detect this? Read the documentation of
 // globalElection, then try boundedElection(20).
 
 package leader
