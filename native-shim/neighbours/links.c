@@ -5,6 +5,7 @@
 
 #define NONE (-1)
 #define MAX_PAIRS (1 << 28)
+#define PAGE_IDS 4096
 
 static uint32_t bucket_of(const struct links *links, int32_t low, int32_t high) {
     uint32_t mixed = (uint32_t)low * 0x9E3779B1u ^ (uint32_t)high * 0x85EBCA77u;
@@ -152,31 +153,36 @@ bool links_has(const struct links *links, int32_t from, int32_t to) {
     return index != NONE && (from <= to ? links->pairs[index].up : links->pairs[index].down).references > 0;
 }
 
-/* Makes room for an id in an array of bytes. */
-static bool reserve_id(uint8_t **bytes, int32_t *capacity, int32_t id) {
-    int32_t before = *capacity;
-    if (!reserve(bytes, capacity, (int64_t)id + 1, 1)) return false;
-    memset(*bytes + before, 0, (size_t)(*capacity - before));
+static bool has_flag(const struct flags *flags, int32_t id) {
+    int32_t page = id / PAGE_IDS;
+    return page < flags->capacity && flags->pages[page] != NULL && flags->pages[page][id % PAGE_IDS];
+}
+
+static bool set_flag(struct flags *flags, int32_t id, bool value) {
+    int32_t page = id / PAGE_IDS, before = flags->capacity;
+    if (!reserve(&flags->pages, &flags->capacity, (int64_t)page + 1, sizeof *flags->pages)) return false;
+    for (int32_t i = before; i < flags->capacity; i++) flags->pages[i] = NULL;
+    if (flags->pages[page] == NULL) flags->pages[page] = calloc(PAGE_IDS, 1);
+    if (flags->pages[page] == NULL) return false;
+    flags->pages[page][id % PAGE_IDS] = value;
     return true;
 }
 
-static bool is_known(const struct links *links, int32_t id) { return id < links->known_capacity && links->known[id]; }
-
-bool links_know(struct links *links, int32_t id, bool known) {
-    if (!reserve_id(&links->known, &links->known_capacity, id)) return false;
-    links->known[id] = known;
-    return true;
+static void free_flags(struct flags *flags) {
+    for (int32_t i = 0; i < flags->capacity; i++) free(flags->pages[i]);
+    free(flags->pages);
 }
+
+bool links_know(struct links *links, int32_t id, bool known) { return set_flag(&links->known, id, known); }
 
 bool links_mark_gone(struct links *links, const int32_t *ids, int32_t count, bool gone) {
     for (int32_t i = 0; i < count; i++) {
-        if (!reserve_id(&links->gone, &links->gone_capacity, ids[i])) return false;
-        links->gone[ids[i]] = gone;
+        if (!set_flag(&links->gone, ids[i], gone)) return false;
     }
     return true;
 }
 
-bool links_is_gone(const struct links *links, int32_t id) { return id < links->gone_capacity && links->gone[id]; }
+bool links_is_gone(const struct links *links, int32_t id) { return has_flag(&links->gone, id); }
 
 static void drop(struct links *links, clk_direction *direction) {
     if (direction->references > 0) links->count--;
@@ -216,7 +222,7 @@ bool links_flush(struct links *links, clk_changes *changes) {
         int32_t index = links->dirty[i];
         clk_pair *pair = &links->pairs[index];
         bool referenced = pair->up.references > 0 || pair->down.references > 0;
-        if (referenced && !(is_known(links, pair->low) && is_known(links, pair->high))) {
+        if (referenced && !(has_flag(&links->known, pair->low) && has_flag(&links->known, pair->high))) {
             links->dirty[waiting++] = index;
             continue;
         }
@@ -234,8 +240,8 @@ void links_free(struct links *links) {
     free(links->pairs);
     free(links->buckets);
     free(links->dirty);
-    free(links->known);
-    free(links->gone);
+    free_flags(&links->known);
+    free_flags(&links->gone);
     free(links->set);
     free(links->removed);
 }

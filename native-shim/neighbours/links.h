@@ -6,6 +6,12 @@
 #include <stdint.h>
 #include "collektive_neighbours.h"
 
+/* A flag for each id, in pages that are allocated on first use, because ids may be far apart. */
+struct flags {
+    uint8_t **pages;
+    int32_t capacity; /* of pages */
+};
+
 /* Most references come and go in pairs: the two links of a pair are adjacent, and one reference may be to both. */
 struct links {
     clk_pair *pairs;
@@ -16,9 +22,8 @@ struct links {
     int32_t *dirty; /* pairs with a changed direction */
     int32_t dirty_count, dirty_capacity;
 
-    uint8_t *known; /* by id */
-    uint8_t *gone;  /* by id; all 0 between calls */
-    int32_t known_capacity, gone_capacity;
+    struct flags known;
+    struct flags gone; /* all 0 between calls */
 
     clk_link *set;
     clk_link_ends *removed;

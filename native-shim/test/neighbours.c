@@ -385,6 +385,30 @@ static void lengths_are_sent_when_they_leave_the_tolerance(void) {
     clk_neighbours_destroy(neighbours);
 }
 
+/* Bytes of address space in use; 0 on systems without /proc. */
+static uint64_t memory_used(void) {
+    unsigned long long pages = 0;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (file == NULL) return 0;
+    if (fscanf(file, "%llu", &pages) != 1) pages = 0;
+    fclose(file);
+    return pages * 4096;
+}
+
+/* Arrays by id would need 4 GB. */
+static void links_between_the_largest_ids_need_little_memory(void) {
+    int32_t last = INT32_MAX - 1;
+    clk_neighbours *neighbours = clk_neighbours_create();
+    clk_changes changes;
+    uint64_t before = memory_used();
+    CHECK(clk_neighbours_know(neighbours, 0, 1) == 0 && clk_neighbours_know(neighbours, last, 1) == 0);
+    CHECK(clk_neighbours_hold(neighbours, &(clk_link){last, 0, 2, 0}) == 0);
+    CHECK(clk_neighbours_flush(neighbours, &changes) == 0 && changes.set_count == 1 && changes.set[0].from == last);
+    CHECK(clk_neighbours_drop(neighbours, &last, 1) == 0 && !clk_neighbours_has(neighbours, last, 0));
+    CHECK(memory_used() - before < (64u << 20));
+    clk_neighbours_destroy(neighbours);
+}
+
 /* ---- Swarms ---------------------------------------------------------------------------------------------------------- */
 
 struct swarm_of {
@@ -526,6 +550,7 @@ int main(int count, char **words) {
         CASE(wrong_arguments_are_refused),
         CASE(links_exist_while_referenced_and_changes_are_sent_once),
         CASE(lengths_are_sent_when_they_leave_the_tolerance),
+        CASE(links_between_the_largest_ids_need_little_memory),
         CASE(any_number_of_threads_has_equal_results),
         CASE(an_update_stops_at_the_limit_of_links),
     };
