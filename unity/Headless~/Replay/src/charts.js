@@ -1,8 +1,8 @@
 // Charts of values over time, with a line for each run and a mark at the current time.
 import './language.js';
 import uPlot from 'uplot';
+import { part } from './dom.js';
 import { extent, lastAt, nameOf, short, textOf } from './fields.js';
-import { part } from './legend.js';
 
 const HEIGHT = 80;
 

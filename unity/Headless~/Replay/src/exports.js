@@ -1,9 +1,9 @@
 // Exports pictures and videos of the current view, with the panels' text painted on the canvas.
 import { css, NO_VALUE } from './colours.js';
+import { element } from './dom.js';
 
 const FRAMES_PER_SECOND = 30;
 const FORMATS = [['video/webm;codecs=vp9', 'webm'], ['video/webm;codecs=vp8', 'webm'], ['video/webm', 'webm'], ['video/mp4', 'mp4']];
-const element = (id) => document.getElementById(id);
 
 /** Paints the current view to another canvas of the same size. */
 export function compose(target, legend) {

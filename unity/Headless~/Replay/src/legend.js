@@ -1,10 +1,10 @@
 // The panel that explains and selects colours.
 import { colouring, css, gradientOf, NO_VALUE, palettesOf } from './colours.js';
+import { element, part } from './dom.js';
 import { extent, nameOf, short, textOf } from './fields.js';
 
 const MAX_CATEGORIES = 8;
 const BARS = 24;
-const element = (id) => document.getElementById(id);
 
 export class Legend {
   /** `onChange` is called with the function that colours a value after each choice. */
@@ -156,11 +156,5 @@ export class Legend {
 function option(text) {
   const made = part('option', text);
   made.value = text;
-  return made;
-}
-
-export function part(tag, text) {
-  const made = document.createElement(tag);
-  made.textContent = text;
   return made;
 }

@@ -1,11 +1,10 @@
 // The view of the live page: shows a running simulation, whose events the page that contains it passes on.
+import { element, part } from './dom.js';
 import { LiveRecording } from './live-recording.js';
-import { part } from './legend.js';
 import { Player, plural, requireGraphics, showMessage } from './player.js';
 import { Run } from './run.js';
 import { commandsOf } from './scripting.js';
 
-const element = (id) => document.getElementById(id);
 const SLOW_MS = 60; // from the request of a picture to its drawing
 const CHART_MS = 1000; // between two drawings of the charts
 

@@ -10,9 +10,9 @@ import {
   drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutter, keymap, lineNumbers,
 } from '@codemirror/view';
 import { tags } from '@lezer/highlight';
+import { element, part } from './dom.js';
 
 const RETRY_MS = 1000;
-const element = (id) => document.getElementById(id);
 
 const COLOURS = HighlightStyle.define([
   { tag: tags.keyword, color: 'var(--keyword)' },
@@ -34,10 +34,6 @@ const THEME = EditorView.theme({
   },
   '.cm-tooltip, .cm-panels': { backgroundColor: 'var(--background)', color: 'var(--text)' },
 });
-
-function part(tag, text, properties = {}) {
-  return Object.assign(document.createElement(tag), { textContent: text }, properties);
-}
 
 /** The files of the programs, one of them in the editor. */
 class Files {

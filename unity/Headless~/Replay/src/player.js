@@ -1,9 +1,10 @@
 // Joins a recording, its view and the controls.
 import { Charts } from './charts.js';
+import { element, part } from './dom.js';
 import { canRecord, compose, save, Video } from './exports.js';
 import { historyOf, slotOf } from './fields.js';
 import { bindKeys } from './keys.js';
-import { Legend, part } from './legend.js';
+import { Legend } from './legend.js';
 import { open, ReplayError } from './recording.js';
 import { Run } from './run.js';
 import { neighboursOf } from './swarm.js';
@@ -11,7 +12,6 @@ import { neighboursOf } from './swarm.js';
 const SPEEDS = [0.25, 0.5, 1, 2, 4, 8];
 const MAX_LISTED = 60; // neighbours with a button
 const READABLE_PIXELS = 4; // minimum initial radius of a node in pixels
-const element = (id) => document.getElementById(id);
 
 export class Player {
   constructor(recording) {
