@@ -261,8 +261,6 @@ class Live:
         file = Path(self.scenario).with_name(name)
         if Path(name).name != name or file.suffix != ".json":
             return "enter the name of a .json file, which is written beside the scenario"
-        if file.exists():
-            return f"'{file.name}' exists: enter another name"
         values = json.loads(Path(self.scenario).read_text(encoding="utf-8"))
         if self.seed is not None:
             values["seed"] = int(self.seed)
@@ -272,7 +270,14 @@ class Live:
             for part in path[:-1]:
                 target = target.setdefault(part, {})
             target[path[-1]] = _value(value)
-        file.write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+        try:
+            # Does not follow a link.
+            with file.open("x", encoding="utf-8") as output:
+                output.write(json.dumps(values, indent=2) + "\n")
+        except FileExistsError:
+            return f"'{file.name}' already exists: enter another name"
+        except OSError as error:
+            return f"cannot write '{file}': {error.strerror}"
         return f"saved as {os.path.relpath(file)}"
 
     async def close(self) -> None:

@@ -35,7 +35,7 @@ namespace Collektive.Headless
             new Thread(WriteMessages) { IsBackground = true }.Start();
         }
 
-        /// <param name="milliseconds">Time to wait for a command; -1: any time.</param>
+        /// <param name="milliseconds">Time to wait for a command.</param>
         internal bool TryTake(int milliseconds, out JObject command) => commands.TryTake(out command, milliseconds);
 
         internal void Send(JObject message)

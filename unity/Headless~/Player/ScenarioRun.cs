@@ -220,7 +220,7 @@ namespace Collektive.Headless
                     limit.Begin(done + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();
-                    if (manager.Failure.Length > 0) throw new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
+                    if (manager.Failure.Length > 0) throw Stopped(manager);
                     if (done == before)
                     {
                         cause = ReasonForMissingTick(manager);
@@ -313,9 +313,12 @@ namespace Collektive.Headless
                     limit.End();
                 }, () => interrupt.Requested || Loop.QuitRequested);
             }
+            if (manager.Failure.Length > 0) throw Stopped(manager);
             manifest.Outcome = Manifest.Complete;
-            return manager.Failure.Length > 0 ? 1 : 0;
+            return 0;
         }
+
+        private ScenarioException Stopped(SimulationManager manager) => new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
 
         /// <summary>Returns the likely reason why a frame had no tick.</summary>
         private static string ReasonForMissingTick(SimulationManager manager)

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import suite from 'node:test';
@@ -293,6 +293,12 @@ suite('live', { timeout: 300000 }, async (t) => {
     await page.tab.waitForSelector('#warning >> text=saved as');
     const saved = JSON.parse(readFileSync(join(folder, 'out/live/GradientAscent/live.json'), 'utf8'));
     assert.deepEqual([saved.seed, saved.fields.nodes], [5, 20]);
+    const elsewhere = join(folder, 'elsewhere.json');
+    symlinkSync(elsewhere, join(folder, 'out/live/GradientAscent/linked.json'));
+    await page.tab.fill('#scenario', 'linked.json');
+    await page.tab.click('#save-scenario');
+    await page.tab.waitForSelector('#warning >> text=already exists');
+    assert.ok(!existsSync(elsewhere), 'no file is written through a link');
   });
 
   await t.test('refuses other hosts, origins and tokens, and answers the page only', async () => {
