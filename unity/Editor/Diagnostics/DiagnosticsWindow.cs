@@ -98,11 +98,7 @@ namespace Collektive.Unity.Editor
             body.style.display = isShown && selected < 0 ? DisplayStyle.None : DisplayStyle.Flex;
             if (!isShown) return;
             list.itemsSource = rows = diagnostics.Nodes(filter);
-            foreach (var _ in list.sortedColumns)
-            {
-                rows.Sort(Compare);
-                break;
-            }
+            rows.Sort(Compare);
             list.RefreshItems();
             var index = rows.FindIndex(row => row.Id == selected);
             list.SetSelectionWithoutNotify(index < 0 ? new int[0] : new[] { index });

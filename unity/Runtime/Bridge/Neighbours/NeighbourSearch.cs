@@ -12,7 +12,9 @@ namespace Collektive.Bridge
         /// <summary>No rule.</summary>
         internal const int NoRule = -1;
 
-        private const int NotFinite = -3;
+        // Codes of clk_neighbours_error.
+        private const int MemoryCode = -2;
+        private const int NotFiniteCode = -3;
 
         private IntPtr native;
 
@@ -65,7 +67,7 @@ namespace Collektive.Bridge
             fixed (NodePoint* first = points)
             {
                 var code = Shim.clk_neighbours_place(Native, first, points.Length, cell);
-                if (code == NotFinite) return false;
+                if (code == NotFiniteCode) return false;
                 Check(code);
                 return true;
             }
@@ -155,19 +157,18 @@ namespace Collektive.Bridge
             request.LinksRemoved.AddAll(new ReadOnlySpan<LinkEnds>(changes.Removed, changes.RemovedCount));
         }
 
-        /// <summary>Frees the native memory. Afterwards, there are neither points nor links.</summary>
+        /// <summary>Frees the native memory. Afterwards, there are neither points nor links. A later call allocates it again.</summary>
         public void Dispose()
         {
             if (native != IntPtr.Zero) Shim.clk_neighbours_destroy(native);
             native = IntPtr.Zero;
-            GC.SuppressFinalize(this);
         }
 
         private static int Check(int code)
         {
             if (code >= 0) return code;
-            throw code == (int)BridgeError.Memory ? OutOfMemory()
-                : new BridgeException((BridgeError)code, "the neighbour search refuses an argument, with code " + code);
+            throw code == MemoryCode ? OutOfMemory()
+                : new BridgeException(BridgeError.Argument, "the neighbour search refuses an argument, with code " + code + ": report an issue");
         }
 
         private static BridgeException OutOfMemory() =>
