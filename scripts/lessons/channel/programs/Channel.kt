@@ -1,7 +1,7 @@
 // A channel contains the nodes on shortest paths between a source and a target. On such a path, the distances to
 // both ends add up to the distance between the ends, which the source measures and broadcasts.
 //
-// Question: set `width` to 2. Which shape has the channel now?
+// Question: set the parameter `width` to 2. What shape does the channel have now?
 
 package channel
 

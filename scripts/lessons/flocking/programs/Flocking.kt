@@ -1,7 +1,7 @@
 // A flock has no leader. Each node starts in a random direction, then takes the mean direction of its neighbours,
-// and keeps away from those that are too near. After some seconds all move in the same direction.
+// and keeps away from those that are too close. After some seconds all move in the same direction.
 //
-// Question: remove the line that keeps nodes apart. What happens to the flock?
+// Question: remove the loop that keeps nodes apart. What happens to the flock?
 
 package flocking
 

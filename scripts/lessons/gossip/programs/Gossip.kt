@@ -2,8 +2,8 @@
 // gossip never forgets the 100. The gossip of the library forwards values with their path, so it detects when the
 // source of a value has gone.
 //
-// Question: the category is the simple gossip. Which of the two would you use for an alarm, and which for a record
-// of the past?
+// Question: the category shows the simple gossip. Which of the two would you use for an alarm, and which for a
+// record of the past?
 
 package gossip
 

@@ -1,6 +1,6 @@
 // A gradient is the distance of each node to the nearest source. A node only knows the distances of its neighbours:
 // it takes the smallest one and adds one hop. After as many rounds as the longest path has hops, all distances are
-// right.
+// correct.
 //
 // Question: replace hopDistanceTo(...) by distanceTo(..., metric = distances()) inside with(device). Which values
 // change, and why?

@@ -1,8 +1,8 @@
 // Aggregate programs heal themselves. At second 5 the source moves to the opposite corner. The nodes are not
-// informed. Their distances become right again within a few rounds, because each round computes them again from the
-// neighbours' messages.
+// informed. Their distances become correct again within a few rounds, because each round computes them again from
+// the neighbours' messages.
 //
-// Question: which nodes are right first? Remove nodes in live, and watch the distances around the gap.
+// Question: which nodes are correct first? Remove nodes in live, and watch the distances around the gap.
 
 package healing
 

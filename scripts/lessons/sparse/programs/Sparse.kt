@@ -1,5 +1,5 @@
-// A sparse choice elects several leaders, so that each node has one within a distance. It divides the swarm into
-// areas of about this size, for example to collect data in each of them.
+// A sparse choice elects several leaders, so that each node has one within a given distance. It divides the swarm
+// into areas of about this size, for example to collect data in each of them.
 //
 // Question: double `radius`. How many leaders remain, and how many do you expect?
 
