@@ -22,11 +22,17 @@ UNITY_FILES = ("*.meta", "*.unity", "*.asmdef", "*.mat", "*.prefab")
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenario", metavar="SCENARIO", nargs="?", default="GradientAscent")
-    parser.add_argument("--port", type=int, default=0, metavar="N", help="port on 127.0.0.1 (default: any free port)")
+    parser.add_argument("--port", type=_port, default=0, metavar="N", help="port on 127.0.0.1 (default: any free port)")
     parser.add_argument("--no-browser", action="store_true", help="do not open the page in a browser")
     parser.add_argument("--seed", metavar="K", help="seed instead of the scenario's")
     parser.add_argument("--set", action="append", default=[], metavar="KEY=VALUE", dest="values", help="see ./collektive run --help")
     parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
+
+
+def _port(text: str) -> int:
+    if not text.isascii() or not text.isdigit() or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a port from 0 to 65535")
+    return int(text)
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -103,7 +103,7 @@ class Live:
 
     async def start(self) -> None:
         """Reads the scenario, compiles what changed, and starts the player."""
-        self.plan = await asyncio.to_thread(session.read_plan, self.scenario, self.words())
+        self.plan = await asyncio.to_thread(player.plan, self.scenario, self.words())
         jar, dll = await asyncio.gather(asyncio.to_thread(self.plan.programs_jar), asyncio.to_thread(self.plan.scripts_dll))
         self._sources = session.sources(self.plan)
         session.replace(self.jar, jar)
@@ -121,7 +121,8 @@ class Live:
             await self.start()
         except Failure as failure:
             self.seed, self.values = before
-            self.stopped = {"event": "stopped", "message": str(failure)}
+            # The player has printed the error of an invalid scenario.
+            self.stopped = {"event": "stopped", "message": str(failure) or "the scenario is invalid; the reason is in the terminal"}
             self.tell(self.stopped)
             return
         self.tell({"event": "started", **self.identity()})

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Any
 
 from build import inputs, managed, player, projects
-from build.console import Failure
 from build.jdk import find_jdk
 
 _EXIT_SECONDS = 5
@@ -139,14 +138,6 @@ class Player:
         code = await process.wait()
         if not stopped:
             await self._on_message({"event": "stopped", "message": f"the player ended with exit code {code}; the reason is in the terminal"}, None)
-
-
-def read_plan(scenario: str, words: Sequence[str]) -> player.Plan:
-    """Reads a scenario. Raises `Failure` if it is invalid."""
-    try:
-        return player.plan(scenario, words)
-    except player.InvalidScenario as error:
-        raise Failure("the scenario is invalid; the reason is in the terminal") from error
 
 
 def sources(plan: player.Plan) -> dict[str, str]:

@@ -82,6 +82,14 @@ class Messages(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.manifest(self.path("out 雪"))["folder"], odd)
 
+    def test_invalid_arguments_of_live_are_reported_once(self) -> None:
+        scenario = self.path("project", "lamps.json")
+        for words, message in ((["nowhere.json"], "nowhere.json' is not a file"),
+                               ([scenario, "--port", "99999"], "'99999' is not a port from 0 to 65535")):
+            result = collektive("live", *words, "--no-browser")
+            self.assertEqual((result.returncode, result.stdout), (1, ""))
+            self.assertEqual([message in line for line in result.stderr.splitlines() if line.startswith("collektive: ")], [True])
+
     def test_unusual_shell_environments_work_or_are_reported(self) -> None:
         small = subprocess.run(["bash", "-c", f"ulimit -s 64; {COLLEKTIVE} run {self.path('project', 'lamps.json')}"], capture_output=True, text=True)
         self.assertEqual(small.returncode, 1)
