@@ -78,7 +78,7 @@ add_custom_target(sanitized
     -DCOLLEKTIVE_SANITIZE=ON "-DCOLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}"
   COMMAND "${CMAKE_COMMAND}" --build "${COLLEKTIVE_BUILD}/sanitized" VERBATIM)
 
-suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules TIMEOUT 1800 UNLOCKED SCRIPT platforms/run.py RESULTS linux-arm64 mac-arm64)
+suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules TIMEOUT 1800 UNLOCKED PARALLEL SCRIPT platforms/run.py RESULTS linux-arm64 mac-arm64)
 suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules TIMEOUT 3600 UNLOCKED
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
@@ -87,13 +87,13 @@ suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED PARALLEL SCRIPT pages.py page RESULTS)
-suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED SCRIPT pages.py live RESULTS)
+suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED PARALLEL SCRIPT pages.py live RESULTS)
 suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED PARALLEL SCRIPT pages.py site RESULTS)
 
 set(acceptance NEEDS build:runtime build:sample_code build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
-suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2 --dist loadgroup)
+suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
-suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2 --dist loadgroup)
+suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2)
 
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
 set(experiments_tests build:runtime build:failing setup:experiments-tests setup:tune UNLOCKED

@@ -18,7 +18,7 @@ from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project, processes
 from collektive_experiments import compare, files, load
 from collektive_experiments.store import Store
 
-MANY = {"vary": {"seed": "1-30"}, "set": {"seconds": 20}}
+MANY = {"vary": {"seed": "1-16"}, "set": {"seconds": 20}}
 """Returns runs that take long enough to be disturbed."""
 
 
@@ -188,7 +188,7 @@ def test_results_cannot_be_in_a_folder_with_an_emoji(project: Project) -> None:
 def test_a_dry_run_prints_the_number_of_runs(project: Project) -> None:
     result = project.sweep("--dry-run", **MANY)
     assert result.returncode == 0, result.stderr
-    assert re.match(r"30 runs into .*, 2 at once, about \d+ s\n", result.stdout)
+    assert re.match(r"16 runs into .*, 2 at once, about \d+ s\n", result.stdout)
     assert not (project.folder / "out").exists()
 
 
@@ -234,13 +234,13 @@ def test_a_sweep_killed_with_sigkill_resumes_to_the_same_table(project: Project)
     driver = project.start(**MANY)
     await_runs(project, 3)
     os.kill(workers(project)[0], signal.SIGKILL)
-    await_runs(project, 8)
+    await_runs(project, 6)
     driver.kill()
     driver.communicate()
     await_no_worker(project)
     resumed = project.sweep("--resume", **MANY)
     assert resumed.returncode == 0, resumed.stderr
-    assert "of 30 runs are already complete" in resumed.stderr
+    assert "of 16 runs are already complete" in resumed.stderr
     whole = project.sweep(out="whole", **MANY)
     assert whole.returncode == 0, whole.stderr
     assert project.digests() == project.digests("whole")
@@ -255,7 +255,7 @@ def test_ctrl_c_keeps_completed_runs_and_writes_their_tables(project: Project) -
     _, errors = driver.communicate(timeout=30)
     assert driver.returncode == 130
     assert "interrupted; " in errors
-    assert 3 <= len(project.table()) < 30
+    assert 3 <= len(project.table()) < 16
     assert set(project.table()["status"]) == {"complete"}
     await_no_worker(project)
 
@@ -271,21 +271,21 @@ def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lam
     keep = project.folder / "out"
     bundle = sum(file.stat().st_size for file in (lamps.folder / "out/bundle").rglob("*") if file.is_file())
     # The disk has space for the inputs and some of the runs, which take 0.1 MB each.
-    size = f"{bundle // 1024 + 2500}k"
+    size = f"{bundle // 1024 + 1500}k"
     script = 'mount -t tmpfs -o size="$1" none "$2" || exit 99; shift; disk=$1; keep=$2; shift 2; "$@"; code=$?; cp -r "$disk/out" "$keep"; exit $code'
     nodes = {"fields": ["position"], "interval": 0.1}
-    experiment = project.experiment(vary={"seed": "1-40"}, set={"seconds": 40, "outputs.interval": 0.1, "outputs.nodes": nodes})
+    experiment = project.experiment(vary={"seed": "1-24"}, set={"seconds": 40, "outputs.interval": 0.1, "outputs.nodes": nodes})
     command = project.command("sweep", experiment, "--out", str(disk / "out"), "--jobs", "2")
     full = subprocess.run(["unshare", "--mount", "bash", "-c", script, "bash", size, str(disk), str(keep), *command], capture_output=True, text=True,
                           timeout=120)
     assert full.returncode == 1, full.stderr
     assert "No space left on device" in full.stderr or "is full" in full.stderr
     done = sum(json.loads(path.read_text())["status"] == "complete" for path in keep.glob("runs/*/run.json"))
-    assert 0 < done < 40
+    assert 0 < done < 24
     resumed = subprocess.run(project.command("sweep", experiment, "--out", str(keep), "--resume"), capture_output=True, text=True, timeout=120)
     assert resumed.returncode == 0, resumed.stderr
-    assert f"{done} of 40 runs are already complete" in resumed.stderr
-    assert len(set(project.table()["run"])) == 40
+    assert f"{done} of 24 runs are already complete" in resumed.stderr
+    assert len(set(project.table()["run"])) == 24
 
 
 def code_block(language: str) -> str:

@@ -16,7 +16,7 @@ from collektive_experiments.__main__ import main
 from collektive_experiments.store import Store
 from collektive_experiments.worker import Worker
 
-THREE = {"vary": {"seed": "1-3"}}
+TWO = {"vary": {"seed": "1-2"}}
 
 
 def change_scene(project: Project, build: str = "", declared: str = "", measure: str = "", names: str | None = None) -> None:
@@ -60,14 +60,14 @@ def change_program(project: Project, statement: str) -> None:
 ])
 def test_a_run_is_not_affected_by_scripts_of_earlier_runs(project: Project, build: str, declared: str) -> None:
     change_scene(project, build, declared)
-    result = project.sweep("--jobs", "1", **THREE)
+    result = project.sweep("--jobs", "1", **TWO)
     assert result.returncode == 0, result.stderr
     assert len(set(project.table()["nodes"])) == 1
 
 
 def test_static_fields_are_initialised_in_the_run_that_needs_them(project: Project) -> None:
     change_scene(project, "lamps += (int)(First.Value * 50);", "internal static class First { public static readonly float Value = Random.value; }")
-    assert project.sweep("--jobs", "1", **THREE).returncode == 0
+    assert project.sweep("--jobs", "1", **TWO).returncode == 0
     assert len(set(project.table()["nodes"])) > 1, "not the value of each run's seed"
 
 
@@ -78,7 +78,7 @@ def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project) -> 
     scene = project.folder / "project/programs/Brightest.kt"
     scene.write_text(scene.read_text().replace("share(mine)", "share(if (late) mine else mine + 100)"))
     (project.folder / "project/lamps.json").write_text((project.folder / "project/lamps.json").read_text().replace('"seconds": 1', '"seconds": 0.1'))
-    result = project.sweep("--jobs", "1", **THREE)
+    result = project.sweep("--jobs", "1", **TWO)
     assert result.returncode == 0, result.stderr
     assert len(set(project.digests().values())) == 1
 
@@ -101,7 +101,7 @@ def test_a_process_is_reused_only_for_scripts_without_state(project: Project, tm
 
 def test_a_difference_between_a_run_and_its_repetition_stops_the_sweep(project: Project) -> None:
     change_scene(project, "lamps += (int)(System.Diagnostics.Stopwatch.GetTimestamp() % 1000);")
-    result = project.sweep(**THREE)
+    result = project.sweep(**TWO)
     assert result.returncode == 1
     assert re.search(r"differs: the digest was [0-9a-f]{16}, but [0-9a-f]{16} when repeated in a fresh process", result.stderr)
     assert "the sweep stopped" in result.stderr
@@ -166,7 +166,7 @@ def test_a_folder_of_the_user_is_not_modified(project: Project) -> None:
     for name in ("bundle", "runs/x.part"):
         (out / name).mkdir(parents=True)
         (out / name / "thesis.txt").write_text("all of it")
-    result = project.sweep(**THREE)
+    result = project.sweep(**TWO)
     assert result.returncode == 1
     assert result.stderr.count("\n") == 1 and "was not created by a sweep" in result.stderr
     assert [(out / name / "thesis.txt").read_text() for name in ("bundle", "runs/x.part")] == ["all of it"] * 2

@@ -108,13 +108,12 @@ class WholeRuns(Project):
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
     def test_ticks_can_be_up_to_an_hour_long(self) -> None:
-        for schedule in ["Lockstep", "Sequential", "Asynchronous"]:
-            for seconds in [0.34, 1, 60, 3600]:
-                with self.subTest(f"{schedule}, {seconds} s"):
-                    timing = ["--set", f'timing={{"period": {seconds}}}'] if schedule == "Asynchronous" else []
-                    result = self.run_it("--set", f"deltaTime={seconds}", "--set", f"schedule={schedule}", *timing, "--seconds", str(3 * seconds))
-                    self.assertEqual(result.returncode, 0, result.stderr)
-                    self.assertEqual(self.manifest(self.path("out"))["ticks"], 3)
+        for schedule, seconds in [("Lockstep", 3600), ("Sequential", 60), ("Asynchronous", 0.34)]:
+            with self.subTest(f"{schedule}, {seconds} s"):
+                timing = ["--set", f'timing={{"period": {seconds}}}'] if schedule == "Asynchronous" else []
+                result = self.run_it("--set", f"deltaTime={seconds}", "--set", f"schedule={schedule}", *timing, "--seconds", str(3 * seconds))
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual(self.manifest(self.path("out"))["ticks"], 3)
 
     def test_a_stop_condition_or_quit_completes_a_run(self) -> None:
         for code, ticks in [("manager.StopCondition = all => true;", 5), ("Application.Quit(0);", 4)]:

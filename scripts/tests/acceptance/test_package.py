@@ -10,7 +10,6 @@ import unittest
 from pathlib import Path
 
 import installed
-import pytest
 from command import collektive, jdk, last_error
 
 from build import metas
@@ -69,7 +68,6 @@ class Packaged(unittest.TestCase):
         cls.root = cls.project.package
 
 
-@pytest.mark.xdist_group("package")
 class PackageTest(Packaged):
     def packed(self):
         return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
@@ -149,7 +147,6 @@ class PackageTest(Packaged):
         self.assertIn("--nonesuch", last_error(result))
 
 
-@pytest.mark.xdist_group("package with a JVM")
 class JvmPackageTest(Packaged):
     OPTIONS = ("--jre",)
 

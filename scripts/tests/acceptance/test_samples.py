@@ -107,7 +107,7 @@ class SamplesTest(Folder):
         for sample in ["Channel", "Crowd", "GradientAscent", "LeaderElection", "Rescue", "Swarm"]:
             digests = set()
             for placement in ["InProcess", "OwnProcess"]:
-                self.rows(sample, seconds=2, jvm={"placement": placement})
+                self.rows(sample, seconds=1, jvm={"placement": placement})
                 with open(self.path("out", "manifest.json")) as file:
                     digests.add(json.load(file)["digest"])
                 shutil.rmtree(self.path("samples"))
