@@ -21,7 +21,7 @@ from .store import Store
 BATCH = 2000
 """Number of rows that are kept in memory."""
 COUNTS = ("links", "sent", "dropped", "delayed", "expired")
-TIMES = ("sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99")
+TIMES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99")
 RUN_COLUMNS: list[tuple[str, pa.DataType]] = [
     ("status", pa.string()), ("message", pa.string()), ("digest", pa.string()), ("nodes", pa.int64()), ("ticks", pa.int64()), ("errors", pa.int64())]
 RUN_TIMES: list[tuple[str, pa.DataType]] = [

@@ -16,7 +16,7 @@ from build.console import Failure
 from build.places import COLLEKTIVE, ROOT, SHIM
 
 SAMPLE = ROOT / "unity/Samples~/GradientAscent"
-PHASES = ("sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
+PHASES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
 NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
 # The number of nodes for which the sample's field is not scaled.
 NODES_OF_FIELD = 500

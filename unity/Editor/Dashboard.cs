@@ -20,6 +20,7 @@ namespace Collektive.Unity.Editor
             Add("Messages", Messages(manager.Network));
             Add("Errors", manager.ErrorCount.ToString(CultureInfo.InvariantCulture));
             var times = manager.Times;
+            Add("Queries", Milliseconds(times.Queries));
             Add("Rules", Milliseconds(times.Rules));
             Add("Sense", Milliseconds(times.Sense));
             Add("Step", Milliseconds(times.Step) + ", of which rounds " + Milliseconds(manager.HostMicros.Rounds / 1000.0));

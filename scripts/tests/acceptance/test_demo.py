@@ -46,7 +46,7 @@ class DemoTest(Folder):
         self.assertEqual(
             list(rows[0]),
             "second,mean_distance,p90_distance,contacts,links,sent,dropped,delayed,expired,"
-            "sense_ms,rules_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99".split(","))
+            "queries_ms,rules_ms,sense_ms,step_ms,act_ms,physics_ms,other_ms,tick_ms,tick_ms_p99".split(","))
         self.assertEqual([int(row["second"]) for row in rows], list(range(61)))
         self.assertLess(float(rows[-1]["mean_distance"]), 0.3 * float(rows[0]["mean_distance"]))
 
@@ -54,7 +54,7 @@ class DemoTest(Folder):
         with open(os.path.join(self.out, "metrics.csv")) as file:
             rows = list(csv.DictReader(file))
         for row in rows[1:]:
-            phases = [float(row[name + "_ms"]) for name in ("sense", "rules", "step", "act", "physics", "other")]
+            phases = [float(row[name + "_ms"]) for name in ("queries", "rules", "sense", "step", "act", "physics", "other")]
             self.assertAlmostEqual(sum(phases), float(row["tick_ms"]), places=3, msg=row["second"])
             self.assertGreater(min(phases), 0, row)
         # A run writes its page after the ticks.

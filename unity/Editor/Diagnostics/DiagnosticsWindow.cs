@@ -189,6 +189,7 @@ namespace Collektive.Unity.Editor
         private void DrawTimes()
         {
             EditorGUILayout.LabelField("Last " + diagnostics.Times.Count + " ticks", "mean, largest");
+            DrawTime("Queries", diagnostics.Times.Of(times => times.Queries));
             DrawTime("Rules", diagnostics.Times.Of(times => times.Rules));
             DrawTime("Sense", diagnostics.Times.Of(times => times.Sense));
             DrawTime("Step", diagnostics.Times.Of(times => times.Step));

@@ -18,12 +18,15 @@ namespace Collektive.Headless
         private readonly RunMetrics metrics;
         private readonly SimulationManager manager;
         private static readonly string[] Counts = { "links", "sent", "dropped", "delayed", "expired" };
-        private static readonly string[] Times = { "sense_ms", "rules_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99" };
+        private static readonly string[] Times =
+        {
+            "queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99",
+        };
 
         private readonly double[] values;
         private readonly double[] row;
         private readonly List<double> whole = new List<double>();
-        private double rules, sense, step, act, physics;
+        private double queries, rules, sense, step, act, physics;
         private int ticks;
         private long sent, dropped, delayed, expired;
 
@@ -60,6 +63,7 @@ namespace Collektive.Headless
         internal void Add(TickTimes times, NetworkCounts network)
         {
             ticks++;
+            queries += times.Queries;
             rules += times.Rules;
             sense += times.Sense;
             step += times.Step;
@@ -89,7 +93,8 @@ namespace Collektive.Headless
             foreach (var value in row) text += "," + CsvText.Number(value);
             var all = 0.0;
             foreach (var time in whole) all += time;
-            foreach (var time in new[] { sense, rules, step, act, physics, all - sense - rules - step - act - physics, all })
+            var phases = queries + rules + sense + step + act + physics;
+            foreach (var time in new[] { queries, rules, sense, step, act, physics, all - phases, all })
                 text += "," + Text(time / Math.Max(1, ticks));
             text += "," + Text(Quantiles.Of(whole, 0.99));
             writer.Write(text + "\n");
@@ -97,7 +102,7 @@ namespace Collektive.Headless
             writer.Flush();
             whole.Clear();
             ticks = 0;
-            rules = sense = step = act = physics = 0;
+            queries = rules = sense = step = act = physics = 0;
             sent = dropped = delayed = expired = 0;
             return row;
         }

@@ -14,8 +14,8 @@ namespace Collektive.Unity.Editor.Tests
         public void Mean_and_maximum_cover_the_last_hundred_ticks()
         {
             var averages = new TimeAverages();
-            averages.Add(new TickTimes(1000, 1000, 1000, 1000, 1000), 1000);
-            for (var i = 0; i < TimeAverages.Ticks; i++) averages.Add(new TickTimes(1, 0, i % 2 == 0 ? 2 : 4, 0, 0), 0.5);
+            averages.Add(new TickTimes(1000, 1000, 1000, 1000, 1000, 1000), 1000);
+            for (var i = 0; i < TimeAverages.Ticks; i++) averages.Add(new TickTimes(0, 1, 0, i % 2 == 0 ? 2 : 4, 0, 0), 0.5);
             Assert.That(averages.Count, Is.EqualTo(100));
             Assert.That(averages.Of(times => times.Step), Is.EqualTo((3.0, 4.0)));
             Assert.That(averages.Of(times => times.Total), Is.EqualTo((4.0, 5.0)));

@@ -100,6 +100,17 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(a.Answer, Is.EqualTo(rounds + 2));
         }
 
+        [Test]
+        public void Due_nodes_are_chosen_before_rules_and_sensors_run()
+        {
+            Configure("count");
+            var node = MakeNode(0);
+            node.Node.gameObject.AddComponent<SleepingRule>();
+            Play(3);
+            Assert.That((node.Answer, node.Node.AnswerTick), Is.EqualTo((1, 1ul)), "a rule let it sleep from the next tick on");
+            Assert.That(Manager.Times.Queries, Is.GreaterThan(0));
+        }
+
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]
@@ -380,6 +391,11 @@ namespace Collektive.Headless.Tests.Simulation
             public float Heard;
 
             protected override void Act(ActuatorData data) => Heard = Of.TryGetAnswer(out ActuatorData answer) ? answer.Value : -1;
+        }
+
+        private sealed class SleepingRule : NeighbourhoodRule
+        {
+            protected override void FindNeighbours(NeighbourCollector neighbours) => Node.Sleep(10);
         }
     }
 }

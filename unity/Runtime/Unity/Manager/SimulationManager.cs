@@ -154,7 +154,7 @@ namespace Collektive.Unity
         /// Up to date while neighbourhood rules run.
         /// </summary>
         public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances) =>
-            Simulation.Grid.Copy(Simulation.Grid.Find(centre, radius), found, distances);
+            Simulation.Context.Grid.Copy(Simulation.Context.Grid.Find(centre, radius), found, distances);
 
         /// <summary>
         /// The <paramref name="count"/> nodes nearest to a point at the beginning of this tick, or all if there are fewer, the nearest first and
@@ -162,7 +162,7 @@ namespace Collektive.Unity
         /// </summary>
         public void FindNearestNodes(Vector3 centre, int count, List<Node> found, List<float> distances)
         {
-            Simulation.Grid.Copy(Simulation.Grid.FindNearest(centre, count, 0), found, distances);
+            Simulation.Context.Grid.Copy(Simulation.Context.Grid.FindNearest(centre, count, 0), found, distances);
         }
 
         /// <summary>Runs one tick now, even while paused. If a debugger stops the JVM, the tick is completed in a later frame.</summary>

@@ -29,8 +29,8 @@ namespace Collektive.Unity
         [Tooltip("Increase of the link's attenuation for each obstructing collider. Without colliders the attenuation is 0.")]
         private float attenuation = 1;
 
-        // The nodes that were near when the lines of the tick were cast.
-        private readonly GrowingArray<(NearNode Near, int Line)> seen = new GrowingArray<(NearNode Near, int Line)>();
+        // The near nodes: the lines to them from the queries of the tick on, and the obstacles on these from the rule's call on.
+        private readonly GrowingArray<(NearNode Near, int Line, int Obstacles)> near = new GrowingArray<(NearNode Near, int Line, int Obstacles)>();
 
         /// <summary>The radius in metres, 0 or greater.</summary>
         public float Radius
@@ -63,47 +63,44 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(NeighbourCollector neighbours)
         {
-            var sight = Node.Simulation.SightLines;
-            if (!sight.Rules.Has(this))
+            for (var i = 0; i < near.Count; i++)
             {
-                // The rule was added in this tick.
-                AddWithoutBatch(neighbours, sight);
-                return;
-            }
-            for (var i = 0; i < seen.Count; i++)
-            {
-                ref var node = ref seen.Items[i];
-                Add(neighbours, node.Near, sight.ObstaclesOf(node.Line));
+                ref var node = ref near.Items[i];
+                if (!blocking || node.Obstacles == 0) neighbours.Add(node.Near, node.Obstacles * attenuation);
             }
         }
 
-        internal override void Enqueue()
+        internal override void Enqueue(TickContext tick)
         {
-            var simulation = Node.Simulation;
-            seen.Clear();
-            var near = simulation.Grid.Find(Node.Position, radius);
-            for (var i = 0; i < near.Length; i++)
+            FindNear(tick);
+            for (var i = 0; i < near.Count; i++)
             {
-                if (near[i].Id == Node.Id) continue;
-                ref var node = ref seen.Add();
-                node.Near = near[i];
-                node.Line = simulation.SightLines.Ask(Node, simulation.Grid.NodeAt(near[i]), layers, near[i].Distance);
+                ref var node = ref near.Items[i];
+                node.Line = tick.SightLines.Ask(Node, tick.Grid.NodeAt(node.Near), layers, node.Near.Distance);
             }
         }
 
-        private void AddWithoutBatch(NeighbourCollector neighbours, SightLines sight)
+        internal override void Prepare(TickContext tick)
         {
-            var near = neighbours.FindWithin(radius);
-            for (var i = 0; i < near.Length; i++)
+            // Not in a batch in the tick that added the rule.
+            var isBatched = tick.SightLines.Rules.Has(this);
+            if (!isBatched) FindNear(tick);
+            for (var i = 0; i < near.Count; i++)
             {
-                if (near[i].Id != Node.Id)
-                    Add(neighbours, near[i], sight.CountObstacles(Node, neighbours.NodeOf(near[i]), layers, near[i].Distance));
+                ref var node = ref near.Items[i];
+                node.Obstacles = isBatched ? tick.SightLines.ObstaclesOf(node.Line)
+                    : tick.SightLines.CountObstacles(Node, tick.Grid.NodeAt(node.Near), layers, node.Near.Distance);
             }
         }
 
-        private void Add(NeighbourCollector neighbours, in NearNode near, int obstacles)
+        private void FindNear(TickContext tick)
         {
-            if (!blocking || obstacles == 0) neighbours.Add(near, obstacles * attenuation);
+            near.Clear();
+            var found = tick.Grid.Find(Node.Position, radius);
+            for (var i = 0; i < found.Length; i++)
+            {
+                if (found[i].Id != Node.Id) near.Add().Near = found[i];
+            }
         }
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, radius);

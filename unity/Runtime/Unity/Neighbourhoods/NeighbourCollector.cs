@@ -12,16 +12,22 @@ namespace Collektive.Unity
     /// </summary>
     public sealed class NeighbourCollector
     {
-        private readonly Simulation simulation;
+        private readonly NodeGrid grid;
         private readonly GrowingArray<RuleNeighbour> all = new GrowingArray<RuleNeighbour>();
         // Whose neighbours are collected; null outside of a rule's call.
         private Node node;
         private int self;
 
-        internal NeighbourCollector(Simulation simulation) => this.simulation = simulation;
+        /// <param name="nodes">Participating nodes, ascending by id.</param>
+        /// <param name="grid">Their positions in this tick.</param>
+        internal NeighbourCollector(IReadOnlyList<Node> nodes, NodeGrid grid)
+        {
+            Nodes = nodes;
+            this.grid = grid;
+        }
 
         /// <summary>All participating nodes, ascending by id.</summary>
-        public IReadOnlyList<Node> Nodes => simulation.Nodes;
+        public IReadOnlyList<Node> Nodes { get; }
 
         /// <summary>The nodes that the rule added, possibly several times.</summary>
         internal Span<RuleNeighbour> All => new Span<RuleNeighbour>(all.Items, 0, all.Count);
@@ -72,7 +78,7 @@ namespace Collektive.Unity
         public Span<NearNode> FindWithin(float radius)
         {
             CheckIsCollecting();
-            return simulation.Grid.Find(node.Position, radius);
+            return grid.Find(node.Position, radius);
         }
 
         /// <summary>
@@ -83,11 +89,11 @@ namespace Collektive.Unity
         public Span<NearNode> FindNearest(int count, float guess = 0)
         {
             CheckIsCollecting();
-            return simulation.Grid.FindNearest(node.Position, count, guess);
+            return grid.FindNearest(node.Position, count, guess);
         }
 
         /// <summary>The node that a search found.</summary>
-        public Node NodeOf(in NearNode near) => simulation.Grid.NodeAt(near);
+        public Node NodeOf(in NearNode near) => grid.NodeAt(near);
 
         internal void Begin(Node collecting)
         {

@@ -19,7 +19,8 @@ namespace Collektive.Unity
         [Tooltip("Metres. A link's length is sent to the JVM again after it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
-        // In the simulation's NeighbourSearch.
+        // Where the rule has its links; null before its first tick.
+        private NeighbourSearch links;
         private int number = NeighbourSearch.NoRule;
         // Users' code may do anything with physics.
         private bool isOwn;
@@ -50,23 +51,21 @@ namespace Collektive.Unity
             return ref node.Rules;
         }
 
-        internal sealed override void Detached()
-        {
-            if (Node.Simulation != null) ReleaseAll(Node.Simulation.Links);
-        }
+        internal sealed override void Detached() => ReleaseAll();
 
         /// <summary>Updates the links of this rule, unless it <see cref="IsSearch"/>.</summary>
-        internal sealed override void Run(Simulation simulation, int index)
+        internal sealed override void Run(TickContext tick, int index)
         {
             if (IsSearch) return;
-            var neighbours = simulation.Neighbours;
-            if (!isOwn) simulation.Queries.Finish();
+            var neighbours = tick.Neighbours;
+            if (!isOwn) tick.Queries.Finish();
+            Prepare(tick);
             neighbours.Begin(Node);
             try
             {
                 FindNeighbours(neighbours);
                 // Skipped if the call removed the rule or its node, and with it the links.
-                if (IsAttached && Node.Id >= 0) simulation.Links.Take(NumberIn(simulation.Links), Node.Id, neighbours.All, lengthTolerance, !directed);
+                if (IsAttached && Node.Id >= 0) tick.Links.Take(NumberIn(tick.Links), Node.Id, neighbours.All, lengthTolerance, !directed);
             }
             finally
             {
@@ -76,26 +75,33 @@ namespace Collektive.Unity
         }
 
         /// <summary>Adds the search of a rule that <see cref="IsSearch"/>. The node has that place in the grid.</summary>
-        internal void AddSearch(NeighbourCollector neighbours, NeighbourSearch links, int place)
+        internal void AddSearch(TickContext tick, int place)
         {
-            ref var search = ref neighbours.Searches.Add();
+            ref var search = ref tick.Neighbours.Searches.Add();
             search = default;
-            search.Rule = NumberIn(links);
+            search.Rule = NumberIn(tick.Links);
             search.Centre = place;
             search.Tolerance = lengthTolerance;
             search.BothWays = directed ? 0 : 1;
-            FindNeighbours(neighbours);
+            FindNeighbours(tick.Neighbours);
         }
 
-        internal void ReleaseAll(NeighbourSearch links)
+        /// <summary>Removes the rule's links.</summary>
+        internal void ReleaseAll()
         {
-            links.RemoveRule(number);
+            links?.RemoveRule(number);
+            links = null;
             number = NeighbourSearch.NoRule;
         }
 
         /// <summary>Adds this node's current neighbours to <paramref name="neighbours"/>. Called once before each tick; must not allocate.</summary>
         protected abstract void FindNeighbours(NeighbourCollector neighbours);
 
-        private int NumberIn(NeighbourSearch links) => number != NeighbourSearch.NoRule ? number : number = links.AddRule();
+        private int NumberIn(NeighbourSearch search)
+        {
+            if (number != NeighbourSearch.NoRule) return number;
+            links = search;
+            return number = search.AddRule();
+        }
     }
 }

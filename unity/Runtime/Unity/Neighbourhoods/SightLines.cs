@@ -80,7 +80,7 @@ namespace Collektive.Unity
         {
             obstacles.Clear();
             // Rules are called for nodes that are not due, too.
-            Rules.Begin(double.PositiveInfinity);
+            Rules.Begin(isForDueNodes: false);
             Cast();
         }
 

@@ -175,7 +175,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// Suspends rounds for the given simulated seconds. The node keeps its state, its links and its sent messages. 0 wakes it. Works
-        /// under any schedule. May be called from the node's own actuators.
+        /// under any schedule. Takes effect from the next tick on. May be called from the node's own actuators.
         /// </summary>
         /// <param name="seconds">0 or greater; infinity: until it is woken with 0.</param>
         /// <exception cref="InvalidOperationException">The node is not in a simulation.</exception>
@@ -197,11 +197,11 @@ namespace Collektive.Unity
             return problem;
         }
 
-        /// <summary>Returns the result of <see cref="TakeDue"/> without changing the timer.</summary>
-        internal bool IsDue(double now) => asleepUntil <= now && (timer == null || timer.IsDue(now));
+        /// <summary>Whether the node has a round in this tick.</summary>
+        internal bool IsDue { get; private set; }
 
-        /// <summary>Returns whether the node runs in the tick at <paramref name="now"/>, and advances its timer. Called once per tick.</summary>
-        internal bool TakeDue(double now) => asleepUntil <= now && (timer == null || timer.TakeDue(now));
+        /// <summary>Decides whether the node has a round in the tick at <paramref name="now"/>, and advances its timer. Called once per tick.</summary>
+        internal bool TakeDue(double now) => IsDue = asleepUntil <= now && (timer == null || timer.TakeDue(now));
 
         internal void OnJoined(Simulation simulation, int newId)
         {

@@ -24,13 +24,10 @@ namespace Collektive.Unity
             next = Next();
         }
 
-        /// <summary>Returns the result of <see cref="TakeDue"/> without advancing the timer.</summary>
-        internal bool IsDue(double now) => next <= now;
-
         /// <summary>Whether a round came due since the last call that returned true; times must not decrease.</summary>
         internal bool TakeDue(double now)
         {
-            if (!IsDue(now)) return false;
+            if (next > now) return false;
             while (next <= now) next = Next();
             return true;
         }

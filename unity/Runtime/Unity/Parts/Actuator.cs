@@ -24,10 +24,15 @@ namespace Collektive.Unity
     /// </typeparam>
     public abstract class Actuator<TData> : Actuator
     {
-        internal sealed override void Run(Simulation simulation, int index)
+        internal sealed override void Run(TickContext tick, int index)
         {
-            if (simulation.Answered is ActuatorBuffer<TData> buffer) Act(buffer[index]);
-            else FailWithSchemaMismatch(simulation, "actuator", typeof(TData), simulation.Answered.DataType);
+            if (!(tick.Answered is ActuatorBuffer<TData> buffer))
+            {
+                FailWithSchemaMismatch(tick, "actuator", typeof(TData), tick.Answered.DataType);
+                return;
+            }
+            Prepare(tick);
+            Act(buffer[index]);
         }
 
         /// <summary>

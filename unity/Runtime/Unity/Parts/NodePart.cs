@@ -59,19 +59,24 @@ namespace Collektive.Unity
         internal abstract ref PartList ListOf(Node node);
 
         /// <summary>Does the part's work in a tick.</summary>
-        /// <param name="simulation">The simulation that its node is in.</param>
+        /// <param name="tick">The tick of its node's simulation.</param>
         /// <param name="index">The place of the node's data among those of the tick.</param>
-        internal abstract void Run(Simulation simulation, int index);
+        internal abstract void Run(TickContext tick, int index);
 
         /// <summary>Adds the part's physics queries to the batches of the tick; called before <see cref="Run"/> if <see cref="BatchedIn"/> is set.</summary>
-        internal virtual void Enqueue()
+        internal virtual void Enqueue(TickContext tick)
+        {
+        }
+
+        /// <summary>Does what a ready part needs the tick for, in <see cref="Run"/> before the part's public method is called.</summary>
+        internal virtual void Prepare(TickContext tick)
         {
         }
 
         /// <summary>Stops a simulation whose schema differs from the schema of this sensor or actuator.</summary>
-        internal void FailWithSchemaMismatch(Simulation simulation, string kind, Type actual, Type expected)
+        internal void FailWithSchemaMismatch(TickContext tick, string kind, Type actual, Type expected)
         {
-            simulation.Fail(kind + " " + GetType().Name + " of node " + Node.Id + " ('" + Node.name + "') is written for " + actual.FullName
+            tick.Fail(kind + " " + GetType().Name + " of node " + Node.Id + " ('" + Node.name + "') is written for " + actual.FullName
                 + ", but the session's schema has " + expected.FullName + ": use a component for that schema, or select the other schema", this);
         }
 

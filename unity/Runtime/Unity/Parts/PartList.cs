@@ -48,7 +48,7 @@ namespace Collektive.Unity
                 var part = parts[i];
                 try
                 {
-                    part.Run(simulation, index);
+                    part.Run(simulation.Context, index);
                     part.Succeeded();
                 }
                 catch (Exception error)

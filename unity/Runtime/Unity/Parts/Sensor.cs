@@ -16,10 +16,15 @@ namespace Collektive.Unity
     /// </typeparam>
     public abstract class Sensor<TData> : Sensor
     {
-        internal sealed override void Run(Simulation simulation, int index)
+        internal sealed override void Run(TickContext tick, int index)
         {
-            if (simulation.SensorData is SensorBuffer<TData> buffer) Sense(ref buffer.Items[index]);
-            else FailWithSchemaMismatch(simulation, "sensor", typeof(TData), simulation.SensorData.DataType);
+            if (!(tick.SensorData is SensorBuffer<TData> buffer))
+            {
+                FailWithSchemaMismatch(tick, "sensor", typeof(TData), tick.SensorData.DataType);
+                return;
+            }
+            Prepare(tick);
+            Sense(ref buffer.Items[index]);
         }
 
         /// <summary>

@@ -27,10 +27,10 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Begins a batch with the queries of all parts whose nodes are due by <paramref name="now"/>, in simulated seconds. Drops parts that take no part in
-        /// the simulation any more.
+        /// Begins a batch with the queries of all parts, or of those whose nodes are due in this tick. Drops parts that take no part in the simulation any
+        /// more.
         /// </summary>
-        internal void Begin(double now)
+        internal void Begin(bool isForDueNodes)
         {
             Batch++;
             // One pass: each part and node is far away in memory.
@@ -39,9 +39,9 @@ namespace Collektive.Unity
                 var part = parts[i];
                 if (part.IsAttached && ReferenceEquals(part.Node.Simulation, simulation))
                 {
-                    if (!part.Node.IsDue(now)) continue;
+                    if (isForDueNodes && !part.Node.IsDue) continue;
                     part.BatchedAt = Batch;
-                    part.Enqueue();
+                    part.Enqueue(simulation.Context);
                     continue;
                 }
                 if (ReferenceEquals(part.BatchedIn, this)) part.BatchedIn = null;

@@ -26,11 +26,11 @@ namespace Collektive.Unity
         internal BatchedParts Sensors { get; }
 
         /// <summary>Begins the batches of all sensors whose nodes are due. Physics may not be changed before <see cref="Finish"/>.</summary>
-        internal void Begin(double now)
+        internal void Begin()
         {
             Rays.Clear();
             Spheres.Clear();
-            Sensors.Begin(now);
+            Sensors.Begin(isForDueNodes: true);
             Rays.Begin();
             Spheres.Begin();
             // Unity keeps scheduled jobs back until then.

@@ -39,8 +39,7 @@ namespace Collektive.Unity
         private readonly HashSet<string> changedPrograms = new HashSet<string>();
         private bool isStopReported;
         private long pendingSince;
-        private (long Start, long RulesEnd, long SenseEnd) begun;
-        private bool hasWarnedMovedCollider;
+        private (long Start, long QueriesEnd, long RulesEnd, long SenseEnd) begun;
 
         /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
         /// <param name="globals">Data written to it is sent with the next tick.</param>
@@ -50,11 +49,8 @@ namespace Collektive.Unity
             Settings = settings;
             Manager = manager;
             this.globals = globals;
-            Grid = new NodeGrid(Links);
+            Context = new TickContext(this);
             ScriptLinks = new ScriptLinks(this);
-            Neighbours = new NeighbourCollector(this);
-            SightLines = new SightLines(this);
-            Queries = new SensorQueries(this);
             Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
         }
 
@@ -111,7 +107,7 @@ namespace Collektive.Unity
         internal int IdCapacity => registry.IdCapacity;
 
         /// <summary>All links, and searches for near nodes.</summary>
-        internal NeighbourSearch Links { get; } = new NeighbourSearch();
+        internal NeighbourSearch Links => Context.Links;
 
         internal ScriptLinks ScriptLinks { get; }
 
@@ -125,17 +121,8 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Positions of the nodes in this tick; current while rules run.</summary>
-        internal NodeGrid Grid { get; }
-
-        /// <summary>Sight lines between nodes in this tick.</summary>
-        internal SightLines SightLines { get; }
-
-        /// <summary>The collector for rules.</summary>
-        internal NeighbourCollector Neighbours { get; }
-
-        /// <summary>The physics queries of sensors.</summary>
-        internal SensorQueries Queries { get; }
+        /// <summary>The services for parts in a tick.</summary>
+        internal TickContext Context { get; }
 
         /// <summary>Buffer for sensors in a tick.</summary>
         internal SensorBuffer SensorData => session.Request.Sensors;
@@ -175,15 +162,6 @@ namespace Collektive.Unity
                 Fail(error, "the start failed: ");
             }
             return IsOpen;
-        }
-
-        /// <summary>Warns of the first part that moves a collider without a body: physics neither stops such a collider nor lets it push others.</summary>
-        internal void WarnMovedCollider(Component part)
-        {
-            if (hasWarnedMovedCollider) return;
-            hasWarnedMovedCollider = true;
-            Debug.LogWarning(part.GetType().Name + " moves '" + part.name + "', a collider without a Rigidbody, through walls and other nodes: "
-                + "add a Rigidbody, or make the collider a trigger", part);
         }
 
         /// <summary>Runs one tick, or continues the one that is pending.</summary>
@@ -269,7 +247,7 @@ namespace Collektive.Unity
         private void Remove(Node node)
         {
             registry.Leave(node, Links);
-            for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll(Links);
+            for (var i = 0; i < node.Rules.Count; i++) ((NeighbourhoodRule)node.Rules[i]).ReleaseAll();
             node.OnLeft();
         }
 
@@ -287,9 +265,7 @@ namespace Collektive.Unity
                 Debug.LogError("the session did not close: " + error.Message, Manager);
             }
             session = null;
-            SightLines.Dispose();
-            Queries.Dispose();
-            Links.Dispose();
+            Context.Release();
         }
 
         /// <summary>Runs the phases of a tick. Users' code may end the simulation in any phase; later phases are then skipped.</summary>
@@ -309,19 +285,21 @@ namespace Collektive.Unity
             var actEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Physics.Auto()) PhysicsSteps.Advance(this);
             var end = Stopwatch.GetTimestamp();
-            Times = TickTimes.Of(begun.Start, begun.RulesEnd, begun.SenseEnd, stepEnd, actEnd, end);
+            Times = TickTimes.Of(begun.Start, begun.QueriesEnd, begun.RulesEnd, begun.SenseEnd, stepEnd, actEnd, end);
         }
 
         private void Begin()
         {
             begun.Start = Stopwatch.GetTimestamp();
             TickInProgress = session.Tick + 1;
-            using (TickMarkers.Rules.Auto())
+            using (TickMarkers.Queries.Auto())
             {
                 Physics.SyncTransforms();
                 FlushChanges();
-                UpdateRules();
+                BeginQueries();
             }
+            begun.QueriesEnd = Stopwatch.GetTimestamp();
+            using (TickMarkers.Rules.Auto()) UpdateRules();
             begun.RulesEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Sense.Auto())
             {
@@ -395,16 +373,29 @@ namespace Collektive.Unity
         /// <summary>Simulated seconds up to which nodes are due in this tick.</summary>
         private double Now => session.Time + Tolerance * Settings.deltaTime;
 
-        private void UpdateRules()
+        /// <summary>Reads positions, chooses the due nodes, and starts the physics queries, which run while the rules are called.</summary>
+        private void BeginQueries()
         {
             presentCount = Nodes.Count;
             if (presentCount > present.Length) present = new Node[Math.Max(presentCount, 2 * present.Length)];
             Nodes.CopyTo(present);
-            Grid.Build(present, presentCount);
-            SightLines.Begin();
-            Queries.Begin(Now);
+            Context.Grid.Build(present, presentCount);
+            var now = Now;
+            due.Clear();
+            for (var i = 0; i < presentCount; i++)
+            {
+                var node = present[i];
+                node.KeepAnswer(session.Tick);
+                if (node.TakeDue(now)) due.Add((node, node.Id));
+            }
+            Context.SightLines.Begin();
+            Context.Queries.Begin();
+        }
+
+        private void UpdateRules()
+        {
             AddSearches();
-            var searches = Neighbours.Searches;
+            var searches = Context.Neighbours.Searches;
             var done = Links.Update(new Span<RuleSearch>(searches.Items, 0, searches.Count), Settings.threads, MaxLinks);
             // Scripts' links may exceed it, too.
             if (Links.Count > MaxLinks) FailTooManyLinks(present[done == 0 ? 0 : searches.Items[done - 1].Centre]);
@@ -419,7 +410,7 @@ namespace Collektive.Unity
         /// <summary>Collects the searches of ready rules, and the nodes whose rules must be called.</summary>
         private void AddSearches()
         {
-            Neighbours.Searches.Clear();
+            Context.Neighbours.Searches.Clear();
             withOwnRules.Clear();
             for (var i = 0; i < presentCount; i++)
             {
@@ -428,7 +419,7 @@ namespace Collektive.Unity
                 for (var r = 0; r < rules.Count; r++)
                 {
                     var rule = (NeighbourhoodRule)rules[r];
-                    if (rule.IsSearch) rule.AddSearch(Neighbours, Links, i);
+                    if (rule.IsSearch) rule.AddSearch(Context, i);
                     else areSearches = false;
                 }
                 if (!areSearches) withOwnRules.Add(i);
@@ -439,30 +430,29 @@ namespace Collektive.Unity
             Fail("the scene has more than " + MaxLinks + " links, the last one of node '" + node.name
                 + "': use smaller neighbourhoods, or increase the distances between nodes", node);
 
+        /// <summary>Runs the sensors of due nodes. Nodes that left, and nodes whose sensors failed, are no longer due.</summary>
         private void Sense()
         {
-            due.Clear();
             var request = session.Request;
             request.ClearDue();
-            request.Sensors.EnsureCapacity(presentCount);
-            var now = Now;
-            Queries.Finish();
-            for (var i = 0; i < presentCount && IsOpen; i++)
+            request.Sensors.EnsureCapacity(due.Count);
+            Context.Queries.Finish();
+            var sensed = 0;
+            for (var i = 0; i < due.Count && IsOpen; i++)
             {
-                var node = present[i];
-                if (node.Id < 0) continue;
-                node.KeepAnswer(session.Tick);
-                if (!node.TakeDue(now)) continue;
-                var index = due.Count;
-                request.Sensors.Clear(index);
-                if (!node.Sensors.Run(this, node, index) || node.Id < 0) continue;
-                request.AddDue(node.Id);
-                due.Add((node, node.Id));
-                var field = request.Sensors.FindNotFinite(index);
+                var (node, id) = due.Items[i];
+                // Users' code may have made the node leave.
+                if (node.Id != id) continue;
+                request.Sensors.Clear(sensed);
+                if (!node.Sensors.Run(this, node, sensed) || node.Id != id) continue;
+                request.AddDue(id);
+                var field = request.Sensors.FindNotFinite(sensed);
+                due.Items[sensed++] = (node, id);
                 if (field == null) continue;
                 Fail("sensor data of node " + node.Id + " ('" + node.name + "') contains a number that is not finite in " + field
                     + ": fix the sensor that writes it", node);
             }
+            due.Truncate(sensed);
         }
 
         private void ReadAnswer()

@@ -6,6 +6,7 @@ namespace Collektive.Unity
     internal static class TickMarkers
     {
         internal static readonly ProfilerMarker Tick = new ProfilerMarker("Collektive.Tick");
+        internal static readonly ProfilerMarker Queries = new ProfilerMarker("Collektive.Queries");
         internal static readonly ProfilerMarker Rules = new ProfilerMarker("Collektive.Rules");
         internal static readonly ProfilerMarker Sense = new ProfilerMarker("Collektive.Sense");
         internal static readonly ProfilerMarker Step = new ProfilerMarker("Collektive.Step");

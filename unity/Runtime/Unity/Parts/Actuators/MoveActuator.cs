@@ -56,13 +56,15 @@ namespace Collektive.Unity
         /// <summary>Returns the target in the program's answer, in metres.</summary>
         protected abstract Vector3 Read(TData data);
 
+        internal sealed override void Prepare(TickContext tick)
+        {
+            if (isChecked || body != null) return;
+            isChecked = true;
+            if (TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
+        }
+
         private void Go(Vector3 target)
         {
-            if (!isChecked)
-            {
-                isChecked = true;
-                if (TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) Node.Simulation.WarnMovedCollider(this);
-            }
             var place = Node.Body.position;
             Node.Body.position = place + Node.AnswerInterval * Velocity(target - place);
         }

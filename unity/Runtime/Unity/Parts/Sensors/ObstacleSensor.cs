@@ -21,6 +21,8 @@ namespace Collektive.Unity
 
         // The number of the query in the batch.
         private int query;
+        private Obstacle[] found;
+        private int foundCount;
 
         /// <summary>Metres from the node's centre, 0 or greater.</summary>
         public float Reach
@@ -37,17 +39,19 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
-        protected sealed override void Sense(ref TData data)
+        protected sealed override void Sense(ref TData data) => Write(ref data, new Span<Obstacle>(found, 0, foundCount));
+
+        internal sealed override void Prepare(TickContext tick)
         {
-            var queries = Node.Simulation.Queries;
-            if (!queries.Sensors.Has(this) || !TryTakeHits(queries, out var found)) found = Overlap(queries);
-            Write(ref data, new Span<Obstacle>(queries.Obstacles, 0, found));
+            var queries = tick.Queries;
+            if (!queries.Sensors.Has(this) || !TryTakeHits(queries, out foundCount)) foundCount = Overlap(queries);
+            found = queries.Obstacles;
         }
 
-        internal sealed override void Enqueue()
+        internal sealed override void Enqueue(TickContext tick)
         {
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
-            query = Node.Simulation.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, reach, parameters));
+            query = tick.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, reach, parameters));
         }
 
         /// <summary>Writes the obstacles, the nearest first. The span is valid during the call only.</summary>

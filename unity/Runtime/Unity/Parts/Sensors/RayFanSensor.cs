@@ -74,9 +74,11 @@ namespace Collektive.Unity
         private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || angleOfDirections != angle;
 
         /// <inheritdoc/>
-        protected sealed override void Sense(ref TData data)
+        protected sealed override void Sense(ref TData data) => Write(ref data, hits);
+
+        internal sealed override void Prepare(TickContext tick)
         {
-            var queries = Node.Simulation.Queries;
+            var queries = tick.Queries;
             // Not batched if another sensor has changed the fan since.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections;
             if (!isBatched) UpdateDirections();
@@ -86,13 +88,12 @@ namespace Collektive.Unity
                 if (isBatched) hits[i] = Pass(centre, worldDirections[i], queries.Rays.HitOf(query + i, 0));
                 else hits[i] = Cast(centre, worldDirections[i], 0);
             }
-            Write(ref data, hits);
         }
 
-        internal sealed override void Enqueue()
+        internal sealed override void Enqueue(TickContext tick)
         {
             UpdateDirections();
-            var fans = Node.Simulation.Queries.Rays;
+            var fans = tick.Queries.Rays;
             query = fans.Count;
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
             // A command requires a unit vector, and a rotated one is not exactly that.

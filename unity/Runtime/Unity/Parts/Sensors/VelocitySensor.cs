@@ -12,6 +12,7 @@ namespace Collektive.Unity
         private Rigidbody body;
         private Vector3 place;
         private double time = -1;
+        private Vector3 meanVelocity;
 
         /// <inheritdoc/>
         protected override void OnEnable()
@@ -22,14 +23,16 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
-        protected sealed override void Sense(ref TData data)
+        protected sealed override void Sense(ref TData data) =>
+            Write(ref data, body != null && !body.isKinematic ? body.linearVelocity : meanVelocity);
+
+        internal sealed override void Prepare(TickContext tick)
         {
-            var now = Node.Simulation.Time;
+            var now = tick.Time;
             var here = Node.Position;
-            var velocity = time >= 0 && now > time ? (here - place) / (float)(now - time) : Vector3.zero;
+            meanVelocity = time >= 0 && now > time ? (here - place) / (float)(now - time) : Vector3.zero;
             place = here;
             time = now;
-            Write(ref data, body != null && !body.isKinematic ? body.linearVelocity : velocity);
         }
 
         /// <summary>Writes the node's velocity in metres per second.</summary>
