@@ -10,9 +10,8 @@ using UnityEngine;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The columns of the table of nodes that metrics are computed from: data about each node and its last message, then the numbers,
-    /// booleans and enums of its last answer
-    /// and of the sensor data of its last round, by their names in the schema. A node without them has no value there.
+    /// The columns of the table of nodes that metrics are computed from: data about each node and its last message, then the numbers, booleans and enums of its
+    /// last answer and of the sensor data of its last round, by their names in the schema. A node without them has no value there.
     /// </summary>
     internal sealed class NodeColumns
     {

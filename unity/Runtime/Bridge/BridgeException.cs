@@ -19,13 +19,13 @@ namespace Collektive.Bridge
         JvmOptions = -6,
         /// <summary>The JVM could not be created.</summary>
         JvmStart = -7,
-        /// <summary>The JVM has crashed or stopped responding, until the process restarts.</summary>
+        /// <summary>The JVM has crashed or stopped responding, and is unusable until the process restarts.</summary>
         JvmLost = -8,
         /// <summary>No JVM is running.</summary>
         JvmNotRunning = -9,
         /// <summary>A JVM is already running with other settings.</summary>
         JvmRunning = -10,
-        /// <summary>The host's jar or the native library is missing or of another version.</summary>
+        /// <summary>The host's jar or the native library is missing or has another version.</summary>
         Host = -11,
         /// <summary>The frame is invalid and was ignored.</summary>
         Frame = -12,

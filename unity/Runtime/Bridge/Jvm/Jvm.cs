@@ -36,7 +36,7 @@ namespace Collektive.Bridge
         /// <summary>Process id of the last JVM in a separate process, running or not; 0 if it ran in this process or none was started.</summary>
         internal static int Process => Stats.Process;
 
-        /// <summary>For messages: when changed settings take effect.</summary>
+        /// <summary>When changed settings take effect, for messages.</summary>
         internal static string WhenChangesTakeEffect => Process != 0 ? "at the next Play" : "after a restart of the editor";
 
         private static Shim.Stats Stats
@@ -66,8 +66,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Checks what <see cref="Start"/> would: files, refused options and, in a child process that takes 50 to 200 ms, the options.
-        /// Options that pass are not tried again at the start.
+        /// Checks the same as <see cref="Start"/>: the files, refused options and, in a child process (50 to 200 ms), whether the JVM accepts the options.
+        /// Accepted options are not tried again at the start.
         /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         internal static void Check(JvmLaunch launch)
@@ -77,11 +77,11 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Returns the status of the running JVM. Takes a few milliseconds, about 50 the first time, and up to 10 s while a tick runs.</summary>
-        /// <param name="collect">Collect garbage first, so that the numbers count only what is in use.</param>
+        /// <param name="collect">Whether to collect garbage first, so that only live objects are counted.</param>
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
 
-        /// <summary>Returns the same as <see cref="GetStatus"/>, or null if no JVM runs or a debugger stops it.</summary>
+        /// <summary>Returns the same as <see cref="GetStatus"/>, or null if no JVM runs or a debugger has stopped it.</summary>
         internal static JvmStatus TryGetStatus()
         {
             try

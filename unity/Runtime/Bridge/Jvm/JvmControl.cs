@@ -4,7 +4,7 @@ using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Queries the host about the JVM itself, in frames that belong to no session. From any thread; allocates.</summary>
+    /// <summary>Queries the host about the JVM itself, in frames outside any session. May be called from any thread; allocates.</summary>
     internal static unsafe class JvmControl
     {
         /// <summary>Held while an answer is read, because the next query or the end of the JVM would overwrite it.</summary>

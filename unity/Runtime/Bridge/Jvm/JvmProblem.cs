@@ -3,14 +3,14 @@ namespace Collektive.Bridge
     /// <summary>A problem of the JVM settings, as a message for users.</summary>
     internal readonly struct JvmProblem
     {
-        /// <summary>Creates a problem of the setting <paramref name="key"/>.</summary>
+        /// <summary>Creates a problem with the setting <paramref name="key"/>.</summary>
         internal JvmProblem(string key, string message)
         {
             Key = key;
             Message = message;
         }
 
-        /// <summary>The field of <see cref="JvmSettings"/> to show it at.</summary>
+        /// <summary>The field of <see cref="JvmSettings"/> that the problem concerns.</summary>
         internal string Key { get; }
 
         /// <summary>The error and its fix.</summary>

@@ -5,9 +5,9 @@ using org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Controls the JVM's flight recording at any time while the JVM runs, also between two ticks.
-    /// Each member returns when no tick runs, within 10 s. Starting and writing run in the background; <see cref="Jvm.GetStatus"/> reports their progress.
-    /// When the JVM exits, a running recording is written. Call all members from any thread.
+    /// Controls the JVM's flight recording while the JVM runs, even between two ticks. Each member waits up to 10 s for a running tick. Starting and writing
+    /// run in the background; <see cref="Jvm.GetStatus"/> reports their progress. When the JVM exits, a running recording is written. All members may be called
+    /// from any thread.
     /// </summary>
     public static class JvmRecording
     {
@@ -18,7 +18,7 @@ namespace Collektive.Bridge
         public const string Profile = "profile";
 
         /// <summary>Starts a recording; <paramref name="path"/> (usually <c>.jfr</c>) is written at its stop.</summary>
-        /// <param name="path">A file; one that is there already is replaced.</param>
+        /// <param name="path">The file; an existing one is replaced.</param>
         /// <param name="settings"><see cref="Default"/>, <see cref="Profile"/>, or the path of a <c>.jfc</c> file.</param>
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static void Start(string path, string settings = Default)

@@ -5,7 +5,7 @@ using System.Reflection;
 
 namespace Collektive.Bridge
 {
-    /// <summary>One field of <see cref="JvmSettings"/>, as inspectors, scenario files and error texts know it.</summary>
+    /// <summary>Describes one field of <see cref="JvmSettings"/> for inspectors, scenario files and error messages.</summary>
     internal sealed class JvmSetting
     {
         private readonly FieldInfo field;
@@ -59,11 +59,11 @@ namespace Collektive.Bridge
                 "Not every JVM has Shenandoah.", EffectiveCollector, marks: "collector ollectors GC"),
             new JvmSetting(
                 nameof(JvmSettings.compiler), "Compiler",
-                "Tiered is the fastest in the long run. C1 warms up sooner. Interpreter is slow; use it to find bugs of compiled code.",
+                "Tiered is the fastest in the long run. C1 warms up sooner. Interpreter is slow; use it to find bugs in compiled code.",
                 EffectiveCompiler, marks: "TieredStopAtLevel Xint"),
             new JvmSetting(
                 nameof(JvmSettings.compileThreshold), "Compile threshold",
-                "Calls before code is compiled, in percent of the JVM's default. Lower: sooner, with less profile data.",
+                "Calls before code is compiled, as a percentage of the JVM's default. Lower values compile sooner, with less profile data.",
                 EffectiveThreshold, "%", 1, 10000, 100, "CompileThreshold"),
             new JvmSetting(
                 nameof(JvmSettings.codeCacheMb), "Code cache",
@@ -102,7 +102,7 @@ namespace Collektive.Bridge
         /// <summary>Unit of a number; may be empty.</summary>
         internal string Unit { get; }
 
-        /// <summary>Smallest number, beside <see cref="Otherwise"/>.</summary>
+        /// <summary>Smallest number, apart from <see cref="Otherwise"/>.</summary>
         internal int Minimum { get; }
 
         /// <summary>Largest number; 0 for settings that are not numbers.</summary>

@@ -10,7 +10,7 @@ namespace Collektive.Bridge
     {
         /// <summary>The JVM package, or <c>JAVA_HOME</c>.</summary>
         Automatic,
-        /// <summary>The package's own.</summary>
+        /// <summary>The JVM package only.</summary>
         Bundled,
         /// <summary>The environment variable <c>JAVA_HOME</c>.</summary>
         JavaHome,
@@ -18,7 +18,7 @@ namespace Collektive.Bridge
         Folder,
     }
 
-    /// <summary>The process that the JVM runs in. Results are the same.</summary>
+    /// <summary>The process that the JVM runs in, which does not affect results.</summary>
     public enum JvmPlacement
     {
         /// <summary>On a thread of this process, which can start only one JVM.</summary>
@@ -47,17 +47,17 @@ namespace Collektive.Bridge
     /// <summary>The compilation of programs to machine code.</summary>
     public enum JvmCompiler
     {
-        /// <summary>Compiles quickly first, and optimises frequently executed code.</summary>
+        /// <summary>Compiles quickly first, then optimises frequently executed code.</summary>
         Tiered,
-        /// <summary>Compiles quickly only: faster at first, slower in the long run.</summary>
+        /// <summary>Uses the quick compiler only: faster at first, slower in the long run.</summary>
         C1,
-        /// <summary>Does not compile: for finding bugs of the compiler.</summary>
+        /// <summary>Does not compile, for finding compiler bugs.</summary>
         Interpreter,
     }
 
     /// <summary>
-    /// The settings of the JVM. Read when the JVM starts: with <see cref="JvmPlacement.InProcess"/> once per process. <see cref="JvmSetting.All"/>
-    /// describes each field; scenario files have the same names as keys.
+    /// The settings of the JVM. Read when the JVM starts: with <see cref="JvmPlacement.InProcess"/> once per process. <see cref="JvmSetting.All"/> describes
+    /// each field; scenario files use the field names as keys.
     /// </summary>
     [Serializable]
     public sealed class JvmSettings
@@ -86,7 +86,7 @@ namespace Collektive.Bridge
         /// <summary>The compilation of programs to machine code.</summary>
         public JvmCompiler compiler = JvmCompiler.Tiered;
 
-        /// <summary>Calls before code is compiled, in percent of the JVM's default.</summary>
+        /// <summary>Calls before code is compiled, as a percentage of the JVM's default.</summary>
         public int compileThreshold = 100;
 
         /// <summary>Memory for compiled code in MiB; 0: the JVM's default.</summary>
@@ -101,7 +101,7 @@ namespace Collektive.Bridge
         /// <summary>TCP port on the loopback interface for debuggers; 0: none.</summary>
         public int debugPort;
 
-        /// <summary>Whether <c>sin</c>, <c>exp</c> and others give the same bits on other JVMs and processors.</summary>
+        /// <summary>Whether <c>sin</c>, <c>exp</c> and others give bit-identical results on all JVMs and processors.</summary>
         public bool repeatableMaths;
 
         /// <summary>More JVM options, one per entry.</summary>
@@ -157,7 +157,7 @@ namespace Collektive.Bridge
             if (codeCacheMb > 0) options.Add("-XX:ReservedCodeCacheSize=" + Text(codeCacheMb) + "m");
             if (cdsArchive && !HasAgent && JavaVersion(javaHome) >= FirstWithAutomaticArchive) note = AddArchive(options, javaHome, hostJar, cacheFolder);
             if (assertions) options.Add("-ea");
-            // With this, the host sees whether a debugger is attached.
+            // Lets the host check whether a debugger is attached.
             if (HasAgent) options.Add("--add-exports=java.base/jdk.internal.vm=ALL-UNNAMED");
             if (debugPort != 0) options.Add("-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:" + Text(debugPort));
             if (repeatableMaths)
@@ -173,7 +173,7 @@ namespace Collektive.Bridge
         private bool HasAgent =>
             debugPort != 0 || flags.Exists(flag => flag.StartsWith("-agent", StringComparison.Ordinal) || flag.StartsWith("-Xrun", StringComparison.Ordinal));
 
-        /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 if its <c>release</c> file names none.</summary>
+        /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 if its <c>release</c> file contains none.</summary>
         internal static int JavaVersion(string javaHome)
         {
             const string key = "JAVA_VERSION=\"";
@@ -189,15 +189,15 @@ namespace Collektive.Bridge
             return 0;
         }
 
-        // Objects that survive two collections are mostly nodes' state; the default would copy them up to fifteen times: pauses of 5 ms instead of 1 ms.
+        // Objects that survive two collections are mostly nodes' state. The default would copy them up to fifteen times, with pauses of 5 ms instead of 1 ms.
         private static readonly string[] OwnCollector = { "-XX:+" + JvmSetting.FlagOf(JvmCollector.Serial), "-XX:MaxTenuringThreshold=2" };
 
         private const int FirstWithAutomaticArchive = 19;
 
         /// <summary>
-        /// The JVM writes the archive when it ends, and makes a new one when the JVM itself has changed. It never replaces one of another host jar at the
-        /// same place, nor one without a header, which a JVM killed while writing leaves behind. So the jar's size and time are part of the name, and
-        /// unusable archives are removed.
+        /// The JVM writes the archive when it exits, and a new one after the JVM itself has changed. It never replaces an archive of another host jar at the
+        /// same path, so the jar's size and time are part of the name. Nor does it replace an archive without a header, which a JVM killed while writing leaves
+        /// behind, so such archives are removed.
         /// </summary>
         /// <returns>The reason why no archive is used, or an empty text.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
@@ -229,7 +229,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Checks the header of an archive: another JVM may be writing it. This JVM then starts without it, and the next one writes it again.
+        /// Removes an archive with another name or without a header. If another JVM was writing it, this one starts without an archive, and the next one writes
+        /// it again.
         /// </summary>
         private static void RemoveUnusable(string archive, string wanted)
         {

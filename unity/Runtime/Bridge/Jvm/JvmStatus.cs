@@ -59,19 +59,19 @@ namespace Collektive.Bridge
         /// <summary>Bytes of the heap in use.</summary>
         public long HeapUsed { get; }
 
-        /// <summary>Bytes that the heap has taken from the system.</summary>
+        /// <summary>Bytes of memory committed for the heap.</summary>
         public long HeapCommitted { get; }
 
-        /// <summary>Bytes that the heap may take.</summary>
+        /// <summary>Maximum heap size in bytes.</summary>
         public long HeapMaximum { get; }
 
-        /// <summary>Bytes of the classes.</summary>
+        /// <summary>Bytes of class metadata in use.</summary>
         public long MetaspaceUsed { get; }
 
-        /// <summary>Classes that are loaded.</summary>
+        /// <summary>Number of loaded classes.</summary>
         public int Classes { get; }
 
-        /// <summary>Garbage collections so far.</summary>
+        /// <summary>Number of garbage collections so far.</summary>
         public long Collections { get; }
 
         /// <summary>Milliseconds in garbage collections so far.</summary>
@@ -80,10 +80,10 @@ namespace Collektive.Bridge
         /// <summary>State of the flight recording.</summary>
         public RecordingState Recording { get; }
 
-        /// <summary>File of the recording that runs, or of the last one; empty before the first.</summary>
+        /// <summary>File of the current or last recording; empty before the first.</summary>
         public string RecordingPath { get; }
 
-        /// <summary>Why the last action of the recording failed; empty when it did not.</summary>
+        /// <summary>Why the last action of the recording failed; empty if it succeeded.</summary>
         public string RecordingError { get; }
 
         /// <summary>Milliseconds that the last action of the recording took, in the background.</summary>

@@ -12,10 +12,10 @@ namespace Collektive.Bridge
         /// <summary>It runs.</summary>
         On = org.collektive.frame.RecordingState.On,
 
-        /// <summary>It runs, and what it has so far is being written.</summary>
+        /// <summary>It runs, and its events so far are being written.</summary>
         Dumping = org.collektive.frame.RecordingState.Dumping,
 
-        /// <summary>It is being ended and written.</summary>
+        /// <summary>It is being stopped and written.</summary>
         Stopping = org.collektive.frame.RecordingState.Stopping,
     }
 }

@@ -17,9 +17,8 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// Log lines of the shim, the JVM and the programs, polled. At most <see cref="LinesPerSecond"/> of each severity, so that
-    /// the console can keep up. A separate line reports the number of omitted lines. Empty without the native library. Used
-    /// from one thread at a time.
+    /// Polls the log lines of the shim, the JVM and the programs. Returns at most <see cref="LinesPerSecond"/> of each severity, so that the console can keep
+    /// up. A separate line reports the number of omitted lines. Empty without the native library. Used from one thread at a time.
     /// </summary>
     internal sealed unsafe class HostLog
     {

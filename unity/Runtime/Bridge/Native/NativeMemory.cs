@@ -16,7 +16,7 @@ namespace Collektive.Bridge
 
         public sealed override ReadOnlyMemory<byte> ReadOnlyMemory => throw new NotSupportedException("native memory has no Memory<byte>");
 
-        /// <summary>Shows the bytes from <paramref name="first"/> on; null and 0 for none.</summary>
+        /// <summary>Refers to <paramref name="length"/> bytes from <paramref name="first"/> on; null and 0 for none.</summary>
         protected void Show(byte* first, int length)
         {
             address = first;

@@ -12,7 +12,7 @@ namespace Collektive.Bridge
         /// <summary>Major version of the header that this file was written from.</summary>
         internal const uint Major = 0;
 
-        /// <summary>The code of a step that has not ended.</summary>
+        /// <summary>The return code of a step that has not ended.</summary>
         internal const int Pending = 1;
 
         internal delegate int Copy(IntPtr buffer, int capacity);
@@ -87,7 +87,7 @@ namespace Collektive.Bridge
             if (code < 0) throw new BridgeException((BridgeError)code, LastError(code));
         }
 
-        /// <summary>The whole text of a function that copies UTF-8 to a buffer and returns the length that it needs. It allocates.</summary>
+        /// <summary>Returns the full text of a function that copies UTF-8 to a buffer and returns the required length. Allocates.</summary>
         internal static string Text(Copy copy)
         {
             var length = copy(IntPtr.Zero, 0);

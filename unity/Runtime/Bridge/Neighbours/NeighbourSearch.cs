@@ -107,7 +107,7 @@ namespace Collektive.Bridge
             fixed (RuleSearch* first = searches) return Check(Shim.clk_neighbours_update(Native, first, searches.Length, threads, maxLinks));
         }
 
-        /// <summary>Replaces the links of a rule. Of several neighbours with the same id the first counts.</summary>
+        /// <summary>Replaces the links of a rule. If several neighbours have the same id, the first counts.</summary>
         internal void Take(int rule, int centre, Span<RuleNeighbour> list, float tolerance, bool bothWays)
         {
             fixed (RuleNeighbour* first = list) Check(Shim.clk_neighbours_take(Native, rule, centre, first, list.Length, tolerance, bothWays ? 1 : 0));
@@ -134,7 +134,7 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Sets whether a node was sent to the JVM. Links of other nodes wait.</summary>
+        /// <summary>Sets whether a node was sent to the JVM. Links of a node are sent only after the node.</summary>
         internal void Know(int id, bool known)
         {
             if (known || native != IntPtr.Zero) Check(Shim.clk_neighbours_know(Native, id, known ? 1 : 0));
@@ -168,7 +168,7 @@ namespace Collektive.Bridge
         {
             if (code >= 0) return code;
             throw code == MemoryCode ? OutOfMemory()
-                : new BridgeException(BridgeError.Argument, "the neighbour search refuses an argument, with code " + code + ": report an issue");
+                : new BridgeException(BridgeError.Argument, "the neighbour search rejected an argument (code " + code + "): report an issue");
         }
 
         private static BridgeException OutOfMemory() =>

@@ -1,8 +1,8 @@
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The counter-based generator Philox4x32-10 (Salmon, Moraes, Dror, Shaw: Parallel random numbers, as easy as 1, 2, 3; SC 2011).
-    /// The JVM side has the same; both are tested with the authors' vectors.
+    /// The counter-based generator Philox4x32-10 (Salmon, Moraes, Dror, Shaw: Parallel random numbers, as easy as 1, 2, 3; SC 2011). The JVM has the same
+    /// generator; both are tested with the authors' test vectors.
     /// </summary>
     internal static class Philox
     {

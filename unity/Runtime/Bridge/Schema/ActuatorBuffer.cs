@@ -20,7 +20,7 @@ namespace Collektive.Bridge
         /// <exception cref="BridgeException">The table does not fit the frame: <see cref="BridgeError.Frame"/>.</exception>
         internal abstract void Attach(ByteBuffer frame, int position);
 
-        /// <summary>Elements in the attached table.</summary>
+        /// <summary>Number of elements in the attached table.</summary>
         internal abstract int Count { get; }
 
         /// <summary>The element at an index below <see cref="Count"/>, boxed, for tools without the schema's types.</summary>
@@ -35,8 +35,8 @@ namespace Collektive.Bridge
         internal abstract void CopyPrevious(int index, ref AnswerCopy kept);
 
         /// <summary>
-        /// To be called before the attached frame's memory is written again, as a session does. Until the next <see cref="Attach"/>, which makes them the
-        /// previous ones, its elements can still be read, but the previous ones cannot.
+        /// Called by a session before the attached frame's memory is overwritten. Until the next <see cref="Attach"/>, the attached elements can still be read,
+        /// but the previous ones cannot. <see cref="Attach"/> then makes them the previous ones.
         /// </summary>
         internal abstract void Retain();
     }

@@ -3,7 +3,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Copies mirrors and scalars into a frame as they are in memory: both have the layout of the schema.</summary>
+    /// <summary>Copies mirrors and scalars into a frame as blocks of memory, because both have the layout of the schema.</summary>
     internal static class Blit
     {
         internal static unsafe int Vector<T>(FlatBufferBuilder builder, T[] items, int count, int alignment) where T : unmanaged

@@ -16,7 +16,7 @@ namespace Collektive.Bridge
         /// <summary>Name of the schema's file without <c>.fbs</c>, after which the jar of its programs is named.</summary>
         public abstract string File { get; }
 
-        /// <summary>Version of the package whose generator made the class; empty for code of earlier versions.</summary>
+        /// <summary>Version of the package that generated the class; empty for code of earlier versions.</summary>
         public virtual string GeneratorVersion => "";
 
         /// <summary>

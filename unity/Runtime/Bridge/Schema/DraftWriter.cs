@@ -6,9 +6,9 @@ using Collektive.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Writes drafts and their children: strings, vectors, tables. Everything is written to the writer's own memory first and copied to the frame as one
-    /// block: a call of the builder for each part would cost more than the part. Places are bytes from the end of the frame to the start of what was
-    /// written, as the builder's are. Memory is reused every tick. Used by generated code.
+    /// Writes drafts and their children: strings, vectors, tables. Everything is written to the writer's own memory first and copied to the frame as one block:
+    /// calling the builder for each part would cost more than writing the part. Places are bytes from the end of the frame to the start of the data, like the
+    /// builder's offsets. Memory is reused every tick. Used by generated code.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class DraftWriter
@@ -20,7 +20,7 @@ namespace Collektive.Bridge
         // Filled from its end, like the frame.
         private byte[] memory = new byte[1024];
         private int free;
-        // Where the frame ended when this block was begun.
+        // Where the frame ended when this block began.
         private int origin;
         private int[] offsets = new int[16];
         private int depth;
@@ -123,7 +123,7 @@ namespace Collektive.Bridge
             return Place;
         }
 
-        /// <summary>Writes the first <paramref name="count"/> drafts, whose children are written, as a vector of tables.</summary>
+        /// <summary>Writes the first <paramref name="count"/> drafts as a vector of tables. Their children are already written.</summary>
         internal unsafe int Rows<TDraft, TRow>(TDraft[] drafts, int[] vtables, int count) where TDraft : Draft<TRow> where TRow : unmanaged
         {
             var at = Reserve(drafts[0].Layout.Alignment, count * sizeof(TRow));
@@ -140,7 +140,7 @@ namespace Collektive.Bridge
                 }
             }
             at = Reserve(sizeof(int), count * sizeof(int));
-            // The tables stand in the order of the vector, each as far from the one before.
+            // The tables are in the order of the vector, at equal distances.
             var offset = Place - first;
             fixed (byte* all = memory)
             {
@@ -154,7 +154,7 @@ namespace Collektive.Bridge
             return Length(count);
         }
 
-        /// <summary>The place of the vtable of rows without the slots in <paramref name="absent"/>; written at its first use.</summary>
+        /// <summary>The place of the vtable of rows without the slots in <paramref name="absent"/>; written on first use.</summary>
         internal int VTable(RowLayout layout, ulong absent)
         {
             for (var i = vtableCount - 1; i >= 0; i--)

@@ -3,7 +3,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Sensor data that is a struct in the schema: all elements go into the frame by one block copy.</summary>
+    /// <summary>Sensor data that is a struct in the schema. All elements are copied into the frame as one block.</summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class StructSensorBuffer<T> : SensorBuffer<T> where T : unmanaged, IMirror
     {

@@ -62,7 +62,7 @@ namespace Collektive.Bridge
             }
             frame.ToSpan(start, length).CopyTo(copied);
             previousFirst = first - start;
-            // Until the next frame, which may take long while a debugger stops the JVM.
+            // Valid until the next frame, which may be long while a debugger stops the JVM.
             frame = previous;
             first = previousFirst;
         }

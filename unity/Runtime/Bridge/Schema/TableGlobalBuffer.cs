@@ -9,7 +9,7 @@ namespace Collektive.Bridge
     {
         private readonly DraftWriter writer = new DraftWriter();
 
-        /// <summary>Makes a buffer with the defaults of the schema.</summary>
+        /// <summary>Creates a buffer with the defaults of the schema.</summary>
         public TableGlobalBuffer()
         {
             Data = new T();

@@ -81,7 +81,7 @@ namespace Collektive.Bridge
             return copy;
         }
 
-        /// <summary>With the zero behind it.</summary>
+        /// <summary>Copies a string with its terminating zero.</summary>
         private static int CopyText(ByteBuffer from, int place, TableCopy to) => to.Add(from, place, checked(sizeof(int) + from.GetInt(place) + 1));
 
         private static int CopyVector(ByteBuffer from, int place, int elementBytes, TableCopy to) =>

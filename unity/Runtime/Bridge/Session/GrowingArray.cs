@@ -16,7 +16,7 @@ namespace Collektive.Bridge
         /// <summary>Appends an element.</summary>
         public void Add(T item) => Add() = item;
 
-        /// <summary>Appends an element with its previous content; valid until the next one is appended.</summary>
+        /// <summary>Appends an element with its previous content. The reference is valid until the next element is appended.</summary>
         public ref T Add()
         {
             if (Count == items.Length) Array.Resize(ref items, Count * 2);

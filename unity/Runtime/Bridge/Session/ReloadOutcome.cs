@@ -13,10 +13,10 @@ namespace Collektive.Bridge
         /// <summary>Why the nodes keep their previous programs; empty when they have the new ones.</summary>
         public string Error { get; }
 
-        /// <summary>Values that nodes had stored, one for each node and path.</summary>
+        /// <summary>Number of values that nodes had stored, one for each node and path.</summary>
         public int Stored { get; }
 
-        /// <summary>How many of these the new programs can read.</summary>
+        /// <summary>Number of these values that the new programs can read.</summary>
         public int Kept { get; }
     }
 }

@@ -132,7 +132,7 @@ namespace Collektive.Bridge
             if (isPending) return false;
             Shim.Check(code);
             Tick++;
-            // Without the rounding errors of the sum.
+            // Removes the rounding errors of the sum.
             Time = Math.Round(Time + pendingDelta, TimeDecimals);
             Request.Clear();
             Point(answer);

@@ -16,7 +16,7 @@ namespace Collektive.Bridge
         /// <summary>Threads of the JVM that run rounds, 1..256. The results do not depend on it.</summary>
         public int Threads { get; set; } = 1;
 
-        /// <summary>Which messages a round sees.</summary>
+        /// <summary>Order of rounds, and the messages that a round receives.</summary>
         public Schedule Schedule { get; set; }
 
         /// <summary>Loss and delay of messages.</summary>

@@ -62,7 +62,7 @@ namespace Collektive.Bridge
         /// <summary>The programs after the replacement.</summary>
         internal Frame.ReloadResponse ReloadedPrograms => response.Reload.GetValueOrDefault();
 
-        /// <summary>Number of values of a node's message to its neighbours, and of their bytes; zeros unless requested.</summary>
+        /// <summary>Number of values in a node's message to its neighbours, and their size in bytes; zeros unless requested.</summary>
         public (int Values, int Bytes) Message(int index)
         {
             var message = response.Messages(index).GetValueOrDefault();

@@ -81,11 +81,11 @@ namespace Collektive.Bridge
             LinksRemoved.Add(link);
         }
 
-        /// <summary>Replaces the programs of all nodes by those of <paramref name="jars"/>, paths, before the next step.</summary>
+        /// <summary>Replaces the programs of all nodes by those in the jars at the paths <paramref name="jars"/>, before the next step.</summary>
         public void Reload(IReadOnlyList<string> jars)
         {
             reloadedJars = jars;
-            // The new programs read it with new classes.
+            // The new programs read the global data with new classes.
             GlobalsChanged |= hasSentGlobals;
         }
 
@@ -95,7 +95,7 @@ namespace Collektive.Bridge
             due.Add(id);
         }
 
-        /// <summary>Forgets the due nodes; changes stay.</summary>
+        /// <summary>Clears the due nodes, but keeps the changes.</summary>
         public void ClearDue()
         {
             due.Clear();

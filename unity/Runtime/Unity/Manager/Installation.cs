@@ -12,7 +12,7 @@ namespace Collektive.Unity
     {
         private const string Package = "Packages/org.collektive.unity";
 
-        /// <summary>Returns the real path of a file relative to the project's folder. The editor replaces it, because packages are elsewhere.</summary>
+        /// <summary>Returns the real path of a file relative to the project's folder. The editor replaces it, because packages are stored elsewhere.</summary>
         internal static Func<string, string> ToPhysical { get; set; } = InPlayer;
 
         /// <summary>Returns the path of the asset with a GUID, from the project's folder. Set by the editor; null in a player.</summary>
@@ -21,24 +21,24 @@ namespace Collektive.Unity
         private static string hostJar;
         private static string javaHome;
 
-        /// <summary>Path of the host's jar: the set one, or the package's.</summary>
+        /// <summary>Path of the host's jar: the one that was set, or the package's.</summary>
         internal static string HostJar
         {
             get => hostJar ?? PathOf(OwnFile("collektive-host.jar"));
             set => hostJar = value;
         }
 
-        /// <summary>Path of the jar with the DSL and the standard library, which programs are compiled with.</summary>
+        /// <summary>Path of the jar with the DSL and the standard library, for compiling programs.</summary>
         internal static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
-        /// <summary>Root of the JVM for the location Automatic: the set one, the JVM package, or <c>JAVA_HOME</c>; otherwise empty.</summary>
+        /// <summary>Root of the JVM for the location Automatic: the one that was set, the JVM package, or <c>JAVA_HOME</c>; otherwise empty.</summary>
         internal static string JavaHome
         {
             get => javaHome ?? (Directory.Exists(Bundled) ? Bundled : FromEnvironment);
             set => javaHome = value;
         }
 
-        /// <summary>The package's name of the platform that this process runs on, such as <c>linux-x64</c> or <c>mac-arm64</c>.</summary>
+        /// <summary>The package's name for the platform that this process runs on, such as <c>linux-x64</c> or <c>mac-arm64</c>.</summary>
         internal static string Platform { get; } = NameOfPlatform();
 
         /// <summary>Root of the JVM in the package, or in the JVM package of this platform. It may not exist.</summary>
@@ -70,8 +70,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// The full path of a file named from the project's folder. Names below <c>Packages/org.collektive.unity</c> are the package's own
-        /// files, wherever it is installed: a tarball holds its content below <c>unity</c>, a git URL with <c>?path=/unity</c> does not.
+        /// The full path of a file named from the project's folder. Names below <c>Packages/org.collektive.unity</c> are the package's own files, wherever it
+        /// is installed: a tarball has its content below <c>unity</c>, a git URL with <c>?path=/unity</c> does not.
         /// </summary>
         internal static string PathOf(string file)
         {

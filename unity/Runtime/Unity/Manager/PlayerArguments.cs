@@ -8,8 +8,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Settings from the command line of a player, for batch runs: <c>-collektive-seed 7 -collektive-jvm.placement OwnProcess</c>. Each setting that is
-    /// a number, a text or a choice can be given, under its name in scenario files. The editor has the inspector instead.
+    /// Settings from the command line of a player, for batch runs: <c>-collektive-seed 7 -collektive-jvm.placement OwnProcess</c>. Each number, text or choice
+    /// can be set by its name in scenario files. In the editor, use the inspector.
     /// </summary>
     internal static class PlayerArguments
     {

@@ -56,7 +56,7 @@ namespace Collektive.Unity
         /// <summary>Path of the file from the project's folder. In a player, its name among the files that the build added.</summary>
         internal string File => Installation.ToAssetPath == null ? NameInPlayer : Installation.ToAssetPath(guid);
 
-        /// <summary>The name by which a player finds the file. It contains the GUID, because two folders may have files of one name.</summary>
+        /// <summary>The name by which a player finds the file. It contains the GUID, because two folders may contain files with the same name.</summary>
         internal string NameInPlayer => "Programs/" + guid + "/" + name + "." + Extension;
 
         /// <summary>Returns the program of that name, or null.</summary>

@@ -71,7 +71,7 @@ namespace Collektive.Unity
             }
             catch (Exception error)
             {
-                // The results of half a scene would be wrong.
+                // A partly built scene would give wrong results.
                 Debug.LogException(error, this);
                 SimulationManager.Current.Fail("the scene " + GetType().Name + " could not be built: " + error.Message, this);
             }

@@ -30,7 +30,7 @@ namespace Collektive.Unity
         /// <summary>Returns the types of schemas. The editor replaces it, because it knows them without a search.</summary>
         internal static Func<IEnumerable<Type>> FindTypes { get; set; } = ExportedTypes;
 
-        /// <summary>All schemas, in no order.</summary>
+        /// <summary>All schemas, in no particular order.</summary>
         internal static List<DataSchema> FindAll()
         {
             var found = new List<DataSchema>();

@@ -6,12 +6,12 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Runs the simulation of a scene: decides that a tick is due, has the nodes sense, makes the one call into the JVM, has the nodes
-    /// act, and advances physics. While paused, it runs no ticks. Call all members from the main thread.
+    /// Runs the simulation of a scene: decides when a tick is due, runs the sensors, makes one call into the JVM, runs the actuators, and advances physics.
+    /// While paused, it runs no ticks. Call all members from the main thread.
     ///
-    /// There is one for all loaded scenes; a second one, in an additive scene for instance, disables itself with an error. Nodes of all loaded
-    /// scenes take part: nodes of a scene that is loaded later join, those of an unloaded scene leave. With the manager's own scene the
-    /// simulation ends; nodes that outlive it wait for the next manager and start afresh with it.
+    /// One manager serves all loaded scenes; a second one, for instance in an additive scene, disables itself with an error. Nodes of all loaded scenes take
+    /// part: nodes of a scene that is loaded later join, those of an unloaded scene leave. The simulation ends with the manager's own scene; remaining nodes
+    /// wait for the next manager and start afresh.
     /// </summary>
     [AddComponentMenu("Collektive/Simulation Manager")]
     [DisallowMultipleComponent]
@@ -50,8 +50,8 @@ namespace Collektive.Unity
         public bool Finished { get; private set; }
 
         /// <summary>
-        /// Called after each tick, when physics have advanced. An exception in a handler counts as an error, and the simulation goes on. A handler
-        /// that fails 10 times in a row is removed. Add handlers in <c>OnEnable</c>: they are lost when scripts are compiled during play.
+        /// Called after each tick, after physics has advanced. An exception in a handler counts as an error, and the simulation goes on. A handler that fails
+        /// 10 times in a row is removed. Add handlers in <c>OnEnable</c>: they are lost when scripts are compiled during play.
         /// </summary>
         public event Action<SimulationManager> Ticked
         {
@@ -94,8 +94,8 @@ namespace Collektive.Unity
         public double SimulatedTime => Simulation.Time;
 
         /// <summary>
-        /// For drawing between ticks: the part of the delta time that has passed since the last tick, 0 to 1. While paused, it is 1, so that what is drawn
-        /// is the state after the last tick.
+        /// For drawing between ticks: the part of the delta time that has passed since the last tick, 0 to 1. While paused, it is 1, so that the state after
+        /// the last tick is drawn.
         /// </summary>
         public float TickFraction => paused ? 1 : (float)Math.Min(accumulated / settings.deltaTime, 1);
 
@@ -124,9 +124,9 @@ namespace Collektive.Unity
         internal Simulation Simulation => simulation ?? (simulation = new Simulation(settings, globals, this));
 
         /// <summary>
-        /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> receives messages from <paramref name="a"/>, and vice versa unless
-        /// <paramref name="directed"/>. The length is the distance now. May be called from any script's message method, <c>OnTriggerEnter</c>
-        /// for instance; it takes effect at the next tick. If a node is not in the simulation, the call only logs one warning.
+        /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> receives messages from <paramref name="a"/>, and vice versa unless <paramref
+        /// name="directed"/>. The length is the distance now. May be called from any script's message method, for instance <c>OnTriggerEnter</c>; it takes
+        /// effect at the next tick. If a node is not in the simulation, the call only logs one warning.
         /// </summary>
         public void AddLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Add(a, b, directed);
 
@@ -192,9 +192,9 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Loads the programs again before the next tick, for example after their jars were rebuilt. A node keeps state and messages at each path
-        /// that its old and new program share, unless a value's class is in the jars and cannot be copied by Java serialization. If its first
-        /// round fails, it starts afresh. The log has the outcome; without valid programs the previous ones continue.
+        /// Loads the programs again before the next tick, for example after their jars were rebuilt. A node keeps state and messages at each path that its old
+        /// and new program share, unless a value's class is in the jars and cannot be copied by Java serialization. If its first round fails, it starts afresh.
+        /// The outcome is logged. If the new programs are invalid, the previous ones continue.
         /// </summary>
         public void ReloadPrograms() => Simulation.ReloadPrograms();
 

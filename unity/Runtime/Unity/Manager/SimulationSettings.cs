@@ -81,8 +81,8 @@ namespace Collektive.Unity
             "and until a message expires (0: with the next one). All 0: ideal network.")]
         public NetworkModel network = new NetworkModel();
 
-        /// <summary>Threads of the JVM that run rounds. Searches for neighbours in large scenes use as many.</summary>
-        [Tooltip("JVM threads for rounds. Searches for neighbours use as many. Results do not depend on it.")]
+        /// <summary>Number of JVM threads that run rounds. Neighbour searches in large scenes use the same number of threads.</summary>
+        [Tooltip("Number of JVM threads for rounds, and of threads for neighbour searches. Results do not depend on it.")]
         [Range(1, 256)]
         public int threads = 1;
 
@@ -92,8 +92,8 @@ namespace Collektive.Unity
         public int stepLimitMs = 10000;
 
         /// <summary>
-        /// File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder, in a player at the
-        /// folder that it is started in.
+        /// File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder or, in a player, at its
+        /// working directory.
         /// </summary>
         [Tooltip("File for a record of all frames, for ./collektive replay and diff. Overwritten at each start. " +
             "Empty: no record. Relative to the project's folder, or to the player's working directory.")]
@@ -197,7 +197,7 @@ namespace Collektive.Unity
             return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
         }
 
-        /// <summary>Returns the error of a node's program, or null. By its name alone the session could run the program of another library.</summary>
+        /// <summary>Returns the error of a node's program, or null. By name alone, the session could run a program of another library.</summary>
         internal string FindProblem(Node node)
         {
             var library = jars.Count > 0 || node.OwnProgram == null ? null : node.OwnProgram.Library;

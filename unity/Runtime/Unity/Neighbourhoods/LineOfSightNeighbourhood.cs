@@ -4,9 +4,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Neighbours are the nodes within a radius; each collider on the straight line between the two centres adds to the link's attenuation, or
-    /// prevents the link. The two nodes' own colliders and triggers do not count; bodies of other nodes do, unless their layer is
-    /// excluded. It costs one ray for each pair of nodes and tick.
+    /// Neighbours are the nodes within a radius; each collider on the straight line between the two centres adds to the link's attenuation, or prevents the
+    /// link. The two nodes' own colliders and triggers do not count; bodies of other nodes do, unless their layer is excluded. It casts one ray per pair of
+    /// nodes and tick.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Line Of Sight Neighbourhood")]
     public sealed class LineOfSightNeighbourhood : NeighbourhoodRule

@@ -6,7 +6,7 @@ namespace Collektive.Unity
     [StructLayout(LayoutKind.Sequential)]
     public struct NearNode
     {
-        // As in NearPoint.
+        // Same layout as NearPoint.
         internal int Place;
         internal int IdOfNode;
         internal float Metres;

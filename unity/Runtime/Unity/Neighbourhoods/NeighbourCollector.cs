@@ -14,7 +14,7 @@ namespace Collektive.Unity
     {
         private readonly NodeGrid grid;
         private readonly GrowingArray<RuleNeighbour> all = new GrowingArray<RuleNeighbour>();
-        // Whose neighbours are collected; null outside of a rule's call.
+        // The node whose neighbours are collected; null outside a rule's call.
         private Node node;
         private int self;
 
@@ -82,8 +82,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Returns the nearest nodes, including the node itself, at most <paramref name="count"/>: the nearest first, at equal distances by id. Valid until
-        /// the next search. It is fastest when <paramref name="guess"/> metres hold a few more than these; 0 for no guess.
+        /// Returns the nearest nodes, including the node itself, at most <paramref name="count"/>: the nearest first, at equal distances by id. Valid until the
+        /// next search. It is fastest if a radius of <paramref name="guess"/> metres contains a few more nodes than that; 0 for no guess.
         /// </summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindNearest(int count, float guess = 0)

@@ -74,7 +74,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Adds the search of a rule that <see cref="IsSearch"/>. The node has that place in the grid.</summary>
+        /// <summary>Adds the search of a rule that <see cref="IsSearch"/>. The node is at index <paramref name="place"/> of the grid.</summary>
         internal void AddSearch(TickContext tick, int place)
         {
             ref var search = ref tick.Neighbours.Searches.Add();

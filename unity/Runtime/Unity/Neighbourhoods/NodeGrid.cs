@@ -16,7 +16,7 @@ namespace Collektive.Unity
         internal NodeGrid(NeighbourSearch search) => this.search = search;
 
         /// <summary>
-        /// Takes the positions of the first <paramref name="count"/> nodes, ascending by id; the array is kept. <paramref name="cell"/> is the side of the
+        /// Reads the positions of the first <paramref name="count"/> nodes, ascending by id; the array is kept. <paramref name="cell"/> is the side of the
         /// cells in metres, or 0 for the mean radius of the last searches.
         /// </summary>
         /// <exception cref="BridgeException">A position is not finite.</exception>
@@ -24,7 +24,7 @@ namespace Collektive.Unity
         {
             nodes = all;
             if (points.Length < count) points = new NodePoint[Math.Max(count, 2 * points.Length)];
-            // Each node is far away in memory. A processor looks further ahead in a short loop.
+            // Nodes are scattered in memory. In a short loop, the processor fetches more of them ahead.
             for (var i = 0; i < count; i++)
             {
                 var node = all[i];
@@ -44,13 +44,13 @@ namespace Collektive.Unity
             MemoryMarshal.Cast<NearPoint, NearNode>(search.Within(centre.x, centre.y, centre.z, radius));
 
         /// <summary>
-        /// The nodes nearest to a point, at most <paramref name="limit"/>, by distance and at equal distances by id; valid until the next search. It is
-        /// fastest when <paramref name="guess"/> metres hold a few more than these; 0 for no guess.
+        /// The nodes nearest to a point, at most <paramref name="limit"/>, by distance and at equal distances by id; valid until the next search. It is fastest
+        /// if a radius of <paramref name="guess"/> metres contains a few more nodes than that; 0 for no guess.
         /// </summary>
         internal Span<NearNode> FindNearest(Vector3 centre, int limit, float guess) =>
             MemoryMarshal.Cast<NearPoint, NearNode>(search.Nearest(centre.x, centre.y, centre.z, limit, guess));
 
-        /// <summary>Copies hits to lists, emptied first.</summary>
+        /// <summary>Clears the lists and copies hits to them.</summary>
         internal void Copy(Span<NearNode> found, List<Node> to, List<float> distances)
         {
             to.Clear();

@@ -19,7 +19,7 @@ namespace Collektive.Unity
         private readonly RayBatch rays = new RayBatch(16);
         private readonly Pair[] requested = new Pair[MaxRays];
 
-        // By the number of the line.
+        // Indexed by the number of the line.
         private readonly GrowingArray<int> obstacles = new GrowingArray<int>();
 
         // A hash table with open addressing; lines of earlier ticks count as free places.
@@ -84,7 +84,7 @@ namespace Collektive.Unity
             Cast();
         }
 
-        /// <summary>Adds the line between two nodes to the batch, unless it is there; in <see cref="NodePart.Enqueue"/>.</summary>
+        /// <summary>Adds the line between two nodes to the batch, unless it is already there; call it in <see cref="NodePart.Enqueue"/>.</summary>
         /// <returns>The line's number in this tick.</returns>
         internal int Ask(Node a, Node b, int layers, float distance)
         {
@@ -141,7 +141,7 @@ namespace Collektive.Unity
         private int CastWithoutBatch(in Pair pair)
         {
             int hitCount;
-            // A full array may have left some out.
+            // If the array is full, some hits may be missing.
             while ((hitCount = Physics.RaycastNonAlloc(
                 pair.From.Position, pair.Vector, hits, pair.Distance, pair.Layers, QueryTriggerInteraction.Ignore)) == hits.Length)
             {

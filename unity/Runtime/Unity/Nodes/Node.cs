@@ -225,7 +225,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called before the tick after <paramref name="lastTick"/>: an answer of the tick before it leaves the bridge's memory with the next step.
+        /// Called before the tick after <paramref name="lastTick"/>: an answer of the tick before that is overwritten by the next step.
         /// </summary>
         internal void KeepAnswer(ulong lastTick)
         {

@@ -12,7 +12,7 @@ namespace Collektive.Unity
         private long round;
         private double next;
 
-        /// <param name="timing">Without problems; read now.</param>
+        /// <param name="timing">Must be valid; read only in the constructor.</param>
         /// <param name="random">The node's stream for its schedule.</param>
         /// <param name="start">Simulated seconds at which the node joins.</param>
         internal RoundTimer(RoundTiming timing, RandomStream random, double start)
@@ -24,7 +24,7 @@ namespace Collektive.Unity
             next = Next();
         }
 
-        /// <summary>Whether a round came due since the last call that returned true; times must not decrease.</summary>
+        /// <summary>Returns whether a round has become due since the last call that returned true. Times must not decrease.</summary>
         internal bool TakeDue(double now)
         {
             if (next > now) return false;

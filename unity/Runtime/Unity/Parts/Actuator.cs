@@ -36,8 +36,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called once after each round of the node that gave an answer, on the main thread, before physics advance. Data of a table
-        /// is a view of the bridge's memory: valid during the call only.
+        /// Called once after each round of the node that gave an answer, on the main thread, before physics advances. Data of a table is a view of the bridge's
+        /// memory: valid during the call only.
         /// </summary>
         protected abstract void Act(TData data);
     }

@@ -13,9 +13,8 @@ namespace Collektive.Unity
             collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy;
 
         /// <summary>
-        /// Returns the point of a collider that is closest to a point. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error
-        /// for each
-        /// call with another collider. For these, it is the closest point of their bounds.
+        /// Returns the point of a collider that is closest to a point. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error for
+        /// each call with another collider. For these, it is the closest point of their bounds.
         /// </summary>
         internal static Vector3 PointClosestTo(this Collider collider, Vector3 point)
         {
@@ -34,8 +33,8 @@ namespace Collektive.Unity
         private static void ResetStatics() => hasReportedBounds = false;
 
         /// <summary>
-        /// Whether a vector comes before another: the shorter one first, equally long ones by x, z, y. Unity returns hits in no defined
-        /// order; sums of floats repeat only in a defined one.
+        /// Whether a vector comes before another: the shorter one first, equally long ones by x, z, y. Unity returns hits in an undefined order, but sums of
+        /// floats are only reproducible in a fixed order.
         /// </summary>
         internal static bool IsBefore(Vector3 a, Vector3 b)
         {

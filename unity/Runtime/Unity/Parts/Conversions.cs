@@ -18,19 +18,19 @@ namespace Collektive.Unity
         /// <summary>Converts to Unity's type.</summary>
         public static UnityEngine.Color ToUnity(this ColorValue value) => new UnityEngine.Color(value.R, value.G, value.B, value.A);
 
-        /// <summary>As Unity's type: a field or element of an answer that is a table; zero if the program left it out.</summary>
+        /// <summary>Converts a field or element of an answer that is a table to Unity's type; zero if the program omitted it.</summary>
         public static UnityEngine.Vector3 ToUnity(this Vector3? value) =>
             value is Vector3 given ? new UnityEngine.Vector3(given.X, given.Y, given.Z) : UnityEngine.Vector3.zero;
 
-        /// <summary>As Unity's type: a field or element of an answer that is a table; zero if the program left it out.</summary>
+        /// <summary>Converts a field or element of an answer that is a table to Unity's type; zero if the program omitted it.</summary>
         public static UnityEngine.Vector2 ToUnity(this Vector2? value) =>
             value is Vector2 given ? new UnityEngine.Vector2(given.X, given.Y) : UnityEngine.Vector2.zero;
 
-        /// <summary>As Unity's type: a field or element of an answer that is a table; no rotation if the program left it out.</summary>
+        /// <summary>Converts a field or element of an answer that is a table to Unity's type; no rotation if the program omitted it.</summary>
         public static UnityEngine.Quaternion ToUnity(this Quaternion? value) =>
             value is Quaternion given ? new UnityEngine.Quaternion(given.X, given.Y, given.Z, given.W) : UnityEngine.Quaternion.identity;
 
-        /// <summary>As Unity's type: a field or element of an answer that is a table; clear if the program left it out.</summary>
+        /// <summary>Converts a field or element of an answer that is a table to Unity's type; clear if the program omitted it.</summary>
         public static UnityEngine.Color ToUnity(this Color? value) =>
             value is Color given ? new UnityEngine.Color(given.R, given.G, given.B, given.A) : UnityEngine.Color.clear;
     }

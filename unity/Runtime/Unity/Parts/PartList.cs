@@ -20,11 +20,11 @@ namespace Collektive.Unity
         {
             if (parts == null || Count == parts.Length) Array.Resize(ref parts, Math.Max(2, 2 * Count));
             parts[Count++] = part;
-            // Not now: the list may be running.
+            // Sorted later, because the list may be running.
             isUnsorted = Count > 1;
         }
 
-        /// <summary>Those behind it move up. A missing part is ignored.</summary>
+        /// <summary>Removes a part; later parts move up. A missing part is ignored.</summary>
         internal void Remove(NodePart part)
         {
             var place = Count - 1;

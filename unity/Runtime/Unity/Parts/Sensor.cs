@@ -28,8 +28,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called once before each round of the node, on the main thread, after physics were synchronised. The data contains the
-        /// schema's defaults and what earlier sensors of the node wrote. After an exception, the node misses the round.
+        /// Called once before each round of the node, on the main thread, after physics was synchronised. The data contains the schema's defaults and what
+        /// earlier sensors of the node wrote. After an exception, the node misses the round.
         /// </summary>
         protected abstract void Sense(ref TData data);
     }

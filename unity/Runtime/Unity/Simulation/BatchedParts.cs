@@ -27,13 +27,12 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Begins a batch with the queries of all parts, or of those whose nodes are due in this tick. Drops parts that take no part in the simulation any
-        /// more.
+        /// Begins a batch with the queries of all parts, or of those whose nodes are due in this tick. Drops parts that have left the simulation.
         /// </summary>
         internal void Begin(bool isForDueNodes)
         {
             Batch++;
-            // One pass: each part and node is far away in memory.
+            // One pass, because parts and nodes are scattered in memory.
             for (var i = parts.Count - 1; i >= 0; i--)
             {
                 var part = parts[i];

@@ -6,8 +6,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Logs and counts the errors of a simulation, by where they come from; it keeps the last message of each place. Places are programs and components of
-    /// nodes that take part. Those of nodes that have left are added up, so that a scene whose nodes come and go does not fill the memory.
+    /// Logs and counts the errors of a simulation by their places, and keeps the last message of each. A place is a program or a component of a participating
+    /// node. Counts of nodes that have left are added up, so that a scene whose nodes come and go does not fill the memory.
     /// </summary>
     internal sealed class ErrorCounts
     {

@@ -105,7 +105,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Warns of a scene without positions, where all nodes are neighbours at any radius.</summary>
+        /// <summary>Warns about a scene whose nodes all have the same position: they are neighbours at any radius.</summary>
         private void WarnIfAtOnePosition()
         {
             if (nodes.Count < 2) return;

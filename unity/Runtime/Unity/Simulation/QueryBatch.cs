@@ -7,7 +7,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Physics queries that run together: Unity divides them among its worker threads, and the calling thread can do something else before it waits for the
-    /// results, as long as that leaves physics alone. Allocates nothing once its capacity is reached.
+    /// results, as long as it does not use physics. Allocates nothing once its capacity is reached.
     /// </summary>
     internal abstract class QueryBatch<TCommand, THit> : IDisposable
         where TCommand : struct
@@ -23,7 +23,7 @@ namespace Collektive.Unity
         private int nextMaxHits;
         private JobHandle running;
 
-        /// <param name="maxHits">The most hits of a query that are kept, 1 or more; with 1, the nearest.</param>
+        /// <param name="maxHits">Maximum number of hits kept per query, 1 or more; with 1, the nearest.</param>
         protected QueryBatch(int maxHits) => MaxHits = nextMaxHits = maxHits;
 
         internal int MaxHits { get; private set; }

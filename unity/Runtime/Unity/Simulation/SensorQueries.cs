@@ -5,7 +5,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// The physics queries of the ready sensors: one batch of rays and one of spheres, which run while the rules are called, and single queries where a
+    /// The physics queries of the ready-made sensors: one batch of rays and one of spheres, which run while the rules are called, and single queries where a
     /// batch is not enough. It belongs to the simulation and keeps no collider after its end.
     /// </summary>
     internal sealed class SensorQueries : IDisposable
@@ -13,7 +13,7 @@ namespace Collektive.Unity
         /// <summary>The colliders of one query at a time. If a query fills it, <see cref="Grow"/> it and query again.</summary>
         internal Collider[] Near = new Collider[32];
 
-        /// <summary>As long as <see cref="Near"/>.</summary>
+        /// <summary>The obstacles of that query; the array has the same length.</summary>
         internal Obstacle[] Obstacles = new Obstacle[32];
 
         internal SensorQueries(Simulation simulation) => Sensors = new BatchedParts(simulation);
@@ -33,7 +33,7 @@ namespace Collektive.Unity
             Sensors.Begin(isForDueNodes: true);
             Rays.Begin();
             Spheres.Begin();
-            // Unity keeps scheduled jobs back until then.
+            // Unity does not start scheduled jobs before this call.
             JobHandle.ScheduleBatchedJobs();
         }
 

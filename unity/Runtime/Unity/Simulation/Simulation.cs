@@ -322,7 +322,7 @@ namespace Collektive.Unity
             Finish();
         }
 
-        /// <summary>Ends the call. While a debugger stops the JVM, a batch run waits, and others draw frames.</summary>
+        /// <summary>Ends the call. While a debugger stops the JVM, a batch run waits, and other runs draw frames.</summary>
         private void Finish()
         {
             var isNew = !IsPending;
@@ -335,7 +335,7 @@ namespace Collektive.Unity
             if (IsPending) ReportStop(isNew);
         }
 
-        /// <summary>Not for a call that is only slow.</summary>
+        /// <summary>Reports a stop by the debugger, but not a call that is only slow.</summary>
         private void ReportStop(bool isNew)
         {
             if (isNew)

@@ -46,7 +46,7 @@ namespace Collektive.Unity
         /// <summary>Ends the simulation with an error. A click on the message selects the part.</summary>
         internal void Fail(string message, NodePart part) => simulation.Fail(message, part);
 
-        /// <summary>Warns of the first part that moves a collider without a body: physics neither stops such a collider nor lets it push others.</summary>
+        /// <summary>Warns about the first part that moves a collider without a body: physics neither stops such a collider nor lets it push others.</summary>
         internal void WarnMovedCollider(NodePart part)
         {
             if (hasWarnedMovedCollider) return;

@@ -68,7 +68,9 @@ namespace Collektive.Unity
         /// <summary>The object that a click on the message selects.</summary>
         private static UnityEngine.Object Context(Delegate handler, SimulationManager manager) => handler.Target as UnityEngine.Object ?? manager;
 
-        /// <summary>Class and method, for a lambda those around it: the compiler puts their names into angle brackets, or nests classes.</summary>
+        /// <summary>
+        /// Returns class and method, for a lambda those that contain it: the compiler puts their names into angle brackets, or nests classes.
+        /// </summary>
         private static string NameOf(Delegate handler)
         {
             var type = handler.Method.DeclaringType;

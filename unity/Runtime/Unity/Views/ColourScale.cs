@@ -7,7 +7,7 @@ namespace Collektive.Unity
     [Serializable]
     public sealed class ColourScale
     {
-        /// <summary>How many different colours there are.</summary>
+        /// <summary>Number of different colours.</summary>
         internal const int Steps = 16;
 
         /// <summary>Colour of the lowest value.</summary>
@@ -35,17 +35,17 @@ namespace Collektive.Unity
         /// <summary>The colour of a step below <see cref="Steps"/>.</summary>
         internal Color At(int step) => Color.Lerp(low, high, step / (Steps - 1f));
 
-        /// <summary>Returns the step of a value, clamped to the scale. NaN has a step, too.</summary>
+        /// <summary>Returns the step of a value, clamped to the scale. NaN also has a step.</summary>
         internal int StepOf(float value)
         {
             var place = (value - lowest) / (highest - lowest);
             return place > 0 ? (int)Math.Min(place * Steps, Steps - 1) : 0;
         }
 
-        /// <summary>Begins a tick: an automatic scale forgets its ends.</summary>
+        /// <summary>Begins a tick by resetting the ends of an automatic scale.</summary>
         internal void Begin() => empty = true;
 
-        /// <summary>Makes room for a value if the scale is automatic.</summary>
+        /// <summary>Extends an automatic scale to a value.</summary>
         internal void Include(float value)
         {
             if (!automatic || !float.IsFinite(value)) return;

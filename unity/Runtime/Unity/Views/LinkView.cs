@@ -15,7 +15,7 @@ namespace Collektive.Unity
     [HelpPage("sensors-and-actuators.md#views")]
     public sealed class LinkView : MonoBehaviour
     {
-        /// <summary>Of the two bars of a pair, as the shader makes them.</summary>
+        /// <summary>The shader draws a pair as two bars.</summary>
         private const int VerticesPerPair = 48;
 
         /// <summary>The shader draws nothing for this step.</summary>
@@ -52,9 +52,9 @@ namespace Collektive.Unity
         private Material own;
         private Vector4[] places = new Vector4[64];
         private LinkedPair[] pairs = new LinkedPair[64];
-        // By link: two for each entry of the table.
+        // The numbers of links, two for each pair.
         private float[] numbers = Array.Empty<float>();
-        // By node id: where in places the node is.
+        // Index in places, by node id.
         private readonly PagedArray<int> placeOf = new PagedArray<int>();
         private Bounds bounds;
         private int count;
@@ -62,7 +62,7 @@ namespace Collektive.Unity
         private SimulationManager drawn;
         private ulong tick;
 
-        /// <summary>A pair of nodes as the shader reads it: of each the place, and in the upper 8 bits the step of the link that begins there.</summary>
+        /// <summary>A pair of nodes as the shader reads it: the place of each, and in the upper 8 bits the colour step of the link that begins there.</summary>
         private struct LinkedPair
         {
             internal uint Low;
@@ -208,7 +208,7 @@ namespace Collektive.Unity
             return scale.StepOf(numbers[link]);
         }
 
-        /// <summary>Takes the number of each link, and makes room for it if the scale is automatic.</summary>
+        /// <summary>Reads the number of each link, and extends an automatic scale to it.</summary>
         private void ReadNumbers(Span<LinkPair> all, int capacity)
         {
             if (numbers.Length < 2 * all.Length) Array.Resize(ref numbers, 2 * capacity);

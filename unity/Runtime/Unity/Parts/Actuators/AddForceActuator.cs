@@ -4,8 +4,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Applies a force from the program's answer to the node's body. A force or an acceleration acts for the simulated time since the node's last answer, as
-    /// one
-    /// impulse at the beginning of the following physics steps; an impulse or a velocity change is applied unchanged.
+    /// one impulse at the beginning of the following physics steps; an impulse or a velocity change is applied unchanged.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]

@@ -77,7 +77,7 @@ namespace Collektive.Unity
         private int Overlap(SensorQueries queries)
         {
             int count;
-            // A full array may have left some out.
+            // If the array is full, some hits may be missing.
             while ((count = Physics.OverlapSphereNonAlloc(Node.Position, reach, queries.Near, layers, QueryTriggerInteraction.Ignore)) == queries.Near.Length)
                 queries.Grow();
             var found = 0;

@@ -70,7 +70,7 @@ namespace Collektive.Unity
             set => layers = value;
         }
 
-        /// <summary>By the hits: when scripts are compiled during play, Unity keeps the directions alone.</summary>
+        /// <summary>Compares the number of hits, because Unity keeps only the directions when scripts are compiled during play.</summary>
         private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || angleOfDirections != angle;
 
         /// <inheritdoc/>
@@ -79,7 +79,7 @@ namespace Collektive.Unity
         internal sealed override void Prepare(TickContext tick)
         {
             var queries = tick.Queries;
-            // Not batched if another sensor has changed the fan since.
+            // Not batched if another sensor has changed the fan since the batch began.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections;
             if (!isBatched) UpdateDirections();
             var centre = Node.Position;
