@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Draws a reference to a program. Unity tests only the main object of a dragged file, so the drawer itself accepts a library, and offers
-    /// its programs.
+    /// Draws a reference to a program. Unity tests only the main object of a dragged file, so the drawer itself accepts a dragged library and offers its
+    /// programs.
     /// </summary>
     [CustomPropertyDrawer(typeof(AggregateProgram))]
     internal sealed class AggregateProgramDrawer : PropertyDrawer
@@ -34,7 +34,7 @@ namespace Collektive.Unity.Editor
 
         private static bool IsNamed(SerializedProperty name) => name != null && name.stringValue.Length > 0;
 
-        /// <summary>Returns the field beside the reference with the name that takes precedence; null in scripts of users.</summary>
+        /// <summary>Returns the sibling field with the program's name, which takes precedence over the reference; null in users' scripts.</summary>
         private static SerializedProperty NameOf(SerializedProperty property)
         {
             var path = property.propertyPath;

@@ -9,7 +9,7 @@ namespace Collektive.Unity.Editor
         private const string Menu = "GameObject/Collektive/";
         private const int Priority = 10;
 
-        // By GUID: the package's folder has another name for each way of installing it.
+        // By GUID, because the name of the package's folder depends on how it was installed.
         internal const string ManagerPrefab = "de7f1c418113b5c64bd5634bfb1c00c4";
         internal const string NodePrefab = "4294b6f679fa2bac2a9edd1a9a796341";
 

@@ -39,7 +39,7 @@ namespace Collektive.Unity.Editor
             return manager.Paused ? "paused" : "running";
         }
 
-        /// <summary>Of the last tick.</summary>
+        /// <summary>Message counts of the last tick.</summary>
         private static string Messages(in NetworkCounts counts) =>
             FormattableString.Invariant($"{counts.Sent} sent, {counts.Dropped} dropped, {counts.Delayed} delayed, {counts.Expired} expired");
 

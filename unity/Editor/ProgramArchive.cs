@@ -35,7 +35,7 @@ namespace Collektive.Unity.Editor
             foreach (var entry in jar.Entries)
             {
                 if (!entry.FullName.StartsWith(Index, StringComparison.Ordinal) || entry.Name.Length == 0) continue;
-                // An incremental build can leave the index of a class that is gone.
+                // An incremental build can leave the index of a removed class.
                 if (jar.GetEntry(entry.Name.Replace('.', '/') + ".class") == null) continue;
                 ReadIndex(Lines(jar, entry.FullName));
             }
@@ -66,7 +66,7 @@ namespace Collektive.Unity.Editor
                 {
                     using (var jar = new ZipArchive(file, ZipArchiveMode.Read)) return new ProgramArchive(jar);
                 }
-                // The decoders of damaged archives throw these, too.
+                // The decoders also throw these for damaged archives.
                 catch (Exception error) when (error is ArgumentException || error is NotSupportedException || error is EndOfStreamException)
                 {
                     throw new InvalidDataException(error.Message, error);

@@ -39,7 +39,7 @@ namespace Collektive.Unity.Editor
             var prefabs = PrefabsOf(scene);
             var roots = scene.GetRootGameObjects();
             var unknown = new HashSet<string>();
-            // Prefabs are saved first, because instances in the scene get their values.
+            // Prefabs are saved first, because instances in the scene inherit their values.
             var settings = ReplaceInManagers(prefabs, new SimulationSettings());
             Array.ForEach(prefabs, AssetDatabase.SaveAssetIfDirty);
             settings = ReplaceInManagers(roots, settings);
@@ -57,7 +57,7 @@ namespace Collektive.Unity.Editor
             return Array.FindAll(Array.ConvertAll(paths, AssetDatabase.LoadAssetAtPath<GameObject>), prefab => prefab != null);
         }
 
-        /// <returns>The settings of the last manager, or the given ones without a manager.</returns>
+        /// <returns>The settings of the last manager, or <paramref name="settings"/> without a manager.</returns>
         private static SimulationSettings ReplaceInManagers(GameObject[] roots, SimulationSettings settings)
         {
             foreach (var root in roots)
@@ -141,7 +141,7 @@ namespace Collektive.Unity.Editor
             return true;
         }
 
-        /// <summary>Returns the library that replaces a jar; null without one, or if several fit.</summary>
+        /// <summary>Returns the library that replaces a jar; null if none or several fit.</summary>
         private static ProgramLibrary LibraryOf(string jar, string schema)
         {
             var name = Path.GetFileNameWithoutExtension(jar).Replace("-collektive", "");

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Draws fields marked with <see cref="InspectorReadOnlyAttribute"/>: as usual, but disabled.</summary>
+    /// <summary>Draws fields marked with <see cref="InspectorReadOnlyAttribute"/> as usual, but disabled.</summary>
     [CustomPropertyDrawer(typeof(InspectorReadOnlyAttribute))]
     internal sealed class ReadOnlyDrawer : PropertyDrawer
     {

@@ -19,7 +19,7 @@ namespace Collektive.Unity.Editor
             var (code, output) = ToolRun.Try(checkout, command, "package");
             ToolConsole.Show("collektive package", code, output);
             if (code != 0) return null;
-            // The command's last line names the archive.
+            // The last line of the command's output names the archive.
             var lines = output.TrimEnd().Split('\n');
             return lines[lines.Length - 1];
         }

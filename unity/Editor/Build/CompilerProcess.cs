@@ -22,15 +22,15 @@ namespace Collektive.Unity.Editor
         /// <summary>Oldest Java that writes an archive of loaded classes by itself.</summary>
         private const int FirstWithAutomaticArchive = 19;
 
-        /// <summary>Start times are rounded.</summary>
+        /// <summary>Tolerance for start times, which are rounded.</summary>
         private const double StartToleranceSeconds = 5;
 
         private static readonly StringBuilder Messages = new StringBuilder();
 
-        /// <summary>Reads its messages. Null after a reload of code, which the process survives.</summary>
+        /// <summary>The started process, for reading its messages. Null after a reload of code, which the process survives.</summary>
         private static Process started;
 
-        /// <summary>Hands over a request, and starts the process if none runs with these tools.</summary>
+        /// <summary>Submits a request, and starts the process if none runs with these tools.</summary>
         /// <param name="jdk">Root of the JDK.</param>
         /// <param name="kotlin">Root of the Kotlin compiler.</param>
         /// <param name="libraries">Jars that compilations read: a process with earlier versions of them is replaced.</param>
@@ -66,7 +66,7 @@ namespace Collektive.Unity.Editor
             if (!File.Exists(response))
             {
                 if (isRunning) return false;
-                lock (Messages) throw new ToolException("the compiler's process ended: " + (Messages.Length > 0 ? Messages.ToString() : "no message"));
+                lock (Messages) throw new ToolException("the compiler process ended: " + (Messages.Length > 0 ? Messages.ToString() : "no message"));
             }
             var text = File.ReadAllText(response);
             File.Delete(response);
@@ -88,7 +88,7 @@ namespace Collektive.Unity.Editor
             }
             catch (InvalidOperationException)
             {
-                // It has ended meanwhile.
+                // It has ended in the meantime.
             }
             process?.Dispose();
             started?.Dispose();
@@ -117,7 +117,7 @@ namespace Collektive.Unity.Editor
             }
             catch (Exception error) when (error is ArgumentException || error is InvalidOperationException || error is System.ComponentModel.Win32Exception)
             {
-                // No such process.
+                // The process does not exist.
             }
             return null;
         }

@@ -8,7 +8,7 @@ namespace Collektive.Unity.Editor
     /// <summary>The attributes of a jar.</summary>
     internal static class JarManifest
     {
-        /// <summary>Returns the attributes by name, without any for a damaged or missing jar.</summary>
+        /// <summary>Returns the attributes by name; none for a damaged or missing jar.</summary>
         internal static Dictionary<string, string> Read(string jar)
         {
             if (!File.Exists(jar)) return new Dictionary<string, string>();
@@ -23,7 +23,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Returns the attributes by name, without any if the jar has no manifest.</summary>
+        /// <summary>Returns the attributes by name; none if the jar has no manifest.</summary>
         internal static Dictionary<string, string> Read(ZipArchive jar)
         {
             var attributes = new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase);
@@ -33,7 +33,7 @@ namespace Collektive.Unity.Editor
                 for (var line = reader.ReadLine(); line != null; line = reader.ReadLine())
                 {
                     var colon = line.IndexOf(": ", StringComparison.Ordinal);
-                    // A space begins the rest of a long line.
+                    // A leading space continues a long line.
                     if (line.StartsWith(" ", StringComparison.Ordinal) && name.Length > 0) attributes[name] += line.Substring(1);
                     else if (colon > 0) attributes[name = line.Substring(0, colon)] = line.Substring(colon + 2);
                 }

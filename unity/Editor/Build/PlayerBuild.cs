@@ -37,7 +37,7 @@ namespace Collektive.Unity.Editor
             foreach (var file in files) buildPlayerContext.AddAdditionalPathToStreamingAssets(file.Value, file.Key);
         }
 
-        /// <summary>Returns the named scenes, or the open ones that are saved.</summary>
+        /// <summary>Returns the named scenes or, without names, the open scenes that are saved.</summary>
         private static string[] ScenesOf(BuildPlayerOptions options, List<SceneSimulation> simulations) =>
             options.scenes?.Length > 0 ? options.scenes : simulations.ConvertAll(simulation => simulation.Scene).FindAll(scene => scene.Length > 0).ToArray();
 

@@ -3,7 +3,7 @@ using UnityEditor;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The platforms of a player, by the package's names.</summary>
+    /// <summary>The platforms of a player, under the package's names for them.</summary>
     internal static class PlayerPlatforms
     {
         /// <summary>Finds the platforms that a build for this target runs on, with the architecture in the build settings.</summary>

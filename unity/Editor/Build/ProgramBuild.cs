@@ -8,7 +8,7 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Builds the jars of programs, and the C# of their schemas, one after the other in the <see cref="CompilerProcess"/> while the editor goes on. The
+    /// Builds the jars of programs, and the C# of their schemas, one after the other in the <see cref="CompilerProcess"/>, without blocking the editor. The
     /// Progress window shows the current build. Call it from the main thread only.
     /// </summary>
     internal static class ProgramBuild
@@ -31,12 +31,12 @@ namespace Collektive.Unity.Editor
         private static string request;
         private static int progress;
 
-        /// <summary>Set by the Progress window, maybe on another thread.</summary>
+        /// <summary>Set by the Progress window, possibly on another thread.</summary>
         private static volatile bool isCanceled;
 
         internal static bool IsRunning => current != null || Waiting.Count > 0;
 
-        /// <summary>Builds programs in the background. If one is being built, it is built again.</summary>
+        /// <summary>Builds programs in the background. A program that is being built is built again.</summary>
         internal static void Start(List<SchemaProject> projects)
         {
             if (!IsRunning) isCanceled = false;
@@ -140,7 +140,7 @@ namespace Collektive.Unity.Editor
             try
             {
                 if (!CompilerProcess.TryTake(request, out var code, out var output)) return;
-                // A file was saved meanwhile. Killing the process would lose the loaded compilers.
+                // A file was saved in the meantime. Killing the process would lose the loaded compilers.
                 if (current.Sources != sources) Submit();
                 else End(code, output);
             }
@@ -163,8 +163,8 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>
-        /// Gives a running simulation the new programs, or shows in the Game view that it continues with the previous ones, unless the project's settings
-        /// forbid it.
+        /// Loads the new programs into a running simulation, or shows in the Game view that it continues with the previous ones. Does nothing if the project's
+        /// settings disable it.
         /// </summary>
         internal static void UpdateWhilePlaying(bool isBuilt)
         {
@@ -173,7 +173,7 @@ namespace Collektive.Unity.Editor
             if (isBuilt) SimulationManager.Current.ReloadPrograms();
         }
 
-        /// <summary>Other builds would fail for the same reason: a missing tool.</summary>
+        /// <summary>Cancels the waiting builds, which would fail for the same reason: a missing tool.</summary>
         private static void Fail(Exception error)
         {
             Waiting.Clear();

@@ -25,11 +25,11 @@ namespace Collektive.Unity.Editor
 
         internal AggregateRuntime Kind { get; } = AggregateRuntime.BuiltIn;
 
-        /// <summary>The value in a jar's manifest by which the host refuses programs of another runtime.</summary>
+        /// <summary>The value in a jar's manifest by which the host rejects programs for another runtime.</summary>
         /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
         internal string ManifestValue => Kind == AggregateRuntime.BuiltIn ? "builtIn" : "collektive " + Hash(Jars());
 
-        /// <summary>The jars that programs are compiled against, beside the host's.</summary>
+        /// <summary>The jars that programs are compiled against, in addition to the host's.</summary>
         /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
         internal IReadOnlyList<string> Library => Kind == AggregateRuntime.BuiltIn ? new[] { Installation.LibraryJar } : Jars();
 

@@ -13,7 +13,7 @@ namespace Collektive.Unity.Editor
             var changed = new List<string>();
             foreach (var paths in new[] { importedAssets, deletedAssets, movedAssets, movedFromAssetPaths })
                 changed.AddRange(Array.FindAll(paths, IsSource));
-            // Not during an import.
+            // Delayed, because an import may be running.
             if (changed.Count > 0 || didDomainReload) EditorApplication.delayCall += () => ProgramBuild.StartOutdated(changed);
         }
 

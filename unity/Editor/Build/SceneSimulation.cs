@@ -6,7 +6,7 @@ using UnityEngine.SceneManagement;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>A Simulation Manager of a scene that a player is built of.</summary>
+    /// <summary>A Simulation Manager in a scene of a player build.</summary>
     internal sealed class SceneSimulation
     {
         private SceneSimulation(string scene, SimulationSettings settings)
@@ -20,7 +20,7 @@ namespace Collektive.Unity.Editor
 
         internal SimulationSettings Settings { get; }
 
-        /// <summary>Whether its JVM comes with the package rather than from the machine.</summary>
+        /// <summary>Whether its JVM is the package's rather than one installed on the machine.</summary>
         internal bool NeedsJvm
         {
             get

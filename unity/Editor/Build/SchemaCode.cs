@@ -2,10 +2,10 @@ using System.IO;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Makes the code of schemas with the package's generator.</summary>
+    /// <summary>Generates the code of schemas with the package's generator.</summary>
     internal static class SchemaCode
     {
-        /// <summary>Makes the C# that sensors and actuators use.</summary>
+        /// <summary>Generates the C# code that sensors and actuators use.</summary>
         /// <returns>Whether the code was generated; otherwise the errors are logged.</returns>
         internal static bool MakeCSharp(SchemaProject project)
         {

@@ -7,8 +7,8 @@ using Object = UnityEngine.Object;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// A user's schema, and what belongs to it by location: the generated C# in <c>Generated</c> beside it, the Kotlin in
-    /// <c>Programs</c> beside it, and the jar that is built from both, <c>NAME.clkprograms</c> beside it.
+    /// A user's schema and the files beside it: the generated C# in <c>Generated</c>, the Kotlin in <c>Programs</c>, and the jar that is built from schema and
+    /// Kotlin, <c>NAME.clkprograms</c>.
     /// </summary>
     internal sealed class SchemaProject
     {
@@ -20,7 +20,7 @@ namespace Collektive.Unity.Editor
             Runtime = new ProgramRuntime(user ?? (simulations.Count > 0 ? simulations[0] : new SimulationSettings()));
         }
 
-        /// <summary>The runtime for which its programs are compiled: that of a simulation that uses them, or else of any simulation.</summary>
+        /// <summary>The runtime for which its programs are compiled: that of a simulation that uses them, otherwise that of any simulation.</summary>
         internal ProgramRuntime Runtime { get; }
 
         /// <summary>Whether one of the simulations runs its programs.</summary>

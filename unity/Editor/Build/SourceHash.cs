@@ -8,14 +8,14 @@ using System.Text.RegularExpressions;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// The hash of a jar's sources, which the compiler records in the jar: it finds outdated jars without a JVM, and independently of file times, which
-    /// Git does not keep. <c>SourceHash.kt</c> describes it and computes the same one.
+    /// The hash of a jar's sources, which the compiler records in the jar. It finds outdated jars without a JVM and without file times, which Git does not
+    /// keep. <c>SourceHash.kt</c> describes it and computes the same hash.
     /// </summary>
     internal static class SourceHash
     {
         private static readonly Regex Include = new Regex("^\\s*include\\s+\"([^\"]+)\"\\s*;", RegexOptions.Multiline);
 
-        /// <summary>Returns the hash of a schema and a folder of programs, which may not exist.</summary>
+        /// <summary>Returns the hash of a schema and a folder of programs, which need not exist.</summary>
         internal static string Of(string schema, string programs)
         {
             using (var hash = IncrementalHash.CreateHash(HashAlgorithmName.SHA256))

@@ -9,7 +9,7 @@ namespace Collektive.Unity.Editor
     /// <summary>Logs the output of tools to the console. A click selects the file; the link opens it at the line.</summary>
     internal static class ToolConsole
     {
-        /// <summary>Logs the messages in a tool's output; the whole output as one error when it failed without naming a place.</summary>
+        /// <summary>Logs the messages in a tool's output, or the whole output as one error if the tool failed without naming a place.</summary>
         internal static void Show(string tool, int code, string output)
         {
             var hasError = false;

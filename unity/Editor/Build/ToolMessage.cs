@@ -35,7 +35,7 @@ namespace Collektive.Unity.Editor
 
         internal bool IsError { get; }
 
-        /// <summary>The message, and in a second line the line of the source if the tool printed it.</summary>
+        /// <summary>The message, followed by the source line if the tool printed it.</summary>
         internal string Text { get; }
 
         /// <summary>Returns all messages in the output of flatc, the Kotlin compiler or javac.</summary>
@@ -47,7 +47,7 @@ namespace Collektive.Unity.Editor
             {
                 var match = Place.Match(lines[i]);
                 if (!match.Success) continue;
-                // Kotlin and javac print the line of the source, and point at the place below it.
+                // Kotlin and javac print the source line, and mark the position in the line below.
                 var hasSource = i + 2 < lines.Length && lines[i + 2].Contains("^") && lines[i + 2].Trim(' ', '^').Length == 0;
                 messages.Add(Of(match, hasSource ? "\n" + lines[i + 1] : ""));
             }

@@ -5,11 +5,11 @@ using System.Text.RegularExpressions;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Runs other programs and keeps what they print.</summary>
+    /// <summary>Runs other programs and captures their output.</summary>
     internal static class ToolRun
     {
         /// <summary>Runs a program to its end.</summary>
-        /// <returns>Its exit code, and what it printed, errors included.</returns>
+        /// <returns>Its exit code, and its output, including errors.</returns>
         internal static (int Code, string Output) Try(string folder, string program, params string[] arguments)
         {
             var output = new StringBuilder();
@@ -20,7 +20,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Starts a program whose messages are appended to <paramref name="output"/>, on other threads: lock it.</summary>
+        /// <summary>Starts a program whose messages are appended to <paramref name="output"/> on other threads; lock it to read them.</summary>
         /// <exception cref="ToolException">It cannot be started.</exception>
         internal static Process Start(string folder, string program, StringBuilder output, params string[] arguments)
         {

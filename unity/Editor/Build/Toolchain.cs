@@ -30,13 +30,13 @@ namespace Collektive.Unity.Editor
         /// <summary>Folder of <c>types.fbs</c>, which schemas may include.</summary>
         internal static string SchemaFolder => Path.GetDirectoryName(PackageTool("types.fbs"));
 
-        /// <summary>Returns an executable copy of flatc: package managers drop the permission, and the package's folder is read-only.</summary>
+        /// <summary>Returns an executable copy of flatc: package managers do not keep the permission, and the package's folder is read-only.</summary>
         internal static string Flatc()
         {
             if (Installation.Platform == "mac-x64" || Installation.Platform == "linux-arm64")
                 throw new ToolException("flatc is not available for " + Installation.Platform + ": generate the code on another machine and commit it");
             var packageTool = PackageTool(Installation.Platform + "/flatc" + (Windows ? ".exe" : ""));
-            // By content: package managers set arbitrary file times.
+            // Named after its content, because package managers set arbitrary file times.
             var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(packageTool) + (Windows ? ".exe" : ""));
             if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));

@@ -6,7 +6,7 @@ using System.Reflection;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Shows data of any schema as names and values.</summary>
+    /// <summary>Converts data of any schema to names and values.</summary>
     internal static class DataText
     {
         private const int MaxElements = 8;

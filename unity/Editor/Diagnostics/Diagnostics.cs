@@ -69,7 +69,7 @@ namespace Collektive.Unity.Editor
         /// <summary>Returns a heading with the tick of the node's last answer.</summary>
         internal static string TitleOf(Node node) => node.AnswerTick == 0 ? "No answer yet" : "Answer of tick " + node.AnswerTick;
 
-        /// <summary>The last answer of the node's program; empty when it gave none yet.</summary>
+        /// <summary>The last answer of the node's program; empty before the first.</summary>
         internal List<KeyValuePair<string, string>> Values(int id)
         {
             var node = Manager.Find(id);

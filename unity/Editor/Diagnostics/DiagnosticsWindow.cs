@@ -66,7 +66,7 @@ namespace Collektive.Unity.Editor
 
         private void OnDisable() => Detach();
 
-        /// <summary>Ten times a second, by the editor.</summary>
+        /// <summary>Called by the editor ten times a second.</summary>
         private void OnInspectorUpdate()
         {
             Refresh();
@@ -88,7 +88,7 @@ namespace Collektive.Unity.Editor
             selected = -1;
         }
 
-        /// <summary>Reads the nodes, and shows the parts of the window that the tab has.</summary>
+        /// <summary>Reads the nodes, and shows the parts of the window that belong to the tab.</summary>
         private void Refresh()
         {
             Attach();
@@ -128,7 +128,7 @@ namespace Collektive.Unity.Editor
 
         private void DrawHeader()
         {
-            // A repaint must draw the controls of the layout before it.
+            // A repaint must draw the same controls as the preceding layout.
             if (Event.current.type == EventType.Layout) Attach();
             EditorGUI.BeginChangeCheck();
             tab = GUILayout.Toolbar(tab, Tabs);

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Draws which JVM runs, where, since when and with how much memory, and restarts it.</summary>
+    /// <summary>Draws the running JVM with its placement, start time and memory, and a button that restarts it.</summary>
     internal sealed class JvmPanel
     {
         private const double Interval = 0.5;
@@ -14,7 +14,7 @@ namespace Collektive.Unity.Editor
 
         private double lastQuery = double.NegativeInfinity;
 
-        // On another thread, because the JVM answers between two ticks only, which may take as long as the limit of a tick.
+        // On another thread, because the JVM answers only between two ticks, and a tick may take as long as its limit.
         private Task<JvmStatus> query;
         private string failure = "";
 
@@ -23,7 +23,7 @@ namespace Collektive.Unity.Editor
 
         internal void Draw()
         {
-            // A repaint must draw the controls of the layout before it.
+            // A repaint must draw the same controls as the preceding layout.
             if (Event.current.type == EventType.Layout) Update();
             if (failure.Length > 0) EditorGUILayout.HelpBox(failure, MessageType.Error);
             if (Status == null)
@@ -58,7 +58,7 @@ namespace Collektive.Unity.Editor
             }, TaskScheduler.Default);
         }
 
-        /// <summary>Takes the answer of the last query, and begins the next one when it is due.</summary>
+        /// <summary>Reads the answer of the last query, and begins the next one when it is due.</summary>
         private void Update()
         {
             if (query != null && query.IsCompleted)

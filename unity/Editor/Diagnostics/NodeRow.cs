@@ -12,7 +12,7 @@ namespace Collektive.Unity.Editor
             ReceiverCount = receiverCount;
         }
 
-        /// <summary>Equal to null when it was destroyed since.</summary>
+        /// <summary>Equal to null if it has been destroyed since.</summary>
         internal Node Node { get; }
 
         internal int Id { get; }

@@ -6,10 +6,10 @@ namespace Collektive.Unity.Editor
     [FilePath("UserSettings/Collektive.asset", FilePathAttribute.Location.ProjectFolder)]
     internal sealed class PersonalSettings : ScriptableSingleton<PersonalSettings>
     {
-        /// <summary>Root of a JDK 17 or newer, for building programs; empty to look for one.</summary>
+        /// <summary>Root of a JDK 17 or newer, for building programs; empty to search for one.</summary>
         public string jdk = "";
 
-        /// <summary>Root of a Kotlin compiler (the folder kotlinc); empty to look for one.</summary>
+        /// <summary>Root of a Kotlin compiler (the folder kotlinc); empty to search for one.</summary>
         public string kotlin = "";
 
         /// <summary>Root of a source checkout of the package; empty for most projects.</summary>
@@ -17,7 +17,7 @@ namespace Collektive.Unity.Editor
 
         internal void Store() => Save(true);
 
-        /// <summary>Moves the paths that earlier versions kept in the project settings, once.</summary>
+        /// <summary>Moves the paths that earlier versions stored in the project settings, once.</summary>
         [InitializeOnLoadMethod]
         private static void MigratePaths()
         {

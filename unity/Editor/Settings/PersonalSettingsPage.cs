@@ -7,7 +7,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Preferences &gt; Collektive. Shows the tools in use, which it looks for when it opens and after changes.</summary>
+    /// <summary>Preferences &gt; Collektive. Shows the tools in use, which it searches for when it opens and after changes.</summary>
     internal sealed class PersonalSettingsPage : SettingsPage
     {
         private (string Text, bool IsProblem) jdk, kotlin;
@@ -35,7 +35,7 @@ namespace Collektive.Unity.Editor
             DrawPath(nameof(PersonalSettings.jdk), "JDK", "Root folder of a JDK 17 or newer. Empty: JAVA_HOME, or the newest installed JDK.");
             DrawTool(jdk);
             DrawPath(nameof(PersonalSettings.kotlin), "Kotlin compiler",
-                "Folder kotlinc of a Kotlin compiler. Empty: KOTLIN_HOME, or the compiler on PATH.");
+                "The folder kotlinc of a Kotlin compiler. Empty: KOTLIN_HOME, or the compiler on PATH.");
             DrawTool(kotlin);
             DrawPath(nameof(PersonalSettings.sourceCheckout), "Source checkout",
                 "Root folder of a clone of the package's repository, for Tools > Collektive > Rebuild Backend. Most projects leave it empty.");
@@ -45,7 +45,7 @@ namespace Collektive.Unity.Editor
         protected override void Store()
         {
             PersonalSettings.instance.Store();
-            // Not during an event of the GUI.
+            // Not during a GUI event.
             EditorApplication.delayCall += FindTools;
         }
 

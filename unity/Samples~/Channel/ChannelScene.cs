@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Channel
 {
     /// <summary>
-    /// Nodes scattered over a plane of 100 x 60 m find a channel between two of them. Two walls, which block radio, stand across the direct
-    /// path, each with a gap at either end. After a while the nodes in the gaps of the channel fail, and it finds another path.
+    /// Nodes scattered over a plane of 100 x 60 m find a channel between two of them. Two walls that block radio stand across the direct path, each with a gap
+    /// at either end. After a while, the nodes in the gaps of the channel fail, and the channel takes another path.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Channel Scene")]
     public sealed class ChannelScene : SceneBuilder
@@ -21,7 +21,7 @@ namespace CollektiveSamples.Channel
         private static readonly Vector3 SourcePlace = new Vector3(-45, 0.5f, -4);
         private static readonly Vector3 TargetPlace = new Vector3(45, 0.5f, -4);
 
-        /// <summary>How many nodes, the two ends included.</summary>
+        /// <summary>Number of nodes, including the two ends.</summary>
         [Min(2)]
         public int nodes = 600;
 
@@ -62,8 +62,8 @@ namespace CollektiveSamples.Channel
         };
 
         /// <summary>
-        /// 1 if links between nodes of the channel join source and target, else 0; how many nodes the channel has; and its length in metres as
-        /// the target knows it.
+        /// Writes 1 if links between nodes of the channel connect source and target, otherwise 0; the number of nodes in the channel; and its length in metres
+        /// as computed by the target.
         /// </summary>
         public override void Measure(double[] values)
         {

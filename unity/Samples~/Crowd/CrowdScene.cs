@@ -7,8 +7,7 @@ using UnityEngine;
 namespace CollektiveSamples.Crowd
 {
     /// <summary>
-    /// Two crowds walk towards each other through a street of 80 x 20 m with pillars in the middle, each to the far end.
-    /// Walkers within 5 m exchange messages.
+    /// Two crowds walk along a street of 80 x 20 m with pillars in the middle, from opposite ends to the far end. Walkers within 5 m exchange messages.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Crowd Scene")]
     public sealed class CrowdScene : SceneBuilder
@@ -23,7 +22,7 @@ namespace CollektiveSamples.Crowd
         private static readonly string[] Names = { "arrived", "bumps", "warned", "density" };
         private static readonly float[] PillarPlaces = { -6, -2, 2, 6 };
 
-        /// <summary>The number of walkers, half of them from either side.</summary>
+        /// <summary>Number of walkers, half of them from each side.</summary>
         [Min(2)]
         public int walkers = 160;
 
@@ -49,8 +48,7 @@ namespace CollektiveSamples.Crowd
         };
 
         /// <summary>
-        /// Writes the number of walkers at their goals, of rounds with a collision, and of warned walkers, and the greatest density in walkers per square
-        /// metre.
+        /// Writes the number of walkers at their goals, of rounds with a collision and of warned walkers, and the greatest density in walkers per square metre.
         /// </summary>
         public override void Measure(double[] values)
         {

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.GradientAscent
 {
-    /// <summary>Positions on the ground with a minimum distance from each other. Testing a place takes constant time.</summary>
+    /// <summary>Positions on the ground with a minimum distance between them. Testing a place takes constant time.</summary>
     internal sealed class FreePlaces
     {
         /// <summary>

@@ -5,8 +5,8 @@ using UnityEngine;
 namespace CollektiveSamples.GradientAscent
 {
     /// <summary>
-    /// A flat arena of 100 x 60 m with a rim. A swarm climbs towards a source; four obstacles block the direct path. Each node perceives
-    /// the intensity where it is and what is around it, and exchanges messages with the nodes within its range.
+    /// A flat arena of 100 x 60 m with a rim. A swarm climbs towards a source; four obstacles block the direct path. Each node senses the intensity at its
+    /// position and the obstacles around it, and exchanges messages with the nodes within its range.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent Scene")]
     public sealed class GradientAscentScene : SceneBuilder
@@ -17,7 +17,7 @@ namespace CollektiveSamples.GradientAscent
         private static readonly string[] Names = { "mean_distance", "p90_distance", "contacts" };
         private static readonly float[] ObstaclePlaces = { -9, -3, 3, 9 };
 
-        /// <summary>How many nodes.</summary>
+        /// <summary>Number of nodes.</summary>
         [Min(1)]
         public int nodes = 500;
 
@@ -29,7 +29,7 @@ namespace CollektiveSamples.GradientAscent
         [Min(0.01f)]
         public float bodyRadius = 0.25f;
 
-        /// <summary>Where the source stands.</summary>
+        /// <summary>Position of the source.</summary>
         public Vector3 source = new Vector3(25, 0, 0);
 
         /// <summary>Whether the four obstacles exist.</summary>
@@ -40,11 +40,11 @@ namespace CollektiveSamples.GradientAscent
         public float fieldScale = 1;
 
         [SerializeField]
-        [Tooltip("Prefab of the nodes. None, as in runs without Unity: an equal object is built.")]
+        [Tooltip("Prefab of the nodes. None, as in runs without Unity: the scene builds an equal object.")]
         private Node nodePrefab = null;
 
         [SerializeField]
-        [Tooltip("The source in the scene. None: one is built.")]
+        [Tooltip("The source in the scene. None: the scene builds one.")]
         private IntensitySource sourceObject = null;
 
         private readonly List<float> distances = new List<float>();
@@ -64,7 +64,7 @@ namespace CollektiveSamples.GradientAscent
         /// <inheritdoc/>
         public override float GetColouringValue(Node node) => intensity.IntensityAt(node.transform.position);
 
-        /// <summary>Mean and 90th percentile of the distance to the source in metres, and the number of contacts between bodies.</summary>
+        /// <summary>Writes the mean and the 90th percentile of the distance to the source in metres, and the number of contacts between bodies.</summary>
         public override void Measure(double[] values)
         {
             distances.Clear();
@@ -116,7 +116,7 @@ namespace CollektiveSamples.GradientAscent
             if (nodePrefab == null) Destroy(original);
         }
 
-        /// <summary>A place in x -35..5, z -25..25, times the field's scale, where a body overlaps no other.</summary>
+        /// <summary>Returns a position in x -35..5, z -25..25, times the field's scale, where a body does not overlap another.</summary>
         private Vector3 FreePlace(SimulationManager manager, FreePlaces places)
         {
             for (var attempt = 0; attempt < SpawnAttempts; attempt++)
@@ -148,7 +148,7 @@ namespace CollektiveSamples.GradientAscent
             node.SetActive(true);
         }
 
-        /// <summary>Builds what the prefab contains, inactive.</summary>
+        /// <summary>Builds an inactive object with the content of the prefab.</summary>
         private static GameObject MakeOriginal()
         {
             var original = GameObject.CreatePrimitive(PrimitiveType.Sphere);

@@ -9,7 +9,7 @@ namespace CollektiveSamples.GradientAscent
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Obstacle Sensor")]
     public sealed class ObstacleSensor : ObstacleSensor<SensorData>
     {
-        /// <summary>Colliders that touch the node's own body at the last tick: closest points within a radius of the centre.</summary>
+        /// <summary>Number of colliders that touched the node's body in its last round: their closest points are within a radius of the centre.</summary>
         public int Contacts { get; private set; }
 
         /// <summary>Radius of the node's body in metres.</summary>

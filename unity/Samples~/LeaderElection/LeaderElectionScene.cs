@@ -7,15 +7,15 @@ using UnityEngine;
 namespace CollektiveSamples.LeaderElection
 {
     /// <summary>
-    /// Nodes scattered over a plane of 100 x 60 m divide themselves into regions, each with a leader. After a while all leaders fail, and new
-    /// ones take their place.
+    /// Nodes scattered over a plane of 100 x 60 m divide themselves into regions, each with a leader. After a while, all leaders fail, and new ones take their
+    /// place.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Leader Election Scene")]
     public sealed class LeaderElectionScene : SceneBuilder
     {
         private static readonly string[] Names = { "led", "regions", "farthest" };
 
-        /// <summary>How many nodes.</summary>
+        /// <summary>Number of nodes.</summary>
         [Min(1)]
         public int nodes = 400;
 

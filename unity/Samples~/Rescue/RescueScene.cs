@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Rescue
 {
     /// <summary>
-    /// Robots leave their base, spread through two ruined buildings, find three casualties, and keep a channel of robots from each to the base.
-    /// Walls weaken their radio. After a while some of the robots fail, and the others close the gaps.
+    /// Robots leave their base, spread through two ruined buildings, find three casualties, and keep a channel of robots from each to the base. Walls weaken
+    /// their radio. After a while, some of the robots fail, and the others close the gaps.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Rescue Scene")]
     public sealed class RescueScene : SceneBuilder
@@ -26,7 +26,7 @@ namespace CollektiveSamples.Rescue
             new Vector3(-15, 0.5f, 17.5f), new Vector3(30, 0.5f, -7), new Vector3(13, 0.5f, -15),
         };
 
-        /// <summary>How many robots, without the base.</summary>
+        /// <summary>Number of robots, without the base.</summary>
         [Min(1)]
         public int robots = 120;
 
@@ -104,7 +104,7 @@ namespace CollektiveSamples.Rescue
                 if (connected[i]) values[1]++;
             }
             values[3] = manager.Nodes.Count - 1;
-            values[4] = visited.Count / 1000.0; // 80 x 50 m
+            values[4] = visited.Count / 1000.0; // 80 x 50 m in cells of 2 x 2 m
         }
 
         /// <inheritdoc/>

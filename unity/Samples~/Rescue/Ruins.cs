@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Rescue
 {
-    /// <summary>The ground and what stands on it, 80 x 50 m: two buildings with rooms and doors, rubble, a dam with slopes, vehicles.</summary>
+    /// <summary>The ground of 80 x 50 m and everything on it: two buildings with rooms and doors, rubble, a dam with slopes, vehicles.</summary>
     internal static class Ruins
     {
         /// <summary>Layer of the ground, which sensors and radio ignore.</summary>
@@ -15,7 +15,7 @@ namespace CollektiveSamples.Rescue
         private const float DoorWidth = 3;
         private const float SlopeDegrees = 14;
 
-        // Corners of stones lie on the six half axes: any lengths give a convex body.
+        // Corners of stones lie on the six half axes, so that any lengths give a convex body.
         private static readonly Vector3[] Axes = { Vector3.right, Vector3.left, Vector3.up, Vector3.down, Vector3.forward, Vector3.back };
 
         private static readonly int[] Faces = { 0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5 };

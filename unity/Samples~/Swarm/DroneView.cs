@@ -7,13 +7,13 @@ using UnityEngine;
 namespace CollektiveSamples.Swarm
 {
     /// <summary>
-    /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers: 10,000 of them would take
-    /// longer than the rest of a frame, and twenty draws of 500 instances do not. It draws nothing without a model, and in batch mode.
+    /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers, because 10,000 of them would take longer than the
+    /// rest of a frame; twenty draw calls of 500 instances do not. Nothing is drawn without a model or in batch mode.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Drone View")]
     public sealed class DroneView : MonoBehaviour
     {
-        // Any graphics API takes so many at once.
+        // All graphics APIs support this number per draw call.
         private const int MaxInstances = 500;
 
         private static readonly Color[] Colors =
@@ -22,7 +22,7 @@ namespace CollektiveSamples.Swarm
         };
 
         [SerializeField]
-        [Tooltip("A sphere of which each drone is an instance.")]
+        [Tooltip("A sphere that is drawn once per drone.")]
         private Renderer model;
 
         private readonly Matrix4x4[][] places = new Matrix4x4[Colors.Length][];
@@ -39,7 +39,7 @@ namespace CollektiveSamples.Swarm
         public float Radius { get; set; } = 0.3f;
 
         /// <summary>
-        /// A sphere of which each drone is an instance, with a mesh filter. Its material must be an asset with instancing: Unity removes the instancing
+        /// A sphere with a mesh filter, drawn once per drone. Its material must be an asset with instancing enabled, because Unity removes the instancing
         /// variants of other shaders from players.
         /// </summary>
         public Renderer Model

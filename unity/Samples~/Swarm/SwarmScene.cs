@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Swarm
 {
     /// <summary>
-    /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and its choice
-    /// spreads through the swarm from neighbour to neighbour. After a while the leader fails, and another drone replaces it.
+    /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and its choice spreads
+    /// through the swarm from neighbour to neighbour. After a while, the leader fails, and another drone replaces it.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm Scene")]
     public sealed class SwarmScene : SceneBuilder
@@ -21,7 +21,7 @@ namespace CollektiveSamples.Swarm
         private static readonly string[] ShapeNames = { "sphere", "ring", "wave", "letters" };
         private static readonly string[] Names = { "formed", "shapes", "nearest" };
 
-        /// <summary>How many drones.</summary>
+        /// <summary>Number of drones.</summary>
         [Min(1)]
         public int drones = 10000;
 
@@ -38,7 +38,7 @@ namespace CollektiveSamples.Swarm
         public float speed = 8;
 
         [SerializeField]
-        [Tooltip("Renderer of which the drones are instances. Its material must have instancing enabled.")]
+        [Tooltip("Renderer that is drawn once per drone. Its material must have instancing enabled.")]
         private Renderer droneModel = null;
 
         private readonly List<Node> near = new List<Node>();
@@ -60,8 +60,8 @@ namespace CollektiveSamples.Swarm
         };
 
         /// <summary>
-        /// Drones within a metre of the shape that they form; how many different shapes drones form; and the least distance in metres of two
-        /// drones' centres at the beginning of the tick, at most 2.5.
+        /// Writes the number of drones within a metre of the shape that they form; the number of different shapes; and the least distance in metres between the
+        /// centres of two drones at the beginning of the tick, at most 2.5.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -136,7 +136,7 @@ namespace CollektiveSamples.Swarm
         {
             var drone = new GameObject("Drone");
             drone.SetActive(false);
-            // Not quite in line: drones in one plane would stay there.
+            // Not quite in line, because drones in one plane would stay there.
             var random = manager.Random;
             drone.transform.position = place + new Vector3(random.Range(-0.3f, 0.3f), random.Range(0.3f, 0.9f), random.Range(-0.3f, 0.3f));
             var parameters = drone.AddComponent<Node>().Parameters;
