@@ -159,7 +159,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields.reading", {"expression": "(select count(*) from nodes)"}, "no such table: nodes"),
     ("fields.reading", {"expression": "'warm'"}, "its value is not a number"),
     ("fields.reading", {"expression": "x", "file": "values.csv"}, "'reading' needs either 'expression' or 'file'"),
-    ("fields.reading", {"file": "bad/values.csv"}, "'reading.file': bad/values.csv:3: the line needs a time after that of line 2, or another id"),
+    ("fields.reading", {"file": "bad/values.csv"}, "'reading.file': bad/values.csv:3: the time must be after that of line 2, or the id must differ"),
     ("fields.reading", {"file": "bad/value.csv"}, "'reading.file': bad/value.csv:1: the column 'value' is missing"),
 ]
 
@@ -233,7 +233,7 @@ def test_a_missing_library_is_reported_with_the_command_that_builds_it(study: St
     finally:
         worker.stop()
     assert problem is not None
-    assert "the library for SQL (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it" in problem
+    assert "the SQL library (libcollektive_sqlite.so) is missing: run ./collektive build runtime" in problem
 
 
 @pytest.mark.parametrize("settings", [

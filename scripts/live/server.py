@@ -196,7 +196,7 @@ class Live:
                 command = json.loads(text)
                 await self.execute(page, command)
             except (ValueError, KeyError, TypeError, AttributeError) as error:
-                page.event({"event": "warning", "message": f"a command of the page is not valid: {error!r}"})
+                page.event({"event": "warning", "message": f"a command from the page is invalid: {error!r}"})
 
     async def execute(self, page: Page, command: dict[str, Any]) -> None:
         if self.pages[0] is not page:

@@ -59,7 +59,7 @@ namespace Collektive.Headless
             part[path[path.Length - 1]] = value;
         }
 
-        /// <summary>Names of programs and metrics may have dots, those of parameters have none.</summary>
+        /// <summary>Names of programs and metrics may contain dots, those of parameters do not.</summary>
         private static string[] Path(string key)
         {
             var names = key.Split('.');

@@ -30,14 +30,14 @@ namespace Collektive.Headless
             if (name.Length == 0) throw new ScenarioException("the name of a file is missing");
             if (Folder.Length == 0) throw new ScenarioException("'" + name + "' needs the scenario's key 'data', the folder that contains the file");
             var path = System.IO.Path.GetFullPath(System.IO.Path.Combine(Folder, name));
-            // Repetitions and sweeps have the files of the folder only.
+            // Repetitions and sweeps have only the files of the folder.
             if (!path.StartsWith(Folder + "/", System.StringComparison.Ordinal) || !RegularFile.Exists(path))
                 throw new ScenarioException("'" + name + "' is not a file in the folder 'data', " + Folder);
             return new DataFile(name, path);
         }
 
         /// <summary>Returns an error with the place in this file.</summary>
-        /// <param name="line">From 1; 0: not known.</param>
+        /// <param name="line">From 1; 0 if unknown.</param>
         public ScenarioException Error(int line, string message) => new ScenarioException(Name + (line > 0 ? ":" + line : "") + ": " + message);
 
         /// <summary>Reads numbers from a CSV file, whose first line names its columns. Ignores other columns and blank lines.</summary>

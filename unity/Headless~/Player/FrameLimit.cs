@@ -6,14 +6,14 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Ends frames whose C# does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a tick, so a frame that takes
-    /// twice as long has spent the same time in C#. Frames before the simulation is open have no limit.
+    /// Ends frames whose C# does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a tick, so a frame that takes twice
+    /// that long has exceeded the limit in C#. Frames before the simulation is open have no limit.
     /// </summary>
     internal sealed class FrameLimit : IDisposable
     {
         private const int PollMs = 50;
 
-        /// <summary>Time for an aborted frame to end. Native code ignores the abort.</summary>
+        /// <summary>Time for an aborted frame to end, because native code ignores the abort.</summary>
         private const int AbortMs = 3000;
 
         private readonly object gate = new object();

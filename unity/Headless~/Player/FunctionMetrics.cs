@@ -40,7 +40,7 @@ namespace Collektive.Headless
         /// <summary>Decides whether the next tick measures.</summary>
         internal void Prepare(SimulationManager manager, bool isDue) => manager.Simulation.Measures = isDue && names.Count > 0;
 
-        /// <summary>Takes the values of a tick.</summary>
+        /// <summary>Reads the values of a tick.</summary>
         internal void Ticked(SimulationManager manager)
         {
             var answer = manager.Simulation.Answer;

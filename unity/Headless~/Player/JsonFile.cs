@@ -63,7 +63,7 @@ namespace Collektive.Headless
             }
             var reader = Reader(text);
             var value = JToken.ReadFrom(reader, new JsonLoadSettings { LineInfoHandling = lines });
-            // Throws for another value.
+            // Throws if another value follows.
             while (reader.Read())
             {
             }

@@ -17,7 +17,7 @@ namespace Collektive.Headless
     /// </summary>
     internal sealed class LiveRun
     {
-        /// <summary>The page shows nothing new while a tick hangs.</summary>
+        /// <summary>Limit for a tick, because the page shows nothing new while a tick hangs.</summary>
         private const int StepLimitMs = 4000;
 
         /// <summary>Nodes that one command can add.</summary>
@@ -63,7 +63,7 @@ namespace Collektive.Headless
         }
 
         /// <param name="frame">Runs a frame of the player.</param>
-        /// <param name="isEnded">Whether the user ended the run.</param>
+        /// <param name="isEnded">Returns whether the user ended the run.</param>
         internal void Play(Action frame, Func<bool> isEnded)
         {
             recorder.Add(0);
@@ -124,7 +124,7 @@ namespace Collektive.Headless
             }
             catch (Exception error)
             {
-                // For example, a scene that does not expect nodes to be removed.
+                // For example, the scene may not expect nodes to be removed.
                 hasMetricsFailed = true;
                 newMetrics = null;
                 Notify("the metrics of the scene failed and are no longer measured: " + error.Message);
@@ -148,7 +148,7 @@ namespace Collektive.Headless
             }
             catch (Exception error) when (error is ArgumentException || error is InvalidCastException || error is FormatException || error is OverflowException)
             {
-                Notify("a command of the page is not valid: " + error.Message);
+                Notify("a command from the page is invalid: " + error.Message);
             }
         }
 

@@ -11,7 +11,7 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// The columns of the table of nodes that metrics are computed from: data about each node and its last message, then the numbers, booleans and enums of its
-    /// last answer and of the sensor data of its last round, by their names in the schema. A node without them has no value there.
+    /// last answer and of the sensor data of its last round, by their names in the schema. Missing data has no value.
     /// </summary>
     internal sealed class NodeColumns
     {
@@ -86,7 +86,7 @@ namespace Collektive.Headless
         /// <summary>Whether columns in use need the sizes of messages.</summary>
         internal bool MeasuresMessages => used.Exists(column => column.Kind == Kind.Message);
 
-        /// <summary>Remembers the sensor data and messages of the nodes that were due in a tick, which the next tick overwrites.</summary>
+        /// <summary>Copies the sensor data and messages of the nodes that were due in a tick, because the next tick overwrites them.</summary>
         internal void Ticked(SimulationManager manager)
         {
             var simulation = manager.Simulation;

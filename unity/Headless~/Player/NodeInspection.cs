@@ -74,7 +74,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns null for an object with parts.</summary>
+        /// <summary>Returns the text of a simple value, or null for an object with fields.</summary>
         private static string Text(object value)
         {
             switch (value)

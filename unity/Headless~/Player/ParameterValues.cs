@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>Parameters of the nodes' programs. Each has its value, or all values if nodes differ.</summary>
+    /// <summary>Parameters of the nodes' programs, each with its value, or with all values if nodes differ.</summary>
     internal static class ParameterValues
     {
         internal static JObject Of(SimulationManager manager)

@@ -5,7 +5,7 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>Flight recording of a run that starts before the first tick. Disposing of it writes the file.</summary>
+    /// <summary>Flight recording that starts before the first tick of a run. Disposing it writes the file.</summary>
     internal sealed class RecordedRun : IDisposable
     {
         /// <summary>Frames per sample: aggregate programs nest deeply, and their own frames must not be cut off.</summary>

@@ -76,7 +76,7 @@ namespace Collektive.Headless
             if (time >= last + Math.Max(1 / MaxFrames, manager.Nodes.Count / MaxNodes) - 1e-6) Record(time);
         }
 
-        /// <summary>Records a frame of the current time, unless the last one is of this time.</summary>
+        /// <summary>Records a frame of the current time, unless the last one has the same time.</summary>
         internal void AddNow()
         {
             if (manager.SimulatedTime > last) Record(manager.SimulatedTime);
@@ -91,7 +91,7 @@ namespace Collektive.Headless
             clock.Stop();
         }
 
-        /// <summary>Returns and removes the poses of moving shapes, by shape, so far.</summary>
+        /// <summary>Returns and removes the poses of each moving shape so far.</summary>
         internal JArray TakePoses() => new JArray(movers.ConvertAll(mover => (object)mover.Value.TakePoses()));
 
         private void Record(double time)
@@ -101,7 +101,7 @@ namespace Collektive.Headless
             if (neighbours != null) CountNeighbours();
             writer.BeginFrame(time, manager.Simulation.PresentLinks.Count);
             var nodes = manager.Nodes;
-            // Many nodes have left.
+            // Releases memory after many nodes have left.
             if (colours?.Count > 2 * nodes.Count) colours.Clear();
             for (var i = 0; i < nodes.Count; i++)
             {
@@ -176,7 +176,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns the scene's colourings, then its colours. Without colourings, its colours, then fields of the answers.</summary>
+        /// <summary>Returns the scene's colourings and then its colours. Without colourings, returns its colours and then fields of the answers.</summary>
         private List<ReplayField> Fields()
         {
             var fields = new List<ReplayField>();
@@ -230,7 +230,7 @@ namespace Collektive.Headless
 
         private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
-        /// <summary>The static box with the largest top, if all nodes are above it. The page draws its own floor instead.</summary>
+        /// <summary>Returns the static box with the largest top, if all nodes are above it. The page draws its own floor instead.</summary>
         private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;

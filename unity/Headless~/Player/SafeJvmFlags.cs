@@ -4,8 +4,8 @@ using System.Text.RegularExpressions;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The JVM flags that cannot write files, open ports or load code, which a scenario file may set without <c>--trust-jvm</c>.
-    /// Unknown flags are unsafe, because new JVMs have new flags. The native library refuses flags that endanger the process.
+    /// The JVM flags that cannot write files, open ports or load code, which a scenario file may set without <c>--trust-jvm</c>. Unknown flags are unsafe,
+    /// because new JVMs have new flags. The native library rejects flags that endanger the process.
     /// </summary>
     internal static class SafeJvmFlags
     {

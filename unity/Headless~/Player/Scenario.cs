@@ -16,7 +16,7 @@ namespace Collektive.Headless
     {
         private const int Version = 1;
 
-        /// <summary>A run keeps the times of all its ticks in memory.</summary>
+        /// <summary>Maximum number of ticks, because a run keeps the times of all its ticks in memory.</summary>
         private const double MaxTicks = 1e8;
 
         private const string StandardScene = "standard";
@@ -54,7 +54,7 @@ namespace Collektive.Headless
             Path = path;
             Folder = folder;
             Scene = file.Required<string>(root, "scene");
-            // Copies of sweeps set both keys.
+            // The copies that sweeps write set both keys.
             var isOurs = Scene == StandardScene && root["scripts"] == null && root["schema"] == null;
             Scripts = isOurs ? StandardFolder : ExistingPath(file, root, "scripts", folder, directory: true);
             Schema = isOurs ? System.IO.Path.Combine(StandardFolder, "standard.fbs") : ExistingPath(file, root, "schema", folder, directory: false);

@@ -51,8 +51,8 @@ namespace Collektive.Headless
         }
 
         /// <returns>
-        /// The exit code: that of a script's <c>Application.Quit</c>, 130 after Ctrl-C, else 0, or 1 when the simulation stopped early, rounds,
-        /// sensors or actuators failed, or a repeated run had other results.
+        /// The exit code: that of a script's <c>Application.Quit</c>; 130 after Ctrl-C; 1 if the simulation stopped early, if rounds, sensors or actuators
+        /// failed, or if a repeated run had different results; otherwise 0.
         /// </returns>
         internal int Run()
         {
@@ -62,7 +62,7 @@ namespace Collektive.Headless
             Loop.PhysicsThreads = scenario.Settings.threads;
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
             RunLog.Install();
-            // Each frame runs one tick, regardless of its length.
+            // Each frame runs one tick, regardless of the tick's length.
             Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, scenario.Settings.deltaTime);
             var manager = MakeManager();
             var scene = MakeScene(manager);
@@ -193,7 +193,7 @@ namespace Collektive.Headless
             var ticks = scenario.OriginalRun == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.OriginalRun.Ticks);
             if (options.IsCheck) ticks = Math.Min(ticks, 1);
             var hasReplay = scenario.Replay && !options.IsCheck;
-            // A repetition continues after failures like the original run.
+            // Like the original run, a repetition continues after failures.
             var stopsAtFailures = !options.KeepGoing && scenario.OriginalRun == null;
             JObject parameters = null;
             var hadNodes = manager.Nodes.Count > 0;
@@ -285,7 +285,7 @@ namespace Collektive.Headless
             }
             manifest.Outcome = scenario.Pictures ? Manifest.WithoutPictures : Manifest.Complete;
             var isRepeated = scenario.OriginalRun?.IsRepeatedBy(manifest) ?? true;
-            // Processes end with eight bits of their code: 256 would become 0.
+            // Exit codes have eight bits: 256 would become 0.
             var quitCode = Loop.ExitCode == 0 ? 0 : Math.Max(1, Loop.ExitCode & 0xff);
             if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;

@@ -36,7 +36,7 @@ namespace Collektive.Headless
         internal Server(Options options)
         {
             this.options = options;
-            // Children of scripts must not answer, nor keep the channel open.
+            // Child processes of scripts must neither answer nor keep the channel open.
             Syscall.fcntl(options.Channel, FcntlCommand.F_SETFD, CloseOnExec);
             channel = new UnixStream(options.Channel);
             // As in the editor, the JVM keeps running when a run ends.

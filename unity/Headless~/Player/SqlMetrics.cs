@@ -54,7 +54,7 @@ namespace Collektive.Headless
         /// <summary>Requests the data that metrics need from the next tick on.</summary>
         internal void Begin(SimulationManager manager) => manager.Simulation.MeasuresMessages = columns?.MeasuresMessages == true;
 
-        /// <summary>Takes the sensor data and messages of a tick.</summary>
+        /// <summary>Reads the sensor data and messages of a tick.</summary>
         internal void Ticked(SimulationManager manager) => columns?.Ticked(manager);
 
         /// <summary>Evaluates the metrics at the current time into an array, starting at an index.</summary>

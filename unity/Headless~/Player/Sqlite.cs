@@ -60,7 +60,7 @@ namespace Collektive.Headless
             catch (DllNotFoundException error)
             {
                 throw new ScenarioException(
-                    "the library for SQL (libcollektive_sqlite.so) is missing: ./collektive build runtime builds it (" + error.Message + ")");
+                    "the SQL library (libcollektive_sqlite.so) is missing: run ./collektive build runtime (" + error.Message + ")");
             }
             sqlite3_hard_heap_limit64(MaxMemory);
             sqlite3_progress_handler(database, InstructionsPerCheck, progress, IntPtr.Zero);

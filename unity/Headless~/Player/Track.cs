@@ -46,10 +46,12 @@ namespace Collektive.Headless
             return tracks;
         }
 
-        /// <summary>The place at a time, in metres: between its points on a straight line, before the first and after the last one at that point.</summary>
+        /// <summary>
+        /// Returns the position at a time, in metres, interpolated linearly between the points. Before the first and after the last point, it is at that point.
+        /// </summary>
         public void PlaceAt(double time, out float x, out float z)
         {
-            // Time rarely goes back.
+            // Start again if the time has gone back.
             if (times[current] > time) current = 0;
             while (current + 1 < times.Count && times[current + 1] <= time) current++;
             var next = Math.Min(current + 1, times.Count - 1);

@@ -21,12 +21,12 @@ namespace Collektive.Headless
                 if (id != AllNodes && (id < 0 || id != row[1])) throw file.Error(line, "'id' must be a whole number of at least 0");
                 if (!byId.TryGetValue(id, out var rows)) byId[id] = rows = new List<double[]>();
                 if (rows.Count > 0 && !(row[2] > rows[rows.Count - 1][2]))
-                    throw file.Error(line, "the line needs a time after that of line " + rows[rows.Count - 1][3] + ", or another id");
+                    throw file.Error(line, "the time must be after that of line " + rows[rows.Count - 1][3] + ", or the id must differ");
                 rows.Add(row);
             }
         }
 
-        /// <summary>The node's last value until a time; NaN before the first one, and for nodes that are not in the file.</summary>
+        /// <summary>Returns the node's last value up to a time; NaN before the first one, and for nodes that are not in the file.</summary>
         public double ValueAt(int id, double time)
         {
             if (!byId.TryGetValue(id, out var rows) && !byId.TryGetValue(AllNodes, out rows)) return double.NaN;
@@ -34,7 +34,7 @@ namespace Collektive.Headless
             while (low < high)
             {
                 var middle = (low + high) / 2;
-                // NaN: from the start.
+                // A value without a time applies from the start.
                 if (rows[middle][2] > time) high = middle;
                 else low = middle + 1;
             }

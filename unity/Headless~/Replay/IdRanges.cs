@@ -6,13 +6,13 @@ namespace Collektive.Headless
     /// <summary>A set of ids as ranges. Ids that are assigned in order form few ranges.</summary>
     internal sealed class IdRanges
     {
-        // By range, ascending, with a gap between two ranges.
+        // The ranges in ascending order, with a gap between two ranges.
         private readonly List<int> first = new List<int>();
         private readonly List<int> last = new List<int>();
 
         internal void Add(int id)
         {
-            // The first range that ends at the id or after it.
+            // Returns the first range that ends at or after the id.
             var place = last.BinarySearch(id);
             if (place < 0) place = ~place;
             if (place < first.Count && first[place] <= id) return;

@@ -27,18 +27,18 @@ namespace Collektive.Headless
         /// <summary>By axis and slot.</summary>
         internal int[][] Positions { get; } = { new int[0], new int[0], new int[0] };
 
-        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 for no value, otherwise as in FORMAT.md.</summary>
+        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 without a value, otherwise as in FORMAT.md.</summary>
         internal int[][] Steps { get; }
 
         /// <summary>Number of links in the frame, each direction counted.</summary>
         internal int Links { get; set; }
 
-        /// <summary>Linked pairs of nodes that are kept.</summary>
+        /// <summary>Stored pairs of linked nodes.</summary>
         internal int PairCount { get; private set; }
 
         /// <summary>
-        /// Bits from 26 contain the lower slot of a pair, bits from 2 the higher one. Bit 0 is set for a link to the higher slot, bit 1 for one to
-        /// the lower slot. Sorted and unique after <see cref="End"/>.
+        /// The keys of pairs. Bits from 26 contain the lower slot of a pair, bits from 2 the higher one. Bit 0 is set for a link to the higher slot, bit 1 for
+        /// one to the lower slot. Sorted and unique after <see cref="End"/>.
         /// </summary>
         internal long[] LinkKeys { get; private set; } = new long[256];
 

@@ -6,8 +6,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The parts of a replay outside of its frames, in metres, seconds and Unity's axes. Fill it before the <see cref="ReplayWriter"/> is
-    /// made; later changes have no effect. Every number must be finite.
+    /// The parts of a replay outside of its frames, in metres, seconds and Unity's axes. Fill it before you create the <see cref="ReplayWriter"/>; later
+    /// changes have no effect. Every number must be finite.
     /// </summary>
     public sealed class ReplayMetadata
     {
@@ -33,8 +33,8 @@ namespace Collektive.Headless
 
         /// <summary>The space of the first view. The floor is at <paramref name="minY"/>.</summary>
         /// <param name="grows">
-        /// Whether it grows to include nodes that leave it: at each end of an axis by at most its longest side, so that a distant node does not make all
-        /// others small.
+        /// Whether it grows to include nodes outside it: at each end of an axis by at most its longest side, so that a distant node does not make all others
+        /// small.
         /// </param>
         public void SetArena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ, bool grows = false)
         {
@@ -102,7 +102,7 @@ namespace Collektive.Headless
             return new JObject
             {
                 ["title"] = Text(Title),
-                // Larger than JavaScript's exact integers.
+                // As text, because it may exceed JavaScript's exact integers.
                 ["seed"] = Seed.ToString(CultureInfo.InvariantCulture),
                 ["deltaTime"] = Number(DeltaTime),
                 ["nodeRadius"] = Number(NodeRadius),

@@ -14,7 +14,7 @@ namespace Collektive.Headless
         /// <summary>Adds the pose of the next frame: metres, and a unit quaternion. Call it once for each frame.</summary>
         public void Add(float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
         {
-            // Thousandths are precise enough for display, and short.
+            // Rounded to thousandths, which are precise enough for display and short.
             foreach (var number in new[] { x, y, z, rotationX, rotationY, rotationZ, rotationW }) poses.Add(Math.Round(ReplayMetadata.Number(number), 3));
         }
 

@@ -34,7 +34,7 @@ namespace Collektive.Headless
         /// <summary>Number of frames since the last <see cref="Encode"/>.</summary>
         internal int Count { get; private set; }
 
-        /// <summary>The next frame, empty.</summary>
+        /// <summary>Returns the next frame, which is empty.</summary>
         /// <param name="slots">Slots in use before the frame.</param>
         internal ReplayFrame Add(int slots)
         {
@@ -101,7 +101,7 @@ namespace Collektive.Headless
             WriteFloat(min);
             WriteFloat(max);
             least[field] = min;
-            // In double, because the difference of two floats may overflow.
+            // Computed in double, because the difference of two floats may overflow.
             scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
         }
 
@@ -152,7 +152,7 @@ namespace Collektive.Headless
             WritePairs(frame, before);
         }
 
-        /// <summary>Writes the links that one frame has and another lacks.</summary>
+        /// <summary>Writes the links of one frame that are missing in another.</summary>
         private void WritePairs(ReplayFrame of, ReplayFrame without)
         {
             WriteNumber((uint)WalkPairs(of, without, false));

@@ -46,7 +46,7 @@ namespace Collektive.Headless
         private long textLength;
 
         private readonly Dictionary<int, int> slotOfId = new Dictionary<int, int>();
-        // By slot: the current or last node.
+        // The current or last node of each slot.
         private readonly List<int> ids = new List<int>();
         // Slots of nodes that left before this segment, in descending order.
         private readonly List<int> free = new List<int>();
@@ -70,7 +70,7 @@ namespace Collektive.Headless
             scratch = ResultFile.Create(scratchPath);
         }
 
-        /// <summary>Writes no page. Each frame is a separate segment, so that a reader can miss others.</summary>
+        /// <summary>Creates a writer without a page. Each frame is a separate segment, so that a reader can miss others.</summary>
         /// <param name="live">Receives the bytes of each frame and their number; the array is reused.</param>
         internal ReplayWriter(ReplayMetadata metadata, Action<byte[], int> live)
             : this(metadata, 1)
@@ -192,7 +192,7 @@ namespace Collektive.Headless
             var template = File.ReadAllText(templatePath);
             var start = template.IndexOf(Placeholder, StringComparison.Ordinal);
             if (start < 0 || template.IndexOf(Placeholder, start + 1, StringComparison.Ordinal) >= 0)
-                throw new InvalidDataException(templatePath + " is not a replay template (it must hold " + Placeholder + " once): build it with build.mjs.");
+                throw new InvalidDataException(templatePath + " is not a replay template (it must contain " + Placeholder + " once): build it with build.mjs.");
             finished = true;
             if (segment.Count > 0) FlushSegment();
             scratch.Dispose();
@@ -267,7 +267,7 @@ namespace Collektive.Headless
             return (int)Math.Floor(Math.Max(-Limit, Math.Min(Limit, metres / positionStep)) + 0.5);
         }
 
-        /// <summary>The header of the frames so far; without a page, of the last frame.</summary>
+        /// <summary>Returns the header of the frames so far or, without a page, of the last frame.</summary>
         internal JObject Header()
         {
             metadata["arena"] = arena.ToJson();

@@ -1,4 +1,4 @@
-// Starts headless Chromium for pictures.mjs and test.mjs, with WebGL drawn by the processor and nothing fetched.
+// Starts headless Chromium for pictures.mjs and test.mjs, with WebGL on the processor and without network access.
 import { createRequire } from 'node:module';
 import { resolve } from 'node:path';
 

@@ -1,5 +1,5 @@
-// Builds the pages: node build.mjs FOLDER [NODE_MODULES] writes replay.html, the template of replay pages, live.html and live-view.html.
-// Libraries and esbuild come from NODE_MODULES, else from COLLEKTIVE_NODE_MODULES.
+// Builds the pages: node build.mjs FOLDER [NODE_MODULES] writes replay.html, the template of replay pages, live.html and live-view.html. Libraries and esbuild
+// come from NODE_MODULES, or else from COLLEKTIVE_NODE_MODULES.
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { dirname, join, resolve } from 'node:path';
@@ -23,7 +23,7 @@ const bundle = (entry) => buildSync({
 function write(name, html, css, script, placeholder) {
   const parts = { '/*STYLE*/': bundle(css), '/*PLACEHOLDER*/': placeholder, '/*SCRIPT*/': bundle(script).replaceAll('</script', '<\\/script') };
   const page = readFileSync(resolve(source, html), 'utf8').replace(/\/\*[A-Z]+\*\//g, (part) => parts[part]);
-  if (page.split(PLACEHOLDER).length !== (placeholder ? 2 : 1)) throw new Error(`${name} must hold ${PLACEHOLDER} once if it is a template.`);
+  if (page.split(PLACEHOLDER).length !== (placeholder ? 2 : 1)) throw new Error(`${name} must contain ${PLACEHOLDER} once if it is a template.`);
   writeFileSync(join(out, name), page);
 }
 

@@ -49,7 +49,7 @@ async function open(address, options = {}) {
   await tab.goto(address);
   const view = tab.frame({ url: /\/view$/ });
   await view.waitForFunction(() => window.replay.state?.().nodes.length > 0, null, { timeout: 30000, polling: 100 }).catch(async (error) => {
-    await context.close(); // it would control the simulation
+    await context.close(); // otherwise it would control the simulation
     throw error;
   });
   return { tab, view, complaints, close: () => context.close() };
@@ -75,7 +75,7 @@ async function eventually(read, holds, message, milliseconds = 15000) {
 
 const outcome = (tab) => tab.textContent('#outcome');
 
-/** Replaces a text of the program in the editor, and saves it with the keyboard. */
+/** Replaces text of the program in the editor, and saves it with the keyboard. */
 async function edit(tab, from, to) {
   await tab.evaluate(([before, after]) => {
     const { view } = window.live.files;
@@ -93,11 +93,11 @@ async function inaccessible(tab) {
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`);
 }
 
-/** Saves a picture. A browser that draws without a graphics card may be too busy for one while the simulation runs. */
+/** Saves a picture. While the simulation runs, a browser without a graphics card may be too busy to take one. */
 const picture = (tab, name) => tab.screenshot({ path: join(folder, `${name}.png`), timeout: 5000 })
   .catch((error) => console.error(`${name}: ${error.message}`));
 
-/** The status of a request with other headers. */
+/** Returns the status of a request with other headers. */
 const statusOf = (address, headers, path = '') => new Promise((resolve, reject) => {
   const url = new URL(path, address);
   request(url, { headers }, (response) => {

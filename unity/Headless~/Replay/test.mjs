@@ -56,7 +56,7 @@ const state = (tab) => tab.evaluate(() => {
 
 const seek = (tab, frame) => tab.evaluate((i) => window.replay.seek(i), frame);
 
-/** Waits for a frame, which may have to be read first. */
+/** Waits for a frame, which may have to be loaded first. */
 const arrives = (tab, frame, message) => eventually(tab, (now) => now.frame === frame, message);
 
 /** The canvas as it is drawn now. */
@@ -73,14 +73,14 @@ const colours = (tab) => tab.evaluate(() => {
   return new Set(new Uint32Array(to.getImageData(0, 0, from.width, from.height).data.buffer)).size;
 });
 
-/** Points of the page, each for four square pixels, where a click selects a node; the one in their middle first. */
+/** Points of the page where a click selects a node, one for every four square pixels, the middle one first. */
 const placesOf = (tab, node) => tab.evaluate((id) => {
   const found = [];
   for (let x = 0; x < window.innerWidth; x += 2) for (let y = 0; y < window.innerHeight; y += 2) if (window.replay.at(x, y) === id) found.push([x, y]);
   return [[0, 1].map((axis) => found.reduce((sum, point) => sum + point[axis], 0) / found.length), ...found];
 }, node);
 
-/** How many pixels of the picture are near a colour; `element` limits them to those below it. */
+/** Number of pixels of the picture near a colour; `element` limits them to those below it. */
 const pixels = (tab, wanted, element = '#canvas') => tab.evaluate(([rgb, selector]) => {
   window.replay.draw();
   const from = document.getElementById('canvas');
@@ -95,7 +95,7 @@ const pixels = (tab, wanted, element = '#canvas') => tab.evaluate(([rgb, selecto
 const ACCENT = [0xd6, 0x33, 0x6c];
 const BACKGROUND = [0xee, 0xf1, 0xf4];
 
-/** Waits until `holds` of the state is true. */
+/** Waits until `holds(state)` is true. */
 async function eventually(tab, holds, message) {
   let now;
   for (const end = Date.now() + 15000; Date.now() < end; await tab.waitForTimeout(50)) {
@@ -422,7 +422,7 @@ await suite('replay page', async (page) => {
       assert.ok(found > 200, `${found} colours`);
     });
 
-    // Shorter runs end before this test can observe them.
+    // Shorter runs would end before this test can observe them.
     await seek(tab, frames - 1);
     const plays = (await state(tab)).time >= 1;
 

@@ -54,7 +54,7 @@ export class Charts {
     };
   }
 
-  /** The width of an axis that holds some words. */
+  /** Returns the width of an axis with some labels. */
   widen(plot, words) {
     [plot.ctx.font] = plot.axes[1].font;
     for (const text of words) this.axis = Math.max(this.axis, Math.ceil(plot.ctx.measureText(text).width / devicePixelRatio) + 6);
@@ -81,7 +81,7 @@ export class Charts {
   redraw() {
     for (const { plot, figure } of this.charts) {
       plot.setSize({ width: this.widthOf(figure), height: HEIGHT });
-      plot.redraw(false, true); // rebuilding paths before the first picture would reset the scale
+      plot.redraw(false, true); // rebuilding paths before the first drawing would reset the scale
     }
   }
 }

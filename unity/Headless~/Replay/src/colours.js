@@ -1,5 +1,5 @@
-// The colours of values, as numbers 0xRRGGBB. The scales are perceptually uniform or at least ordered; Viridis and Cividis are readable in every
-// common colour blindness.
+// The colours of values, as numbers 0xRRGGBB. The scales are perceptually uniform or at least ordered. Viridis and Cividis are readable with all common forms
+// of colour blindness.
 import {
   interpolateCividis, interpolatePlasma, interpolateRdBu, interpolateTurbo, interpolateViridis, schemeObservable10,
 } from 'd3-scale-chromatic';

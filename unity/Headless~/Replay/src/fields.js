@@ -17,7 +17,7 @@ export function fieldsOf(recording) {
   return [...recorded, ...derived.filter(({ name }) => !recorded.some((field) => field.name === name)).map((field) => ({ words: [], ...field }))];
 }
 
-/** The values of a field at a node in each frame, null where it has none. Returns null once `needed` returns false. */
+/** Returns the values of a field at a node in each frame, null where it has none; or null once `needed` returns false. */
 export async function historyOf({ recording, fields }, { name }, id, needed) {
   const field = fields.find((each) => each.name === name);
   const values = [];
@@ -33,12 +33,12 @@ export async function historyOf({ recording, fields }, { name }, id, needed) {
   return values;
 }
 
-/** The slot of a node in a frame; -1 if it is missing. */
+/** Returns the slot of a node in a frame; -1 if it is missing. */
 export function slotOf({ slots, ids }, id) {
   return slots.find((slot) => ids[slot] === id) ?? -1;
 }
 
-/** The least and the greatest of some values; 0 without values. */
+/** Returns the least and the greatest of some values; 0 without values. */
 export function extent(values) {
   let [least, greatest] = [Infinity, -Infinity];
   for (const value of values) {
@@ -48,7 +48,7 @@ export function extent(values) {
   return least <= greatest ? { least, greatest } : { least: 0, greatest: 0 };
 }
 
-/** The index of the last of some times that is at or before one, else 0. */
+/** Returns the index of the last of `times` that is at or before a time; otherwise 0. */
 export function lastAt(times, time) {
   let low = 0;
   let high = times.length - 1;
@@ -64,7 +64,7 @@ export function nameOf({ name, unit }) {
   return name + (unit ? ` (${unit})` : '');
 }
 
-/** Formats a value with the words of its field. */
+/** Formats a value with the category names and the unit of its field. */
 export function textOf({ kind, unit, words }, value) {
   if (Number.isNaN(value)) return 'no value';
   if (kind === 'colour') return `#${value.toString(16).padStart(6, '0')}`;

@@ -7,7 +7,7 @@ const MAX_CATEGORIES = 8;
 const BARS = 24;
 
 export class Legend {
-  /** `onChange` is called with the function that colours a value after each choice. */
+  /** After each choice, `onChange` is called with the function that colours a value. */
   constructor(fields, onChange) {
     this.onChange = onChange;
     this.otherFields = [];
@@ -21,7 +21,7 @@ export class Legend {
     element('no-value').querySelector('i').style.background = css(NO_VALUE);
   }
 
-  /** Offers other fields; `choose` one of them afterwards. */
+  /** Offers other fields. Call `choose` for one of them afterwards. */
   setFields(fields) {
     this.fields = fields;
     element('field').replaceChildren(...fields.map((field) => option(nameOf(field))));
@@ -101,7 +101,7 @@ export class Legend {
     this.onChange();
   }
 
-  /** Describes the frame: its histogram or its categories, those with most nodes first, and whether some nodes have no value. */
+  /** Describes the frame: its histogram, or its categories (those with the most nodes first), and whether some nodes have no value. */
   show(frame) {
     this.frame = frame;
     if (this.shown === frame) return;

@@ -6,7 +6,7 @@ const KEPT_FRAMES = 300;
 const KEPT_ROWS = 600; // of metrics
 
 export class LiveRecording {
-  /** `header` as in FORMAT.md, with the names of the metrics and no frames. */
+  /** `header` is as in FORMAT.md, with the names of the metrics and without frames. */
   constructor(header) {
     Object.assign(this, header);
     this.times = [];
@@ -57,7 +57,7 @@ export class LiveRecording {
     return this.widen(frame);
   }
 
-  /** Shows a paused simulation's frame again, with other data. */
+  /** Replaces the last frame, for a paused simulation whose data has changed. */
   replaceLast(event, bytes) {
     this.latest = event;
     const index = this.count - 1;
@@ -83,7 +83,7 @@ export class LiveRecording {
       const isFirst = !field.known;
       const margin = 0.1 * (field.greatest - field.least);
       if (!isFirst && least >= field.least && greatest <= field.greatest) return;
-      // Not in small steps at each frame.
+      // Grows in large steps rather than at each frame.
       field.least = isFirst ? least : Math.min(field.least, least - (least < field.least ? margin : 0));
       field.greatest = isFirst ? greatest : Math.max(field.greatest, greatest + (greatest > field.greatest ? margin : 0));
       field.known = true;

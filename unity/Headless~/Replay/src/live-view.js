@@ -1,11 +1,11 @@
-// The view of the live page: shows a running simulation, whose events the page that contains it passes on.
+// The view of the live page. It shows a running simulation; the page that contains it passes on the events.
 import { element, part } from './dom.js';
 import { LiveRecording } from './live-recording.js';
 import { Player, plural, requireGraphics, showMessage } from './player.js';
 import { Run } from './run.js';
 import { commandsOf } from './scripting.js';
 
-const SLOW_MS = 60; // from the request of a picture to its drawing
+const SLOW_MS = 60; // from the request for a picture to its drawing
 const CHART_MS = 1000; // between two drawings of the charts
 
 class LivePlayer extends Player {
@@ -76,7 +76,7 @@ class LivePlayer extends Player {
     this.resize();
   }
 
-  /** Called before each picture. A machine that draws slowly rests between two pictures, and shows no times between frames. */
+  /** Called before each picture. A machine that draws slowly pauses between two pictures, and shows no times between frames. */
   tick(now) {
     const latency = now - this.requested;
     this.isSlow = latency > SLOW_MS;
@@ -177,7 +177,7 @@ class LivePlayer extends Player {
   }
 }
 
-/** Passes events of the simulation to the view. `send` gives it a command. */
+/** Passes events of the simulation to the view. `send` sends a command to the simulation. */
 export function connect(send) {
   let player = null;
   let pending = null; // a recording without frames
@@ -207,7 +207,7 @@ export function connect(send) {
         throw error;
       }
     },
-    /** A point in the middle of the view. */
+    /** Returns a point in the middle of the view. */
     get centre() {
       const { x, y, z } = player.view.controls.target;
       return [x, y, -z];

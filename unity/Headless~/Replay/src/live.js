@@ -52,7 +52,7 @@ class Files {
     return this.view.state.doc.toString();
   }
 
-  /** Shows the content of files on the disk. A file with unsaved changes keeps them. */
+  /** Shows the content of files on disk. A file with unsaved changes keeps them. */
   update(files) {
     for (const name of this.files.keys()) if (!(name in files)) this.files.delete(name);
     for (const [name, text] of Object.entries(files)) this.updateFile(name, text);
@@ -145,7 +145,7 @@ class Files {
     })));
   }
 
-  /** The place of a problem in the open file. */
+  /** Returns the place of a problem in the open file. */
   placeOf({ line, column }) {
     const { doc } = this.view.state;
     const { from, to } = doc.line(Math.min(Math.max(line, 1), doc.lines));
@@ -218,7 +218,7 @@ class Live {
     this.pass(JSON.parse(new TextDecoder().decode(bytes.subarray(0, end))), data.slice(end + 1));
   }
 
-  /** Gives an event to the view. */
+  /** Passes an event to the view. */
   pass(event, bytes) {
     if (!this.view) {
       this.waiting = [...this.waiting.filter(([each]) => each.event === 'header'), [event, bytes]].slice(-2);
@@ -236,7 +236,7 @@ class Live {
     }
   }
 
-  /** Reactions to events, by their names. */
+  /** Event handlers, by the names of events. */
   on = {
     welcome({ controls, title, files, editable, command, seed }) {
       element('name').textContent = title;
@@ -425,7 +425,7 @@ class Live {
   }
 }
 
-/** The value that all nodes share, or the first one. */
+/** Returns the value that all nodes share, or the first one. */
 function single(value) {
   return Array.isArray(value) ? value[0] : value;
 }

@@ -138,7 +138,7 @@ export class Player {
     if (this.here) this.refresh();
   }
 
-  /** Charts the field of the legend for the selected node, once all frames are read. */
+  /** Charts the legend's field for the selected node, once all frames are read. */
   async showHistory() {
     const { runs, selected } = this;
     const { field } = this.legend;
@@ -240,7 +240,7 @@ export class Player {
     this.show(this.time);
   }
 
-  /** Selects the node of that id; null: none. */
+  /** Selects the node with that id; null deselects. */
   select(id) {
     this.selected = id;
     element('find').value = id ?? '';
@@ -269,7 +269,7 @@ export class Player {
     element('scrub').max = this.clock.count - 1;
   }
 
-  /** Shows the run of another page, given as its HTML, beside this one; null: this one alone. */
+  /** Shows the run of another page, given as its HTML, beside this one; null shows this one alone. */
   async compare(page) {
     this.pause();
     if (page !== null) {
@@ -306,7 +306,7 @@ export class Player {
   }
 
   drawCharts() {
-    // Skip series of zeros, such as losses of an ideal network.
+    // Skips series of zeros, such as losses of an ideal network.
     const metrics = ({ recording: { metrics: { times, series } } }) => ({
       times, series: series.filter(({ values }) => values.some((value) => value)).map((each) => ({ kind: 'number', ...each })),
     });
@@ -403,7 +403,7 @@ export class Player {
     });
     element('deselect').addEventListener('click', () => {
       this.select(null);
-      element('canvas').focus(); // the focused button was removed
+      element('canvas').focus(); // because the focused button was removed
     });
     element('step-back').addEventListener('click', () => this.step(-1));
     element('step-on').addEventListener('click', () => this.step(1));
@@ -449,7 +449,7 @@ export class Player {
       down = event.isPrimary && event.button === 0 ? { x: event.clientX, y: event.clientY } : null;
     });
     canvas.addEventListener('pointerup', (event) => {
-      // A click, not the end of a rotation.
+      // Only a click, not the end of a rotation.
       if (!down || Math.hypot(event.clientX - down.x, event.clientY - down.y) > 4) return;
       this.select(run.here.ids[run.view.pick(event.offsetX, event.offsetY)] ?? null);
     });
@@ -470,7 +470,7 @@ export function plural(count, noun) {
   return `${count.toLocaleString('en')} ${noun}${count === 1 ? '' : 's'}`;
 }
 
-/** The number of links of a frame, each direction counted, and the number of visible links if not all. */
+/** Returns the number of links of a frame, each direction counted, and the number of visible links if some are hidden. */
 function linksOf({ linksInAll, links }) {
   return (linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(linksInAll, 'link');
 }

@@ -3,11 +3,11 @@
 import { lastAt } from './fields.js';
 
 const VERSION = 5;
-const KEPT_NODES = 1e6; // in all cached frames, about 30 bytes each
+const KEPT_NODES = 1e6; // nodes in all cached frames, about 30 bytes each
 const PAIR = 2 ** 26; // in a link's key: times the lesser slot
 export const TEXELS = 1024; // nodes in a row of a frame's texture
 
-/** Missing, damaged or incompatible data of the page. The message is for the reader of the page. */
+/** Missing, damaged or incompatible data of the page. The message is shown on the page. */
 export class ReplayError extends Error {}
 
 export async function open(text) {
@@ -67,17 +67,17 @@ class Recording {
     return this.ids.reduce((sum, id, i) => sum + (i % 2 === 0 ? -id : id + 1), 0);
   }
 
-  /** Whether a node of the run has that id. */
+  /** Returns whether a node of the run has that id. */
   has(id) {
     return this.ids.some((first, i) => i % 2 === 0 && first <= id && id <= this.ids[i + 1]);
   }
 
-  /** The last frame at or before a time; the first one for earlier times. */
+  /** Returns the last frame at or before a time; the first one for earlier times. */
   frameAt(time) {
     return lastAt(this.times, time);
   }
 
-  /** Returns the frame if its segment is loaded, else null: `load` it first. */
+  /** Returns the frame, or null if its segment is not loaded (see `load`). */
   frame(index) {
     const segment = this.open.get(Math.floor(index / this.framesPerSegment));
     return segment ? segment.frame(index % this.framesPerSegment) : null;
@@ -115,7 +115,7 @@ export class Segment {
     this.bytes = new Uint8Array(buffer);
     const data = new DataView(buffer);
     this.at = 0;
-    // By field: a number from a code, which is positive.
+    // By field: converts a code, which is positive, to a number.
     this.decoders = recording.fields.map(({ kind }) => {
       if (kind !== 'number') return (code) => ((code - 1) >>> 1) ^ -((code - 1) & 1);
       const [min, max] = [data.getFloat32(this.at, true), data.getFloat32(this.at + 4, true)];

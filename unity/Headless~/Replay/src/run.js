@@ -23,7 +23,7 @@ export class Run {
     return Promise.all([recording.load(frame), recording.load(Math.min(frame + 1, recording.count - 1))]);
   }
 
-  /** Shows a time and returns whether its frames are loaded. `id` is the id of the selected node; for the rest see `View.show`. */
+  /** Shows a time and returns whether its frames are loaded. `id` is the id of the selected node; for the other parameters see `View.show`. */
   show(time, id, { trails, ...how }) {
     const { recording, view } = this;
     const { times } = recording;
@@ -55,7 +55,7 @@ export class Run {
     });
   }
 
-  /** The current value of a field at a node, as text. */
+  /** Returns the current value of a field at a node, as text. */
   textAt({ name }, id) {
     const field = this.fields.find((each) => each.name === name);
     return field ? textOf(field, field.valuesOf(this.here)[slotOf(this.here, id)] ?? NaN) : 'no value';

@@ -5,7 +5,7 @@ export function commandsOf(player) {
   return {
     frames: recording.count,
     metadata: recording.metadata,
-    /** Both return a promise where the frame must be read first. */
+    /** Both return a promise if the frame must be read first. */
     seek: (frame) => player.seek(frame),
     show: (time) => player.show(time),
     play: () => player.play(),
@@ -21,7 +21,7 @@ export function commandsOf(player) {
     /** Names of the fields that can colour the nodes, and the selection of one. */
     fields: player.fields.map(({ name }) => name),
     colourBy: (name) => player.legend.choose(player.fields.findIndex((field) => field.name === name)),
-    /** Both runs, the other one from its page's HTML; null ends it. */
+    /** Shows a second run, given as its page's HTML; null ends the comparison. */
     compare: (page) => player.compare(page),
     /** The current frame as recorded, in Unity's axes. */
     state: () => {

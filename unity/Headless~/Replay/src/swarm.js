@@ -7,7 +7,7 @@ import {
 import { TEXELS } from './recording.js';
 import { Trails } from './trails.js';
 
-const DETAILED_NODES = 3000; // more than these get fewer triangles and no shadow
+const DETAILED_NODES = 3000; // more nodes than this have fewer triangles and no shadow
 const OUTLINE = 1.16; // times the node's radius
 
 const PLACES = /* glsl */`
@@ -20,7 +20,7 @@ vec4 texelOf(float slot) {
   return vec4(mix(from.xyz, to.xyz, to.w < 0.0 ? 0.0 : share) * vec3(1.0, 1.0, -1.0), from.w);
 }
 `;
-// A shape is a ball or an upright capsule. Its z axis points to the eye, so half of it is enough.
+// A shape is a sphere or an upright capsule. Its z axis points to the eye, so half of it is enough.
 const NODE = /* glsl */`
 attribute float slot;
 varying vec3 tint;
@@ -41,9 +41,9 @@ vec3 bodyPoint(vec3 v, vec3 centre) {
 `;
 
 export class Swarm {
-  /** `slots` and `links` are the most that `show` will be given; `materials` those of the theme: `outline`, `halo`, `link`, `accentLine`, `trail`. */
+  /** `slots` and `links` are the maximum numbers in calls of `show`; `materials` are those of the theme: `outline`, `halo`, `link`, `accentLine`, `trail`. */
   constructor(scene, slots, links, materials) {
-    this.colours = null; // of a frame, by slot
+    this.colours = null; // see setColours
     this.detailed = slots <= DETAILED_NODES;
     const rows = Math.max(Math.ceil(slots / TEXELS), 1);
     this.textures = [0, 1].map(() => new DataTexture(null, TEXELS, rows, RGBAFormat, FloatType));
@@ -87,7 +87,7 @@ export class Swarm {
     this.uniforms.halfLength.value = halfLength;
   }
 
-  /** Colours the nodes from now on: `colours` takes a frame and gives the colour of a slot, 0xRRGGBB. */
+  /** Sets the colours of nodes: `colours` returns a function from slots to colours, 0xRRGGBB, for a frame. */
   setColours(colours) {
     this.colours = colours;
     for (const texture of this.textures) texture.frame = null;

@@ -19,7 +19,7 @@ export class Trails {
     const frames = [];
     for (let i = first; i <= frame.index; i++) frames.push(recording.frame(i));
     if (slots.length > 0 && frames.includes(null)) {
-      // At most two segments apart.
+      // The trails span at most two segments.
       Promise.all([recording.load(first), recording.load((first + frame.index) >> 1)]).then(again, () => {}); // reported on the page
     }
     this.draw(frames, slots);

@@ -21,10 +21,10 @@ const THEMES = {
 };
 const RING_PIXELS = 30; // minimum diameter of the mark of the selected node
 const FOLLOWED_PIXELS = 12; // minimum radius of a followed node
-const LINE_GAP = 0.012; // metres between the floor and its lines, against flicker
+const LINE_GAP = 0.012; // metres between the floor and its lines, to avoid flicker
 
 export class View {
-  /** Fills the canvas and the labels of `holder`. `slots` and `maxPairs` are the most that `show` will be given. */
+  /** Fills the canvas and the labels of `holder`. `slots` and `maxPairs` are the maximum numbers in calls of `show`. */
   constructor(holder, { metadata, movers, slots, maxPairs }) {
     this.holder = holder;
     const canvas = holder.querySelector('canvas');
@@ -182,7 +182,7 @@ export class View {
     this.request();
   }
 
-  /** Fits the view to its place in the page; `insets` are the pixels at each side that the page's panels cover. */
+  /** Fits the view to its place in the page; `insets` are the pixels at each side that panels cover. */
   resize(left, width, height, insets) {
     Object.assign(this.holder.style, { left: `${left}px`, width: `${width}px` });
     this.insets = insets;
@@ -251,12 +251,12 @@ export class View {
     this.request();
   }
 
-  /** Metres of a pixel at a metre from the eye. */
+  /** Returns the metres that a pixel covers at a distance of one metre from the eye. */
   get pixel() {
     return (2 * Math.tan((this.camera.fov * Math.PI) / 360)) / this.height;
   }
 
-  /** Pixels that a node's radius takes in the middle of the picture when drawn at its real size. */
+  /** Returns the pixels that a node's radius covers in the middle of the picture when drawn at its real size. */
   get nodePixels() {
     return this.radius / (this.pixel * this.camera.position.distanceTo(this.controls.target));
   }
@@ -338,7 +338,7 @@ export class View {
       if (point.z > 1) continue;
       const distance = Math.hypot(((point.x + 1) / 2) * this.width - x, ((1 - point.y) / 2) * this.height - y);
       const reach = Math.max(uniforms.radius.value / (this.pixel * depth), 9);
-      // The front node at the point wins, otherwise the nearest one on the screen.
+      // Selects the front node at the point, otherwise the nearest one on the screen.
       const score = distance <= reach ? distance / reach + depth * 1e-3 : Infinity;
       if (score < bestScore) {
         best = slot;
@@ -408,7 +408,7 @@ function geometryOf(shape) {
   const geometry = new BufferGeometry();
   const points = new Float32Array(shape.vertices).map((x, i) => (i % 3 === 2 ? -x : x));
   geometry.setAttribute('position', new BufferAttribute(points, 3));
-  // Mirrored triangles have their corners in the other order.
+  // Mirrored triangles need their corners in reverse order.
   geometry.setIndex(shape.triangles.map((_, i) => shape.triangles[3 * Math.floor(i / 3) + 2 - (i % 3)]));
   const flat = geometry.toNonIndexed();
   flat.computeVertexNormals();
