@@ -11,7 +11,7 @@ namespace Collektive.Headless.Bench
             "Bench --java-home DIR --host-jar JAR --jar JAR [--jar JAR]... --out FILE [--quick] [--nodes N,N...]";
 
         /// <summary>
-        /// Options of both JVMs: those of the product, and a fixed heap that is in memory from the start.
+        /// Options of both JVMs: the package's defaults, and a heap of fixed size that is in memory from the start.
         /// </summary>
         internal static readonly string[] JvmOptions =
             { "-Xms768m", "-Xmx768m", "-XX:+AlwaysPreTouch", "-XX:+UseSerialGC", "-XX:MaxTenuringThreshold=2", "-XX:+UseCondCardMark" };
@@ -65,7 +65,7 @@ namespace Collektive.Headless.Bench
         private static int Count(string text)
         {
             if (int.TryParse(text, NumberStyles.None, CultureInfo.InvariantCulture, out var count) && count > 0 && count <= 1000000) return count;
-            throw new BenchException("--nodes " + text + ": numbers from 1 to 1000000, with commas between them");
+            throw new BenchException("--nodes " + text + ": use numbers from 1 to 1000000, separated by commas");
         }
     }
 }

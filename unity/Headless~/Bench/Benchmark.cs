@@ -43,7 +43,7 @@ namespace Collektive.Headless.Bench
             Gates.Print(rows, Console.Out);
         }
 
-        /// <summary>Runs first, because a JVM in this process stays until the end.</summary>
+        /// <summary>Must run first, because a JVM in this process remains until the end.</summary>
         private void RunOwnProcess()
         {
             Start(JvmPlacement.OwnProcess);
@@ -116,8 +116,8 @@ namespace Collektive.Headless.Bench
             calls = Jvm.StepCalls - calls;
             if (calls != (ulong)(count * variant.CallsPerTick))
             {
-                throw new BenchException(variant.Row.Variant + " made " + calls + " calls into the JVM in " + count + " ticks, not " + variant.CallsPerTick
-                    + " a tick");
+                throw new BenchException(variant.Row.Variant + " made " + calls + " calls into the JVM in " + count + " ticks instead of "
+                    + variant.CallsPerTick + " per tick");
             }
             jvm = variant.JvmBytes() - jvm;
             if (variant.Rounds != null) variant.Row.AddRounds(variant.Rounds, count);
@@ -128,7 +128,7 @@ namespace Collektive.Headless.Bench
         private static int Weight(Variant variant) => variant is PerNodeCall ? variant.Row.Nodes * 20 : variant is Spawn ? variant.Row.Nodes * 4
             : variant.Row.Nodes;
 
-        /// <summary>Ticks until the compilers are done, at least enough to fill the caches.</summary>
+        /// <summary>Number of ticks until the compilers are done, and at least enough to fill the caches.</summary>
         private int WarmUp(int weight) => Math.Max(10, (settings.Quick ? 1500000 : 4000000) / Math.Max(weight, 400));
 
         private int BatchSize(int weight, bool paced) => paced ? 50

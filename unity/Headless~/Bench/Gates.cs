@@ -4,7 +4,7 @@ using System.IO;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>The required speed on an idle machine with two cores, and the measured one.</summary>
+    /// <summary>Compares the measured speed with the required speed on an idle machine with two cores.</summary>
     internal static class Gates
     {
         internal static void Print(List<Row> rows, TextWriter output)
@@ -55,7 +55,7 @@ namespace Collektive.Headless.Bench
 
         private static void AtLeast(TextWriter output, string what, double value, double limit) => Line(output, what, value, "at least", limit, value >= limit);
 
-        /// <summary>Prints a value that contributes to a required one.</summary>
+        /// <summary>Prints a value that is part of a required value.</summary>
         private static void Part(TextWriter output, string what, double value) =>
             output.WriteLine(string.Format(CultureInfo.InvariantCulture, "{0,-44} {1,10:0.0#}", what, value));
 

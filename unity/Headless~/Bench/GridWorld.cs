@@ -7,8 +7,8 @@ using org.collektive.schema;
 namespace Collektive.Headless.Bench
 {
     /// <summary>
-    /// The benchmark's world: nodes on a grid with 1 m spacing, as square as possible, each linked to its (up to) eight neighbours. The Kotlin side
-    /// builds the same one.
+    /// The benchmark's world: nodes on a grid with 1 m spacing, as square as possible, each linked to its (up to) eight neighbours. The Kotlin side builds the
+    /// same world.
     /// </summary>
     internal sealed class GridWorld
     {
@@ -48,7 +48,7 @@ namespace Collektive.Headless.Bench
             for (var node = 0; node < Size; node++) request.RemoveNode(node);
         }
 
-        /// <summary>Makes all nodes due, with their sensor data of a tick.</summary>
+        /// <summary>Makes all nodes due, with their sensor data for a tick.</summary>
         internal void Sense(StepRequest request, long tick)
         {
             request.ClearDue();

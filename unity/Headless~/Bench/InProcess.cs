@@ -63,7 +63,7 @@ namespace Collektive.Headless.Bench
         }
     }
 
-    /// <summary>The same with pauses as in a game, in which caches and cores cool down.</summary>
+    /// <summary>The same with pauses as in a game, during which caches and cores cool down.</summary>
     internal sealed class PacedInProcess : InProcess
     {
         internal PacedInProcess(BenchSettings settings, AllocationProbe probe, int nodes, int threads)
@@ -76,7 +76,7 @@ namespace Collektive.Headless.Bench
         protected override void Pause() => Measurement.Pause();
     }
 
-    /// <summary>One call per node over the same shim, as in collektive.unity.</summary>
+    /// <summary>One call per node through the same shim, as in collektive.unity.</summary>
     internal sealed class PerNodeCall : InProcess
     {
         internal PerNodeCall(BenchSettings settings, AllocationProbe probe, int nodes, int threads)
@@ -101,14 +101,14 @@ namespace Collektive.Headless.Bench
         }
     }
 
-    /// <summary>Each tick adds all nodes with their links. All leave again between two ticks.</summary>
+    /// <summary>Each tick adds all nodes with their links. All nodes leave again between two ticks.</summary>
     internal sealed class Spawn : InProcess
     {
         internal Spawn(BenchSettings settings, AllocationProbe probe, int nodes, int threads) : base(settings, probe, "spawn", "in-process", nodes, threads)
         {
         }
 
-        /// <summary>The tick in between counts too.</summary>
+        /// <summary>Includes the tick in between.</summary>
         internal override int CallsPerTick => 2;
 
         protected override void Prepare()

@@ -13,7 +13,7 @@ namespace Collektive.Headless.Bench
 
         internal static double Micros(long begin, long end) => (end - begin) * 1e6 / Stopwatch.Frequency;
 
-        /// <summary>Waits as long as a game does between two ticks.</summary>
+        /// <summary>Waits as long as a game waits between two ticks.</summary>
         internal static void Pause() => Thread.Sleep(PaceMs);
     }
 }

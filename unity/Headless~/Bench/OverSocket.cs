@@ -5,7 +5,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Headless.Bench
 {
-    /// <summary>Sends the same frames to a second process over TCP on loopback, with no delay and with one write and one read per tick.</summary>
+    /// <summary>Sends the same frames to a second process over TCP on loopback, with TCP_NODELAY, and with one write and one read per tick.</summary>
     internal sealed class OverSocket : Variant
     {
         private readonly Peer peer;

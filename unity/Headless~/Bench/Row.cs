@@ -46,7 +46,7 @@ namespace Collektive.Headless.Bench
 
         internal double JvmBytes => Least(jvmBytes);
 
-        /// <summary>Additional values of this kind of row.</summary>
+        /// <summary>Additional values for this kind of row.</summary>
         internal JObject More { get; } = new JObject();
 
         /// <summary>Adds a batch: the microseconds of its ticks, and the bytes per tick; negative when unknown.</summary>

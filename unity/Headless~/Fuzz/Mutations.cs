@@ -61,7 +61,7 @@ namespace Collektive.Fuzz
                     break;
                 case 6:
                     if (random.Next(20) > 0) break;
-                    // Deep nesting is a separate risk.
+                    // Deep nesting, which is a separate risk.
                     bytes.InsertRange(at, Encoding.ASCII.GetBytes(new string(random.Next(2) == 0 ? '[' : '{', random.Next(100000))));
                     break;
             }

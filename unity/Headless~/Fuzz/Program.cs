@@ -8,8 +8,8 @@ using Collektive.Headless;
 namespace Collektive.Fuzz
 {
     /// <summary>
-    /// Reads damaged scenario files and manifests. Each is read, or rejected with a message that names the file. Arguments: corpus, folder for findings,
-    /// seconds, seed, and optionally a file for JUnit XML. The files of the corpus are first read unchanged. The exit code is 1 with findings.
+    /// Reads damaged scenario files and manifests. Each must be read, or rejected with a message that names the file. Arguments: corpus, folder for findings,
+    /// seconds, seed, and optionally a file for JUnit XML. The files of the corpus are first read unchanged. The exit code is 1 if there are findings.
     /// </summary>
     internal static class Program
     {
@@ -73,7 +73,7 @@ namespace Collektive.Fuzz
             }
             catch (ScenarioException error)
             {
-                return (error.Message.Contains("scenario.json") ? Slow(clock) : "the message names no file: " + error.Message, false);
+                return (error.Message.Contains("scenario.json") ? Slow(clock) : "the message does not name the file: " + error.Message, false);
             }
             catch (Exception error)
             {

@@ -79,7 +79,7 @@ namespace Collektive.Headless
         {
             if (double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out var value) && !double.IsNaN(value) && !double.IsInfinity(value))
                 return value;
-            throw Error(line, "'" + name + "' is '" + text + "', it must be a number");
+            throw Error(line, "'" + name + "' is '" + text + "'; it must be a number");
         }
 
         private List<string> Cells(string line, int number)

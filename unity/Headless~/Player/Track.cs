@@ -42,7 +42,7 @@ namespace Collektive.Headless
                 : extension != ".geojson" && extension != ".json" ? throw file.Error(0, "the name must end in .csv, .geojson, .json or .gpx")
                 : isMoving ? throw file.Error(0, "GeoJSON has no times: use a CSV or GPX file") : FromGeoJson(file);
             if (tracks.Count == 0) throw file.Error(0, "the file contains no points");
-            if (tracks.Count > MaxTracks) throw file.Error(0, "the file has " + tracks.Count + " nodes, at most " + MaxTracks + " are possible");
+            if (tracks.Count > MaxTracks) throw file.Error(0, "the file has " + tracks.Count + " nodes; the maximum is " + MaxTracks);
             return tracks;
         }
 
@@ -89,7 +89,7 @@ namespace Collektive.Headless
                 var line = (int)row[6];
                 var given = double.IsNaN(row[0]) ? tracks.Count : row[0];
                 if (!(given >= 0 && given <= MaxId && given == Math.Floor(given)))
-                    throw file.Error(line, "'id' is " + given.ToString(CultureInfo.InvariantCulture) + ", it must be a whole number from 0 to " + MaxId);
+                    throw file.Error(line, "'id' is " + given.ToString(CultureInfo.InvariantCulture) + "; it must be a whole number from 0 to " + MaxId);
                 if (!byId.TryGetValue((int)given, out var track)) tracks.Add(byId[(int)given] = track = new Track((int)given, line));
                 if (isGeographic) RequireGeographic(file, line, row[3], row[4]);
                 track.Add(file, line, row[5], row[first], row[first + 1]);
@@ -144,7 +144,7 @@ namespace Collektive.Headless
                 if (child.Name.LocalName != "time") continue;
                 if (DateTimeOffset.TryParse(child.Value, CultureInfo.InvariantCulture, DateTimeStyles.AssumeUniversal, out var time))
                     return time.UtcTicks / (double)TimeSpan.TicksPerSecond;
-                throw file.Error(LineOf(child), "'time' is '" + child.Value + "', it must be like 2026-01-31T12:00:00Z");
+                throw file.Error(LineOf(child), "'time' is '" + child.Value + "'; it must be like 2026-01-31T12:00:00Z");
             }
             throw file.Error(LineOf(point), "the point has no time");
         }

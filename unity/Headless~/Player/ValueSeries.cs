@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Headless
 {
-    /// <summary>Values over time of each node, or of all nodes together, from a CSV file with the columns value, and optionally id and time.</summary>
+    /// <summary>Values over time of each node, or of all nodes together, from a CSV file with the column value, and optionally id and time.</summary>
     public sealed class ValueSeries
     {
         private const int AllNodes = -1;

@@ -15,7 +15,7 @@ namespace Collektive.Standard
         private readonly float[] x;
         private readonly float[] z;
 
-        /// <param name="places">Of a file.</param>
+        /// <param name="places">The places in a file.</param>
         internal Area(Deployment deployment, List<Obstacle> obstacles, List<Vector3> places)
         {
             this.deployment = deployment;
@@ -31,7 +31,7 @@ namespace Collektive.Standard
 
         internal static bool IsFinite(float number) => !float.IsNaN(number) && !float.IsInfinity(number);
 
-        /// <summary>Columns of a grid.</summary>
+        /// <summary>Number of columns of a grid.</summary>
         internal int Columns => deployment.columns > 0 ? deployment.columns : Mathf.CeilToInt(Mathf.Sqrt(deployment.nodes));
 
         /// <summary>Returns a uniform random free place; null if almost none is free.</summary>
@@ -45,7 +45,7 @@ namespace Collektive.Standard
             return null;
         }
 
-        /// <summary>Whether no obstacle covers a place.</summary>
+        /// <summary>Returns whether no obstacle covers a place.</summary>
         internal bool IsFree(Vector3 place)
         {
             foreach (var obstacle in obstacles)
@@ -105,7 +105,7 @@ namespace Collektive.Standard
             return bounds;
         }
 
-        /// <summary>Whether a place is inside a polygon: a line from it crosses the sides an odd number of times.</summary>
+        /// <summary>Returns whether a place is inside a polygon: a ray from it crosses the sides an odd number of times.</summary>
         private static bool IsInside(List<float[]> corners, Vector3 place)
         {
             var isInside = false;

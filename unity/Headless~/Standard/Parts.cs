@@ -27,7 +27,7 @@ namespace Collektive.Standard
         protected override void Write(ref SensorData data, Vector3 velocity) => data.Velocity = velocity;
     }
 
-    /// <summary>Moves the node's body with the program's velocity.</summary>
+    /// <summary>Moves the node's body at the program's velocity.</summary>
     public sealed class VelocityActuator : SetVelocityActuator<ActuatorData>
     {
         protected override Vector3 Read(ActuatorData data) => data.Velocity;

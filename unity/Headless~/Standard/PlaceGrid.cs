@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>Places by square cells, about as wide as the distance to keep between them.</summary>
+    /// <summary>Places in square cells, which are about as wide as the minimum distance between places.</summary>
     internal sealed class PlaceGrid
     {
         private readonly Dictionary<(int, int), List<Vector3>> cells = new Dictionary<(int, int), List<Vector3>>();
@@ -29,7 +29,7 @@ namespace Collektive.Standard
             return true;
         }
 
-        // Slightly wider: rounding must not put near places two cells apart.
+        // Slightly wider, so that rounding does not put near places two cells apart.
         private int CellOf(float coordinate) => least > 0 ? (int)Math.Floor(coordinate / (1.001 * least)) : 0;
     }
 }

@@ -31,7 +31,7 @@ namespace Collektive.Standard
         /// <summary>Metres between the nodes of a grid, or the minimum distance for Poisson.</summary>
         public float spacing = 3;
 
-        /// <summary>Columns of a grid; 0 for as many as rows.</summary>
+        /// <summary>Number of columns of a grid; 0 for a square grid.</summary>
         public int columns;
 
         /// <summary>Maximum random offset of the nodes of a grid, in metres along each axis.</summary>
@@ -56,17 +56,17 @@ namespace Collektive.Standard
         /// <summary>SQL with the columns id, time, x, y and z.</summary>
         public string expression = "";
 
-        /// <summary>A CSV file in the scenario's folder of data, with the columns value, and optionally id and time.</summary>
+        /// <summary>A CSV file in the scenario's data folder, with the column value, and optionally id and time.</summary>
         public string file = "";
     }
 
-    /// <summary>A named set of nodes: given ids, and the nodes that are initially nearest to a point.</summary>
+    /// <summary>A named set of nodes: those with given ids, and those that are initially nearest to a point.</summary>
     public sealed class NodeSet
     {
         public string name = "";
         public int[] ids = { };
 
-        /// <summary>The point as [x, z]; empty for the ids alone.</summary>
+        /// <summary>The point as [x, z]; empty for only the ids.</summary>
         public float[] near = { };
 
         /// <summary>Number of nodes nearest to the point.</summary>
@@ -126,7 +126,7 @@ namespace Collektive.Standard
         /// <summary>Nodes do not move.</summary>
         None,
 
-        /// <summary>Nodes move to one uniform random point of the area after another.</summary>
+        /// <summary>Nodes move from one uniform random point of the area to the next.</summary>
         RandomWaypoint,
 
         /// <summary>Nodes move on straight lines with power-law lengths in uniform directions, reflected by the area's bounds.</summary>
@@ -138,7 +138,7 @@ namespace Collektive.Standard
         /// <summary>The program's answer is a target, approached by physics.</summary>
         Target,
 
-        /// <summary>The times in the deployment's file.</summary>
+        /// <summary>Nodes follow the times in the deployment's file.</summary>
         Trace,
     }
 

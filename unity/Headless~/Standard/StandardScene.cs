@@ -60,7 +60,7 @@ namespace Collektive.Standard
 
         internal bool IsSource(uint bits) => (bits & source) != 0;
 
-        /// <summary>The value of the expression or file; 0: none.</summary>
+        /// <summary>Returns the value of the expression or file; 0 without one.</summary>
         internal double ReadingOf(Node node)
         {
             var place = node.Position;
@@ -108,7 +108,7 @@ namespace Collektive.Standard
 
         private static string ProblemOf(string field, List<float[]> polygon)
         {
-            if (polygon.Count == 1 || polygon.Count == 2) return "'" + field + "' has " + polygon.Count + " corners, it needs at least 3";
+            if (polygon.Count == 1 || polygon.Count == 2) return "'" + field + "' has " + polygon.Count + " corners; it needs at least 3";
             return polygon.TrueForAll(Area.IsPoint) ? null : "'" + field + "' must be a list of [x, z]";
         }
 
@@ -156,7 +156,7 @@ namespace Collektive.Standard
 
         private string ProblemOfSets()
         {
-            if (sets.Count > MaxSets) return "'sets' has " + sets.Count + " sets, at most " + MaxSets + " are possible";
+            if (sets.Count > MaxSets) return "'sets' has " + sets.Count + " sets; the maximum is " + MaxSets;
             for (var i = 0; i < sets.Count; i++)
             {
                 var set = sets[i];
@@ -313,7 +313,7 @@ namespace Collektive.Standard
                 var point = new Vector3(sets[i].near[0], 0, sets[i].near[1]);
                 found.Clear();
                 found.AddRange(manager.Nodes);
-                // At equal distances the smaller id.
+                // At equal distances, the node with the smaller id comes first.
                 found.Sort((a, b) =>
                 {
                     var difference = SquaredDistance(a, point).CompareTo(SquaredDistance(b, point));
@@ -368,7 +368,7 @@ namespace Collektive.Standard
 
         private void Fail(double probability)
         {
-            // Copy the list first, because nodes that leave change the manager's.
+            // Copies the list first, because nodes that leave change the manager's list.
             failing.Clear();
             foreach (var node in manager.Nodes)
             {

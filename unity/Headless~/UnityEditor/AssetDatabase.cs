@@ -49,7 +49,7 @@ namespace UnityEditor
             PrefabFile.Save((UnityEngine.GameObject)obj);
         }
 
-        /// Prefabs become objects that are in no scene, and importers make other assets. Any other file that exists is an asset without content.
+        /// Prefabs become objects outside any scene, and importers create other assets. Any other existing file is an asset without content.
         public static T LoadAssetAtPath<T>(string assetPath) where T : Object
         {
             AssetState.CheckCall();

@@ -21,7 +21,7 @@ namespace UnityEditor
 
     public class GenericMenu
     {
-        /// The menu that was shown last, for tests.
+        /// The last menu that was shown, for tests.
         internal static GenericMenu Shown { get; private set; }
 
         readonly Dictionary<string, MenuFunction> items = new Dictionary<string, MenuFunction>();

@@ -28,7 +28,7 @@ namespace UnityEditor
         /// Executes the menu entry with that path, without a context. Returns false if it does not exist.
         public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath);
 
-        /// One round of the editor's loop. Calls that are added in it are for the next one.
+        /// Runs one iteration of the editor's loop. Calls that are added during it run in the next one.
         internal static void Tick()
         {
             var delayed = delayCall;

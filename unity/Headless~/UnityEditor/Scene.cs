@@ -25,7 +25,7 @@ namespace UnityEditor
 
     public static class ObjectFactory
     {
-        /// Puts the object below the parent, if any, where it loses its position, rotation and scale, with a unique name, and selects it.
+        /// Moves the object below the parent, if any, and resets its position, rotation and scale. Gives it a unique name and selects it.
         public static void PlaceGameObject(GameObject go, GameObject parent = null)
         {
             if (parent != null)

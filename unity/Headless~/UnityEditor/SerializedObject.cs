@@ -7,7 +7,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
-    /// A copy of the serialised fields of one or several objects; changes arrive with `ApplyModifiedProperties`, which can be undone.
+    /// A copy of the serialised fields of one or several objects. `ApplyModifiedProperties` writes changes back, and can be undone.
     public class SerializedObject : IDisposable
     {
         internal readonly SerializedFields[] Copies;

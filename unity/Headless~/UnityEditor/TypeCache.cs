@@ -13,7 +13,7 @@ namespace UnityEditor
             foreach (var assembly in AppDomain.CurrentDomain.GetAssemblies())
             {
                 if (assembly.IsDynamic) continue;
-                // Others, such as Mono's own on CoreCLR, may lack types that they refer to.
+                // Types of other assemblies, such as Mono's own on CoreCLR, may refer to missing types.
                 if (assembly != typeof(T).Assembly && !Array.Exists(assembly.GetReferencedAssemblies(), name => name.Name == owner)) continue;
                 foreach (var type in assembly.GetTypes())
                     if (type != typeof(T) && typeof(T).IsAssignableFrom(type)) found.Add(type);

@@ -2,24 +2,24 @@ using System;
 
 namespace UnityEditor.Headless
 {
-    /// Times at which calls of the asset database throw, since Unity 6000.4.
+    /// Simulates the times at which calls of the asset database throw, since Unity 6000.4.
     public static class AssetState
     {
         static bool isReloading, isImporting;
 
-        /// Does what the editor does while it reloads code.
+        /// Runs an action in the state in which the editor reloads code.
         public static void Reload(Action action) => During(ref isReloading, action);
 
-        /// Does what the editor does while it imports an asset.
+        /// Runs an action in the state in which the editor imports an asset.
         public static void Import(Action action) => During(ref isImporting, action);
 
-        /// At the start of each call.
+        /// Must be called at the start of each call of the asset database.
         internal static void CheckCall()
         {
             if (isReloading) throw new InvalidOperationException("The asset database cannot be used while code is reloaded.");
         }
 
-        /// At the start of each call that changes assets.
+        /// Must be called at the start of each call that changes assets.
         internal static void CheckChange()
         {
             CheckCall();

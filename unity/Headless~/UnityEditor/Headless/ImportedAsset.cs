@@ -9,8 +9,8 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor.Headless
 {
-    /// The objects that a scripted importer created from a file. A later import changes the objects that are still there, as Unity does, so that
-    /// references to them remain.
+    /// The objects that a scripted importer created from a file. As in Unity, a later import changes the existing objects, so that references to them remain
+    /// valid.
     sealed class ImportedAsset
     {
         static readonly Dictionary<string, ImportedAsset> Known = new Dictionary<string, ImportedAsset>();
@@ -50,7 +50,7 @@ namespace UnityEditor.Headless
             return "";
         }
 
-        /// Tests have a project each.
+        /// A full path, because each test has its own project.
         static string KeyOf(string path) => Path.GetFullPath(Project.FileOf(path));
 
         /// The object that a scene refers to by this id.

@@ -59,14 +59,14 @@ namespace UnityEditor.Headless
             return DrawerOf(field.FieldType);
         }
 
-        /// The entries of the context menu that was shown last.
+        /// The entries of the last context menu that was shown.
         public static IEnumerable<string> ContextItems => GenericMenu.Shown.Items;
 
         public static void PickContextItem(string item) => GenericMenu.Shown.Pick(item);
 
         public static void ChangePlayMode(PlayModeStateChange change) => EditorApplication.RaisePlayMode(change);
 
-        /// One round of the editor's loop.
+        /// Runs one iteration of the editor's loop.
         public static void Tick() => EditorApplication.Tick();
 
         /// Calls all postprocessors, as the end of an import does. Without changed assets, the domain was reloaded.
@@ -87,7 +87,7 @@ namespace UnityEditor.Headless
             else call?.Invoke();
         }
 
-        /// Draws the shown elements of a window, which creates them at the first time. Rows of tables are lines such as "row 0 | Name".
+        /// Draws the visible elements of a window, which creates them on the first call. Rows of tables are lines such as "row 0 | Name".
         public static void Draw(EditorWindow window)
         {
             if (!window.HasGui) Send(window, "CreateGUI");

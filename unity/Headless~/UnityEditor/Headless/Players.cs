@@ -4,10 +4,10 @@ using UnityEditor.Build;
 
 namespace UnityEditor.Headless
 {
-    /// Simulates the package's part in builds of players.
+    /// Simulates the package's part in player builds.
     public static class Players
     {
-        /// Calls all build processors in order. The files that they add are copied to the folder.
+        /// Calls all build processors in order. Copies the files that they add to the folder.
         public static void Build(BuildTarget target, string streamingAssets, params string[] scenes)
         {
             var processors = new List<BuildPlayerProcessor>();

@@ -8,8 +8,8 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Reads the objects of a prefab with their components. Of fields, it reads names, scales and parents, and the texts and imported assets of scripts,
-    /// which it also writes.
+    /// Reads the objects of a prefab with their components. Supports only these fields: names, scales and parents, and the texts and imported assets of
+    /// scripts, which it also writes.
     static class PrefabFile
     {
         private const RegexOptions Lines = RegexOptions.Multiline | RegexOptions.Singleline;
@@ -20,7 +20,7 @@ namespace UnityEditor.Headless
             ["Rigidbody"] = typeof(Rigidbody),
         };
 
-        /// Prefabs that are loaded and were not instantiated, with their files.
+        /// Prefabs that are loaded but not instantiated, with their files.
         internal static readonly Dictionary<UnityEngine.Object, string> Loaded = new Dictionary<UnityEngine.Object, string>();
 
         internal static GameObject Load(string path)
@@ -84,7 +84,7 @@ namespace UnityEditor.Headless
             return text;
         }
 
-        /// Like an asset it is inactive, but its copies are not.
+        /// Like an asset, it is inactive, but its copies are not.
         static GameObject Object(string name)
         {
             var made = new GameObject(name);

@@ -24,7 +24,7 @@ namespace UnityEditor.Headless
         public static UnityEngine.Object Pinged { get; internal set; }
         public static List<string> Undoable { get; } = new List<string>();
 
-        /// The items of the Progress window, in the order of their starts; the index is the id.
+        /// The items of the Progress window, in the order in which they started; the index is the id.
         public static List<(string Description, Progress.Status Status)> ProgressItems { get; } = new List<(string, Progress.Status)>();
 
         static readonly Stack<(UnityEngine.Event Cause, System.Action Back)> UndoSteps = new Stack<(UnityEngine.Event, System.Action)>();
@@ -44,10 +44,10 @@ namespace UnityEditor.Headless
         /// The user's answer to a dialog, by its message.
         public static System.Func<string, bool> Answer { get; set; }
 
-        /// Whether the user clicks Cancel beside a progress bar.
+        /// Whether the user clicks Cancel in a progress bar.
         public static bool CancelsWaiting { get; set; }
 
-        /// The asset path of the package's or the project's file that has this GUID; empty if none has it.
+        /// Returns the asset path of the file with this GUID in the package or the project; empty if none has it.
         internal static string PathOf(string guid)
         {
             if (PackagePaths.Count == 0) AddPaths(Root, Package, PackagePaths);

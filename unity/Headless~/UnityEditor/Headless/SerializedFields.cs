@@ -82,7 +82,7 @@ namespace UnityEditor.Headless
             return steps;
         }
 
-        /// Objects and lists remain, with other content.
+        /// Objects and lists are kept and filled with the new content.
         static void Write(object owner, FieldInfo field, object value)
         {
             var old = field.GetValue(owner);

@@ -44,7 +44,7 @@ namespace UnityEngine
 
         public static void Quit() => Quit(0);
 
-        /// Ends the player after the current frame, unless a `wantsToQuit` handler refuses.
+        /// Ends the player after the current frame, unless a `wantsToQuit` handler returns false.
         public static void Quit(int exitCode)
         {
             if (wantsToQuit != null)

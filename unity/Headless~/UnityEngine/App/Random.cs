@@ -34,7 +34,7 @@ namespace UnityEngine
             return generator.s3 = generator.s3 ^ (generator.s3 >> 19) ^ t ^ (t >> 8);
         }
 
-        /// 0 to 1, both included.
+        /// A number from 0 to 1, both inclusive.
         public static float value => (Next() >> 8) / 16777215f;
 
         public static float Range(float minInclusive, float maxInclusive) => minInclusive + (maxInclusive - minInclusive) * value;

@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Unity.Jobs
 {
-    /// Of a batch of physics queries. Scheduled batches wait until `ScheduleBatchedJobs`, `IsCompleted` or `Complete` of any handle.
+    /// The handle of a batch of physics queries. Scheduled batches wait until `ScheduleBatchedJobs`, `IsCompleted` or `Complete` of any handle.
     public struct JobHandle
     {
         readonly int number;

@@ -37,7 +37,7 @@ namespace UnityEngine
         }
 
         public GameObject gameObject => this;
-        /// Of an object without a parent.
+        /// The scene of an object without a parent.
         internal Scene sceneOfRoot = Scene.Active;
 
         public Scene scene => ownTransform.root.owner.sceneOfRoot;

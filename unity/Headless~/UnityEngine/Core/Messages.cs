@@ -53,7 +53,7 @@ namespace UnityEngine
             return table;
         }
 
-        /// The nearest base type with [DisallowMultipleComponent], of which an object can have only one component; else null.
+        /// The nearest base type with [DisallowMultipleComponent], of which an object can have only one component; null without one.
         public static Type SingleBase(Type type)
         {
             for (var level = type; level != typeof(Component); level = level.BaseType)

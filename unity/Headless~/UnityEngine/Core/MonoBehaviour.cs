@@ -11,7 +11,7 @@ namespace UnityEngine
 
         public MonoBehaviour() => messages = Messages.Of(GetType());
 
-        public bool useGUILayout { get; set; } = true; // the stand-in's labels need no layout either way
+        public bool useGUILayout { get; set; } = true; // has no effect: the stand-in's labels do not need a layout
         public bool didAwake { get; private set; }
         public bool didStart { get; internal set; }
 

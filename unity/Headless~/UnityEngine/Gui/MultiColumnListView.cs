@@ -53,7 +53,7 @@ namespace UnityEngine.UIElements
         public void Add(Column item) => Items.Add(item);
     }
 
-    /// A table. A user's click on a header or a row is a call of `ClickHeader` or `ClickRow`.
+    /// A table. Tests simulate clicks on a header or a row with `ClickHeader` and `ClickRow`.
     public class MultiColumnListView : VisualElement
     {
         readonly List<SortColumnDescription> sorted = new List<SortColumnDescription>();
@@ -72,7 +72,7 @@ namespace UnityEngine.UIElements
 
         public void SetSelectionWithoutNotify(IEnumerable<int> indices) => selected = new List<int>(indices).ToArray();
 
-        /// Rows that the table knows of: changes of the list show at the next refresh only.
+        /// Number of rows at the last refresh. Later changes of the list are not visible.
         internal int RowCount { get; private set; }
 
         public void ClickHeader(string column, SortDirection direction)
@@ -88,7 +88,7 @@ namespace UnityEngine.UIElements
             selectionChanged?.Invoke(new[] { itemsSource[index] });
         }
 
-        /// The texts of the first rows that have space in `height`: only their cells are bound.
+        /// The texts of the first rows that fit in `height`. Only their cells are bound.
         public IEnumerable<string> VisibleRows(float height)
         {
             for (var row = 0; row < RowCount && row * fixedItemHeight < height; row++)

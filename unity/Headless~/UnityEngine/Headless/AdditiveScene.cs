@@ -3,7 +3,7 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine.Headless
 {
-    /// A scene that is loaded beside the player's own.
+    /// A scene that is loaded in addition to the player's own.
     public static class AdditiveScene
     {
         /// Contains the objects that `build` creates, which become active together.

@@ -14,7 +14,7 @@ namespace UnityEngine.Headless
         /// One line for each control: "KIND NAME: VALUE". Disabled controls are prefixed with "(disabled) ".
         public static IReadOnlyList<string> Lines => Drawn;
 
-        /// Labels that scripts placed themselves, for the test to empty.
+        /// Labels that scripts placed themselves. Tests clear the list.
         public static List<(Rect Place, string Text)> Placed { get; } = new List<(Rect Place, string Text)>();
 
         public static int DisabledDepth { get; set; }
@@ -25,8 +25,8 @@ namespace UnityEngine.Headless
         /// Clears the recorded lines and actions.
         public static void Clear() => Drawn.Clear();
 
-        /// Draws as the editor does: a pass for the layout, and one for `input`, by default a repaint or what `Act` has ordered. `between` happens
-        /// between the two. Other controls than in the layout are an error, unless a control has used the event.
+        /// Draws as the editor does: a pass for the layout, and one for `input`, by default a repaint or the actions of `Act`. `between` runs between the two.
+        /// Controls that differ from the layout are an error, unless a control has used the event.
         public static void Passes(Action draw, Action between = null, Event input = null)
         {
             var shown = Drawn.Count;
@@ -56,7 +56,7 @@ namespace UnityEngine.Headless
             }
         }
 
-        /// Values may change between layout and repaint.
+        /// Returns a line without its value, because values may change between layout and repaint.
         static string KindAndName(string line) => line.IndexOf(": ", StringComparison.Ordinal) is int end && end >= 0 ? line.Substring(0, end) : line;
 
         public static void Draw(string kind, string name, string value = null)

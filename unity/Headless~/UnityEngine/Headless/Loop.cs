@@ -4,7 +4,7 @@ using System.Reflection;
 
 namespace UnityEngine.Headless
 {
-    /// The player. Runs the only scene frame by frame on the calling thread, with the phases of Unity's loop.
+    /// The player. Runs the scene frame by frame on the calling thread, with the phases of Unity's loop.
     public static class Loop
     {
         static readonly RuntimeInitializeLoadType[] BeforeScene =
@@ -32,8 +32,8 @@ namespace UnityEngine.Headless
         /// The last address that a script opened in a browser.
         public static string OpenedUrl { get; internal set; } = "";
 
-        /// Permutes the orders that Unity does not specify: messages of one execution order in a frame, touches in a step and their two sides, and the
-        /// enabling of objects that become active together. 0: orders of creation.
+        /// Permutes the orders that Unity does not specify: messages of one execution order in a frame, touches in a step and their two sides, and the enabling
+        /// of objects that become active together. 0: order of creation.
         public static int OrderSeed { get => Orders.Seed; set => Orders.Reset(value); }
 
         /// The value of `SystemInfo.supportsComputeShaders`, false with -nographics.
@@ -60,7 +60,7 @@ namespace UnityEngine.Headless
             Initialize(methods, RuntimeInitializeLoadType.AfterSceneLoad);
         }
 
-        /// One frame of `deltaTime` seconds: fixed steps as they fall due, Update, coroutines, LateUpdate, destruction.
+        /// Runs one frame of `deltaTime` seconds: the fixed steps that are due, Update, coroutines, LateUpdate, destruction.
         public static void Frame(float deltaTime)
         {
             if (!started) throw new InvalidOperationException("The player is not running: call Loop.Start first.");

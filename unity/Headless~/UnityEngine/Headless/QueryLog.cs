@@ -9,7 +9,7 @@ namespace UnityEngine.Headless
         /// Batches of queries since the process began.
         public static long Batches { get; internal set; }
 
-        /// Those that began before their results were needed.
+        /// Batches that began before their results were needed.
         public static long BatchesStartedEarly { get; internal set; }
 
         /// Whether a batch is running in the background.

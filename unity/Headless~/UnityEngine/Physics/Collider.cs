@@ -13,14 +13,14 @@ namespace UnityEngine
         bool ownsMaterial;
 
         internal bool Registered { get; private set; }
-        /// Number of registrations, which identifies stale information about an earlier one.
+        /// Number of registrations so far, which identifies stale information about an earlier one.
         internal int Registration { get; private set; }
         internal Rigidbody Body { get; private set; }
         /// PhysX's handle; none if not registered or without a shape.
         internal int Handle { get; private set; } = Physx.None;
 
         int place = Physx.None; // the static actor of a collider without a body
-        Physx.Shape known; // as PhysX has it
+        Physx.Shape known; // the shape as last sent to PhysX
         Vector3 position, scale; // of this object in the actor's frame
         Quaternion rotation;
 
@@ -102,7 +102,7 @@ namespace UnityEngine
 
         public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) => Queries.RaycastOne(this, ray, out hitInfo, maxDistance);
 
-        /// Geometry and its pose in this object's frame, scaled. False without a shape.
+        /// Returns the scaled geometry and its pose in this object's frame, or false without a shape.
         internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
             throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
 
@@ -139,7 +139,7 @@ namespace UnityEngine
             Detach();
         }
 
-        /// Attaches to the nearest active body on its object or its ancestors.
+        /// Attaches the collider to the nearest active body on its object or its ancestors.
         internal void Attach()
         {
             var nearest = NearestBody();

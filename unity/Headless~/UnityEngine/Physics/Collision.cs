@@ -5,7 +5,7 @@ namespace UnityEngine
     public struct ContactPoint
     {
         public Vector3 point { get; internal set; }
-        /// The normal, which points out of the other collider and into this one.
+        /// The normal, which points from the other collider into this one.
         public Vector3 normal { get; internal set; }
         public Vector3 impulse { get; internal set; }
         public Collider thisCollider { get; internal set; }

@@ -27,7 +27,7 @@ namespace UnityEngine
         public float targetPosition;
     }
 
-    /// Rotates about its axis through its anchor. A motor always brakes too. Limits do not bounce.
+    /// Rotates about its axis through its anchor. A motor also brakes. Limits do not bounce.
     public class HingeJoint : Joint
     {
         JointMotor ownMotor;

@@ -32,7 +32,7 @@ namespace UnityEngine
             fixed (int* rows = layers) Physx.physics_ignore_layers(world, rows);
         }
 
-        /// Clears all pairs. PhysX's world, which has them too, is destroyed at the same time.
+        /// Clears all pairs. PhysX's world, which also stores them, is destroyed at the same time.
         public void Clear()
         {
             System.Array.Clear(layers, 0, layers.Length);

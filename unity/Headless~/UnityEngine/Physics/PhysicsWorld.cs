@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// The physics world: transforms that moved since the last sync, commands for PhysX, and the step. Main thread only.
+    /// The physics world: transforms that moved since the last sync, commands for PhysX, and the step. For the main thread only.
     static unsafe class PhysicsWorld
     {
         public static readonly IgnoredPairs Ignored = new IgnoredPairs();
@@ -29,10 +29,10 @@ namespace UnityEngine
         /// Steps of this world so far.
         public static int StepCount { get; private set; }
 
-        /// Number of threads of the next world. Results do not depend on it.
+        /// Number of threads for the next world. Results do not depend on it.
         public static int Threads = 1;
 
-        /// The world for a call. Completes running queries first.
+        /// Returns the world for a call, after completing running queries.
         public static IntPtr Handle
         {
             get
@@ -192,7 +192,7 @@ namespace UnityEngine
             Moved.Add(transform);
         }
 
-        /// A new parent can change the body of a collider.
+        /// Needed because a new parent can change the body of a collider.
         public static void HierarchyChanged(Transform transform)
         {
             var parts = transform.owner.physicsParts;

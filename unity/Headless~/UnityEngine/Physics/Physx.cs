@@ -83,7 +83,7 @@ namespace UnityEngine
             public Combine FrictionCombine, BounceCombine;
         }
 
-        /// Values of PhysX. If two materials differ, the later one wins.
+        /// The values of PhysX. If two materials differ, the greater value applies.
         public enum Combine
         {
             Average = 0,

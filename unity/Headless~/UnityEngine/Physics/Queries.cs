@@ -10,7 +10,7 @@ namespace UnityEngine
         static Physx.RayLine[] lines = new Physx.RayLine[64];
         static Physx.Filter[] filters = new Physx.Filter[64];
 
-        /// PhysX's world after a sync.
+        /// Returns PhysX's world after a sync.
         static IntPtr World
         {
             get

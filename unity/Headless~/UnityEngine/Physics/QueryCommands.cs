@@ -28,7 +28,7 @@ namespace UnityEngine
         public Collider collider { get; internal set; }
     }
 
-    /// A batch with one hit for each ray runs on all threads of physics, one with more on the calling thread.
+    /// A batch with one hit per ray runs on all physics threads, one with more hits on the calling thread.
     public struct RaycastCommand
     {
         static RaycastHit[] found = Array.Empty<RaycastHit>();
@@ -84,7 +84,7 @@ namespace UnityEngine
         }
     }
 
-    /// A started batch runs on physics' other threads until its handle, or anything else, asks for the results.
+    /// A started batch runs on the other physics threads until its handle, or another call, requests the results.
     public struct OverlapSphereCommand
     {
         public QueryParameters queryParameters;

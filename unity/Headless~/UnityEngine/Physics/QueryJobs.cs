@@ -4,7 +4,7 @@ using Unity.Jobs;
 
 namespace UnityEngine
 {
-    /// Batches of queries that are scheduled and not started yet, in their order.
+    /// Batches of queries that are scheduled but not started, in their order.
     static class QueryJobs
     {
         struct Job
@@ -21,7 +21,7 @@ namespace UnityEngine
         static readonly List<Job> Waiting = new List<Job>();
         static int scheduled;
 
-        /// The batch of spheres that was started last.
+        /// The last batch of spheres that was started.
         static int running;
 
         internal static JobHandle Schedule(NativeArray<RaycastCommand> rays, NativeArray<RaycastHit> hits, int maxHits)

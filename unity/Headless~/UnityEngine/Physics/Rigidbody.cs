@@ -127,7 +127,7 @@ namespace UnityEngine
             }
         }
 
-        /// Largest speed at which the solver separates it from overlapping shapes.
+        /// Maximum speed at which the solver separates it from overlapping shapes.
         public float maxDepenetrationVelocity
         {
             get => ownDepenetration;
@@ -378,7 +378,7 @@ namespace UnityEngine
         public void AddForce(float x, float y, float z) => AddForce(new Vector3(x, y, z));
         public void AddForce(float x, float y, float z, ForceMode mode) => AddForce(new Vector3(x, y, z), mode);
 
-        /// Takes effect with the next step.
+        /// Takes effect in the next step.
         public void AddForce(Vector3 force, ForceMode mode)
         {
             if (!Finite.Accepts(force, "Rigidbody.AddForce", this) || kinematic) return;

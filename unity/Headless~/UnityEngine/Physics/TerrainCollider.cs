@@ -3,7 +3,7 @@ using UnityEngine.Headless;
 
 namespace UnityEngine
 {
-    /// The surface of a height map, with two triangles per square of samples. It uses the position of its object, but not its rotation and scale.
+    /// The surface of a height map, with two triangles per square of samples. It uses the position of its object, but not its rotation or scale.
     public class TerrainCollider : Collider
     {
         readonly CookedMesh cooked = new CookedMesh();

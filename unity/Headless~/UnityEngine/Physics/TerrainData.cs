@@ -26,7 +26,7 @@ namespace UnityEngine
             }
         }
 
-        /// Metres between samples, and of the maximum height.
+        /// Metres between samples along x and z, and the maximum height in metres as y.
         public Vector3 heightmapScale => new Vector3(ownSize.x / (heightmapResolution - 1), ownSize.y, ownSize.z / (heightmapResolution - 1));
 
         public Vector3 size
@@ -46,7 +46,7 @@ namespace UnityEngine
         {
             int rows = heights.GetLength(0), columns = heights.GetLength(1);
             if (xBase < 0 || yBase < 0 || xBase + columns > heightmapResolution || yBase + rows > heightmapResolution)
-                throw new ArgumentException("The heights lie outside of the height map, which has " + heightmapResolution + " samples along each side.");
+                throw new ArgumentException("The heights are outside the height map, which has " + heightmapResolution + " samples along each side.");
             for (var row = 0; row < rows; row++)
                 for (var column = 0; column < columns; column++) this.heights[yBase + row, xBase + column] = Mathf.Clamp01(heights[row, column]);
             Version++;

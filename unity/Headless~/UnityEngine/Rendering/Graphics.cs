@@ -19,7 +19,7 @@ namespace UnityEngine
         public bool receiveShadows { get; set; }
     }
 
-    /// Draws are recorded for the frame (`Headless.DrawLog`), not drawn.
+    /// Draw calls are not executed but recorded for the frame (`Headless.DrawLog`).
     public class Graphics
     {
         public static void RenderPrimitives(in RenderParams rparams, MeshTopology topology, int vertexCount, int instanceCount = 1)
@@ -33,7 +33,7 @@ namespace UnityEngine
             where T : unmanaged
         {
             if (rparams.material == null) throw new System.InvalidOperationException("A draw needs a material.");
-            if (!rparams.material.enableInstancing) throw new System.InvalidOperationException("The material does not allow instancing.");
+            if (!rparams.material.enableInstancing) throw new System.InvalidOperationException("The material does not enable instancing.");
             if (instanceData == null) throw new System.ArgumentNullException(nameof(instanceData));
             var count = instanceCount < 0 ? instanceData.Length - startInstance : instanceCount;
             if (startInstance < 0 || startInstance + count > instanceData.Length) throw new System.ArgumentOutOfRangeException(nameof(instanceCount));

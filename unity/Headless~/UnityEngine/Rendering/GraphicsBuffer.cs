@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// Simulates memory of a graphics card. Tests read its content (`Data`).
+    /// Simulates memory of a graphics card. Tests read the content (`Data`).
     public sealed class GraphicsBuffer : IDisposable
     {
         [Flags]

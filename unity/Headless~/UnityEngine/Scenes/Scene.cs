@@ -2,10 +2,10 @@ using System.Collections.Generic;
 
 namespace UnityEngine.SceneManagement
 {
-    /// A loaded scene, or a preview of the editor.
+    /// A loaded scene, or a preview scene of the editor.
     public struct Scene
     {
-        /// The loaded ones; the first is the player's own.
+        /// The loaded scenes; the first is the player's own.
         internal static readonly List<Scene> Loaded = new List<Scene> { new Scene("Scene") };
 
         internal static Scene Active = Loaded[0];
