@@ -7,7 +7,7 @@ using System.Text;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    /// <summary>The public and protected members of an assembly as text, one a line, sorted.</summary>
+    /// <summary>The public and protected members of an assembly as text, one per line, sorted.</summary>
     internal static class PublicApi
     {
         private const BindingFlags Declared =

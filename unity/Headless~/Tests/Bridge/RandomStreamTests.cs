@@ -7,7 +7,7 @@ namespace Collektive.Headless.Tests.Bridge
     [TestFixture]
     public sealed class RandomStreamTests
     {
-        // Published test vectors of philox4x32-10. The Kotlin tests use the same ones.
+        // Published test vectors of philox4x32-10. The Kotlin tests use the same vectors.
         [TestCase(0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0x0000000000000000ul, 0x6627e8d5u, 0xe169c58du, 0xbc57ac4cu, 0x9b00dbd8u)]
         [TestCase(0xffffffffu, 0xffffffffu, 0xffffffffu, 0xffffffffu, 0xfffffffffffffffful, 0x408f276du, 0x41c83b0eu, 0xa20bc7c6u, 0x6d5451fdu)]
         [TestCase(0x243f6a88u, 0x85a308d3u, 0x13198a2eu, 0x03707344u, 0x299f31d0a4093822ul, 0xd16cfe09u, 0x94fdccebu, 0x5001e420u, 0x24126ea1u)]

@@ -122,7 +122,7 @@ namespace Collektive.Headless.Tests.Bridge
             }
         }
 
-        /// <summary>Keeps the control's allocation from being optimised away.</summary>
+        /// <summary>Prevents the compiler from removing the control's allocation.</summary>
         public static byte[] Keep { get; private set; }
 
         private static long AllocatedBy(Action action)

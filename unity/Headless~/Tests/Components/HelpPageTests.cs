@@ -53,7 +53,7 @@ namespace Collektive.Headless.Tests.Components
             }
         }
 
-        /// <summary>The anchors of a page's headings, as GitHub and the site write them.</summary>
+        /// <summary>Returns the anchors of a page's headings, as GitHub and the site generate them.</summary>
         private static string[] Anchors(string page)
         {
             var headings = Array.FindAll(File.ReadAllLines(Path.Combine(Manual, page)), line => line.StartsWith("#"));

@@ -8,7 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>Compares searches for nodes with a linear scan. The tests of the C code compare many more.</summary>
+    /// <summary>Compares searches for nodes with a linear scan. The tests of the C code compare many more cases.</summary>
     [TestFixture]
     public sealed class NodeGridTests
     {

@@ -102,7 +102,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             var bundled = Path.Combine(Path.GetFullPath(Project.PackageCache), "unity/Jvm~/linux-x64");
             MakeJre(bundled);
             Write("Assets/Swarm/swarm.fbs", Schema);
-            // This java records that it ran.
+            // This java command records that it ran.
             File.Move(bundled + "/bin/java", bundled + "/bin/real");
             File.WriteAllText(bundled + "/bin/java", "#!/bin/sh\necho ran >>ran.txt\nexec '" + bundled + "/bin/real' \"$@\"\n");
             ToolRun.Do("/bin/chmod", "755", bundled + "/bin/java");
@@ -199,7 +199,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             public override ActuatorBuffer CreateActuators() => throw new NotSupportedException();
         }
 
-        /// <summary>Creates a folder like a JRE: a JVM without a compiler.</summary>
+        /// <summary>Creates a folder like a JRE, which is a JVM without a compiler.</summary>
         private static void MakeJre(string folder)
         {
             var jdk = Environment.GetEnvironmentVariable("COLLEKTIVE_TEST_JAVA_HOME");

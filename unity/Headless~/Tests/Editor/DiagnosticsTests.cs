@@ -407,7 +407,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Passes(inspector.OnInspectorGUI);
         }
 
-        /// <summary>Redraws until a control appears: starting and writing a recording takes a moment.</summary>
+        /// <summary>Redraws until a control appears, because starting and writing a recording takes a moment.</summary>
         private static void Inspect(UnityEditor.Editor inspector, string awaited)
         {
             var clock = System.Diagnostics.Stopwatch.StartNew();
@@ -445,7 +445,7 @@ namespace Collektive.Headless.Tests.Editor
 
         private static MultiColumnListView Table => DiagnosticsWindow.Open().rootVisualElement.Children().OfType<MultiColumnListView>().Single();
 
-        /// <summary>Redraws the window until a control appears: the JVM is asked in the background.</summary>
+        /// <summary>Redraws the window until a control appears, because the JVM is queried in the background.</summary>
         private static void AwaitInWindow(string start)
         {
             var clock = System.Diagnostics.Stopwatch.StartNew();

@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests.Editor
             settings.defaultProgram = Import("swarm", "COLLEKTIVE_PROBE_JAR").Find("double");
             var node = MakeNode(2);
             node.Node.name = "Drone";
-            // A program of the same name would run.
+            // Without the check, the listed program of the same name would run.
             node.Node.OwnProgram = Import("copy", "COLLEKTIVE_PROBE_JAR").Find("double");
             Play();
             Logged("node 0 ('Drone'): program 'double' is in Assets/copy.clkprograms, which is not among the libraries of the Simulation Manager");

@@ -14,7 +14,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>A player build packages the files of its simulations, and the player finds them. The scenes are written as by Unity.</summary>
+    /// <summary>A player build packages the files of its simulations, and the player finds them. The scenes are written in Unity's format.</summary>
     [Category("Mono")]
     public sealed class PlayerBuildTests : ProjectFixture
     {
@@ -282,7 +282,7 @@ namespace Collektive.Headless.Tests.Editor
             return "{fileID: " + id + ", guid: " + guid + ", type: 3}";
         }
 
-        /// <summary>Continues as the built player: in another folder, without the project and the editor's paths.</summary>
+        /// <summary>Continues as the built player, in another folder and without the project and the editor's paths.</summary>
         private static void EnterPlayer()
         {
             Loop.DataPath = Path.GetFullPath("player/Swarm_Data");

@@ -49,7 +49,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Project.ProgressItems[Project.ProgressItems.Count - 1], Is.EqualTo((Schema, Progress.Status.Succeeded)));
             Assert.That(Log, Is.Empty);
 
-            // The same sources give the same bytes, so that a commit has no needless change.
+            // The same sources give the same bytes, so that commits do not contain needless changes.
             var bytes = File.ReadAllBytes(Jar);
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
             Build();
@@ -119,7 +119,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Project.ProgressItems[Project.ProgressItems.Count - 1].Status, Is.EqualTo(Progress.Status.Canceled));
             Assert.That(Log, Is.Empty);
 
-            // A reload: another domain starts without the build, and finishes it.
+            // Simulates a reload: another domain starts without the build, and finishes it.
             SessionState.SetString("Collektive.Build", Jar);
             Menus.Postprocess(new string[0], new string[0]);
             Build();
@@ -158,7 +158,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Play(), Is.True);
             Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(first), "nothing changed");
 
-            // A clone has other file times, and on Windows other ends of lines.
+            // A clone has different file times and, on Windows, different line endings.
             Write(Count, BuildTests.Kotlin.Replace("\n", "\r\n"));
             File.SetLastWriteTimeUtc(Count, DateTime.UtcNow.AddDays(1));
             Assert.That(Swarm().IsStale, Is.False);
@@ -286,7 +286,7 @@ namespace Collektive.Headless.Tests.Editor
                 + "\r\nCollektive-Sources: " + project.Sources.Insert(40, "\r\n ") + "\r\n", "swarm.SwarmSchema");
         }
 
-        /// <summary>The classes with programs in the jar, by the index that the compiler plugin wrote.</summary>
+        /// <summary>Returns the classes with programs in the jar, from the index that the compiler plugin wrote.</summary>
         private static List<string> Programs()
         {
             var classes = new List<string>();

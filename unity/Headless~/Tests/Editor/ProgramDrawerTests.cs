@@ -8,7 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>Programs are picked or dropped in inspectors, and their parameters have fields of their types.</summary>
+    /// <summary>Programs are selected or dropped in inspectors, and their parameters have fields of their types.</summary>
     [Category("Mono")]
     public sealed class ProgramDrawerTests : ProjectFixture
     {

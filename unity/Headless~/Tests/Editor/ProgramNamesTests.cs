@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>Scenes of earlier versions name their schema, jars and programs.</summary>
+    /// <summary>Scenes of earlier versions refer to their schema, jars and programs by name.</summary>
     [Category("Mono")]
     public sealed class ProgramNamesTests : ProjectFixture
     {

@@ -43,7 +43,7 @@ namespace Collektive.Headless.Tests
                 Console.WriteLine(
                     "  recording: started in " + start + " ms, written in " + stop + " ms; longest tick " + during.ToString("0.0") +
                     " ms meanwhile, " + usual.ToString("0.0") + " ms before");
-                // The first recording of a JVM takes some hundred milliseconds to start, later ones a few.
+                // The first recording of a JVM takes some hundred milliseconds to start, later ones take a few.
                 if (start >= 200) Assert.That(during, Is.LessThan(start / 2.0));
             }
         }

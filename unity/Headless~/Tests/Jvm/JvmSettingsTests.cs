@@ -10,7 +10,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Settings become JVM options, and the running JVM reports its values.</summary>
+    /// <summary>Settings become JVM options, and the running JVM reports their values.</summary>
     [TestFixture]
     public sealed class JvmSettingsTests
     {

@@ -9,7 +9,7 @@ namespace Collektive.Headless.Tests
     {
         private const int StopLimitMs = 5000;
 
-        // As in an editor, the JVM outlives each play. It must stop before the process does: its threads would lack the runtime's signal handlers.
+        // As in an editor, the JVM outlives each play. It must stop before the process does, because its threads need the runtime's signal handlers.
         static TestJvm()
         {
             UnityEngine.Headless.Loop.IsEditor = true;

@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Player
 {
-    /// <summary>Metrics are untrusted: they can read the table of nodes, and nothing else.</summary>
+    /// <summary>Metrics are untrusted: they can read the table of nodes and nothing else.</summary>
     [TestFixture]
     public sealed class SqlMetricsTests : SimulationFixture
     {
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Measure("total(heard)"), Is.EqualTo(0));
         }
 
-        // Values 1, NaN and infinity; the fourth node has had no round.
+        // The values are 1, NaN and infinity; the fourth node has not run a round.
         [TestCase("count(*)", 4)]
         [TestCase("count(value)", 2)]
         [TestCase("count(sensor_value)", 3)]

@@ -8,7 +8,9 @@ using Features = test.features;
 
 namespace Collektive.Headless.Tests.Schema
 {
-    /// <summary>No managed memory is allocated per tick once capacities are reached. The control needs mono-sgen: Boehm's counter is always 0.</summary>
+    /// <summary>
+    /// No managed memory is allocated per tick once capacities are reached. The control needs mono-sgen, because Boehm's counter is always 0.
+    /// </summary>
     [TestFixture]
     public class AllocationTests
     {
@@ -21,7 +23,7 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void TheCounterDetectsAllocations()
         {
-            // One object of the smallest size per tick. The limit is lower because the runtime counts whole blocks.
+            // Allocates one object of the smallest size per tick. The limit is lower, because the runtime counts whole blocks.
             Assert.That(AllocatedBy(() => kept = new object()), Is.GreaterThan(8L * Ticks));
         }
 

@@ -5,7 +5,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>A built player started with -batchmode, as the stand-in's player always is.</summary>
+    /// <summary>A built player started with -batchmode, which the stand-in's player always is.</summary>
     [TestFixture]
     public sealed class BatchPlayerTests : SimulationFixture
     {

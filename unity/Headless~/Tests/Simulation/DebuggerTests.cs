@@ -15,7 +15,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>
-    /// A debugger (jdb) stops the JVM at a breakpoint, and the editor goes on. In a separate test process, because the JVM needs a debug port.
+    /// A debugger (jdb) stops the JVM at a breakpoint, and the editor continues. These tests run in a separate process, because the JVM needs a debug port.
     /// </summary>
     [TestFixture, Category("Debugger")]
     public sealed class DebuggerTests : SimulationFixture
@@ -306,7 +306,7 @@ namespace Collektive.Headless.Tests.Simulation
             internal void Continue()
             {
                 AwaitLine("Breakpoint hit");
-                // It clears one of the breakpoints if classes of earlier sessions are still loaded.
+                // If classes of earlier sessions are still loaded, it clears only one of the breakpoints.
                 isContinued = true;
                 Send("clear " + place);
                 Resume();

@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>The same scene, seed and inputs give bit-identical rounds. The chained digest proves it.</summary>
+    /// <summary>The same scene, seed and inputs give bit-identical rounds. The chained digests are compared.</summary>
     [TestFixture]
     public sealed class DeterminismTests : SimulationFixture
     {

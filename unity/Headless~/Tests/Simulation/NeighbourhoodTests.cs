@@ -141,7 +141,7 @@ namespace Collektive.Headless.Tests.Simulation
             MakeWall(6).layer = 4;
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
-            // The body of another node blocks it.
+            // The body of another node blocks the line.
             MakeNode(0, new Vector3(5, 0, 0)).Node.gameObject.AddComponent<SphereCollider>();
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>2 1>2 2>0 2>1"));
@@ -300,7 +300,7 @@ namespace Collektive.Headless.Tests.Simulation
             return rule.enabled && (other.transform.position - node.transform.position).sqrMagnitude <= rule.Radius * rule.Radius;
         }
 
-        /// <summary>Lengths may differ by the tolerance of the rules, or by twice as much after a link passed from one rule to another.</summary>
+        /// <summary>Lengths may differ by the tolerance of the rules, or by twice as much after a link has passed from one rule to another.</summary>
         private void AssertLengths()
         {
             var links = new List<LinkRecord>();

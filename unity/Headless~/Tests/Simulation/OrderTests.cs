@@ -107,7 +107,7 @@ namespace Collektive.Headless.Tests.Simulation
             return Manager.Digest;
         }
 
-        /// <summary>Nodes that fall onto each other in zones, with several parts that draw random numbers.</summary>
+        /// <summary>Creates nodes that fall onto each other in zones, with several parts that draw random numbers.</summary>
         private ulong PlayTouches()
         {
             Configure("sum");

@@ -18,7 +18,7 @@ namespace Collektive.Headless.Tests.Simulation
     {
         private const int Times = 50;
 
-        // Status answers of the JVM keep one slot after the first query.
+        // After the first query, status answers of the JVM keep one slot.
         private int slotsBefore;
 
         [SetUp]
@@ -41,7 +41,7 @@ namespace Collektive.Headless.Tests.Simulation
             GC.WaitForPendingFinalizers();
             GC.Collect();
             var alive = managers.FindAll(manager => manager.IsAlive).Count;
-            // The collectors read stacks conservatively.
+            // The garbage collectors scan stacks conservatively.
             Assert.That(alive, Is.LessThan(5));
         }
 
@@ -130,7 +130,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
             var left = ShimCounts.Sessions;
             foreach (var session in forgotten) (session.Target as Session)?.Dispose();
-            // The collectors read stacks conservatively.
+            // The garbage collectors scan stacks conservatively.
             Assert.That(left, Is.LessThanOrEqualTo(1));
         }
 

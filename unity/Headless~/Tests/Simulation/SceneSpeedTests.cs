@@ -13,8 +13,8 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>
-    /// Processor time of single parts of the package on the main thread, in a dense scene of 1,000 nodes on a plane. The limits are for Mono and
-    /// small enough for one frame.
+    /// Main-thread processor time of individual parts of the package, in a dense scene of 1,000 nodes on a plane. The limits are for Mono and fit into one
+    /// frame.
     /// </summary>
     [TestFixture]
     [Category("Slow")]
@@ -68,7 +68,7 @@ namespace Collektive.Headless.Tests.Simulation
             });
             Print("rules of 10,000 moving nodes, " + Manager.LinkCount + " links", milliseconds);
             Assert.That(Manager.LinkCount, Is.InRange(60 * Count, 80 * Count));
-            // Far less on an idle machine; before the search was in C, 20 ms on a busy one.
+            // An idle machine takes far less. Before the search was in C, a busy machine took 20 ms.
             Assert.That(milliseconds, Is.LessThan(8));
         }
 

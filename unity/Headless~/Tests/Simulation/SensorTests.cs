@@ -86,7 +86,7 @@ namespace Collektive.Headless.Tests.Simulation
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
             sensor.Reach = 3;
-            // Near side and top of a cube.
+            // The near side and the top of a cube.
             var mesh = new Mesh();
             mesh.vertices = new[]
             {
@@ -170,7 +170,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Values[0].Body == null, Is.True);
             Assert.That(sensor.Values[0].Point.y, Is.EqualTo(0).Within(0.05f));
             Assert.That(sensor.Values[0].Normal.y, Is.EqualTo(1).Within(1e-3f));
-            // 2 kg rest on the box for 0.05 s between two rounds.
+            // A body of 2 kg rests on the box for 0.05 s between two rounds.
             Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * 9.81f * 0.05f).Within(0.2f));
             ball.linearVelocity = 10 * Vector3.up;
             Play(3);

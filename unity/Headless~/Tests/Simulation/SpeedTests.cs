@@ -19,7 +19,7 @@ namespace Collektive.Headless.Tests.Simulation
         /// <summary>Side of the plane in metres.</summary>
         private const float Side = 100;
 
-        /// <summary>Keeps the control's allocation from being optimised away.</summary>
+        /// <summary>Prevents the compiler from removing the control's allocation.</summary>
         public static byte[] Kept { get; private set; }
 
         [TestCase(Schedule.Lockstep)]
@@ -45,8 +45,8 @@ namespace Collektive.Headless.Tests.Simulation
 
         /// <summary>
         /// 10,000 nodes move on a plane at 2 m/s, with about 12 others within 2 m of each. They circle around its centre or move independently. The test
-        /// compares the processor time of the main thread, without rounds on the JVM's threads, with that of <see cref="Yardstick"/>, which is slow on
-        /// slow and busy machines too. Windows of both alternate, and the best of each counts. Nodes that move independently add, remove or change every
+        /// compares the processor time of the main thread, without rounds on the JVM's threads, with that of <see cref="Yardstick"/>, which also takes longer
+        /// on slow and busy machines. Measurements of both alternate, and the best of each counts. Nodes that move independently add, remove or change every
         /// fourth link in each tick. CoreCLR runs the plain loop five times as fast as Mono, but the tick no faster.
         /// </summary>
         [Category("Mono")]

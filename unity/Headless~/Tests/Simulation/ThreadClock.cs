@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Processor time of the calling thread, which other load on the machine hardly affects.</summary>
+    /// <summary>Processor time of the calling thread, which depends little on other load on the machine.</summary>
     internal static class ThreadClock
     {
         private const int ThisThread = 3;
@@ -17,7 +17,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Returns the least milliseconds of an action over several tries, after a warm-up.</summary>
+        /// <summary>Returns the minimum duration of an action in milliseconds over several runs, after a warm-up.</summary>
         internal static double Least(int tries, Action action)
         {
             action();

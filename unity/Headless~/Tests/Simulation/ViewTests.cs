@@ -64,7 +64,7 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(0, Vector3.zero);
             for (var i = 1; i <= 3; i++) Manager.AddLink(0, MakeNode(0, i * i * Vector3.right).Node.Id, true);
             Play(1);
-            // 1, 4 and 9: the middle value is at 3/8 of the range, in the seventh of sixteen steps.
+            // The values are 1, 4 and 9. The middle one is at 3/8 of the range, in the seventh of sixteen steps.
             var shades = Bars().ConvertAll(bar => (float)Math.Round(bar.Color.r, 3));
             shades.Sort();
             Assert.That(shades, Is.EqualTo(new[] { 0, 0.4f, 1 }));

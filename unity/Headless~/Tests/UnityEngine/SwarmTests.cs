@@ -84,7 +84,7 @@ namespace Collektive.Headless.Tests.Engine
         public void A_physics_tick_allocates_no_managed_memory()
         {
             var bodies = Swarm(300, true);
-            foreach (var body in bodies) body.transform.position += new Vector3(48f, 0f, 0f); // around the goal: the jam is densest while it forms
+            foreach (var body in bodies) body.transform.position += new Vector3(48f, 0f, 0f); // around the goal, because the jam is densest while it forms
             for (var tick = 0; tick < 400; tick++) Tick(bodies);
             foreach (var body in bodies) body.linearDamping = 1f;
             for (var tick = 0; tick < 100; tick++) Tick(bodies);
