@@ -29,10 +29,10 @@ namespace Collektive.Unity.Editor
             Schemas.FindTypes = () => TypeCache.GetTypesDerivedFrom<DataSchema>();
             Installation.ToPhysical = path => Path.GetFullPath(FileUtil.GetPhysicalPath(path));
             Installation.ToAssetPath = AssetDatabase.GUIDToAssetPath;
-            var began = SessionState.GetString(VersionKey, "");
-            if (began.Length == 0) SessionState.SetString(VersionKey, Version);
-            else if (began != Version) Debug.LogWarning("Collektive was updated from " + began + " to " + Version
-                + ": restart the editor, which still uses the native library and JVM of " + began);
+            var previous = SessionState.GetString(VersionKey, "");
+            if (previous.Length == 0) SessionState.SetString(VersionKey, Version);
+            else if (previous != Version) Debug.LogWarning("Collektive was updated from " + previous + " to " + Version
+                + ": restart the editor, which still uses the native library and JVM of " + previous);
             foreach (var schema in Schemas.FindAll())
             {
                 var problem = FindProblem(schema);

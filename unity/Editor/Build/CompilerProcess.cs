@@ -34,10 +34,10 @@ namespace Collektive.Unity.Editor
         /// <param name="jdk">Root of the JDK.</param>
         /// <param name="kotlin">Root of the Kotlin compiler.</param>
         /// <param name="libraries">Jars that compilations read: a process with earlier versions of them is replaced.</param>
-        /// <param name="words">Options of the compilation.</param>
+        /// <param name="options">Options of the compilation.</param>
         /// <returns>The name of the request.</returns>
         /// <exception cref="ToolException">The process cannot be started.</exception>
-        internal static string Submit(string jdk, string kotlin, IReadOnlyList<string> libraries, IReadOnlyList<string> words)
+        internal static string Submit(string jdk, string kotlin, IReadOnlyList<string> libraries, IReadOnlyList<string> options)
         {
             var tools = TextOf(jdk, kotlin, libraries);
             if (!IsRunning || Stored()[2] != tools)
@@ -49,7 +49,7 @@ namespace Collektive.Unity.Editor
             }
             var name = Guid.NewGuid().ToString("N");
             var part = Path.Combine(Folder, name + ".part");
-            File.WriteAllText(part, string.Join("\0", words) + "\0");
+            File.WriteAllText(part, string.Join("\0", options) + "\0");
             File.Move(part, Path.Combine(Folder, name + ".request"));
             return name;
         }
@@ -126,21 +126,21 @@ namespace Collektive.Unity.Editor
 
         private static void Start(string jdk, string kotlin, string tools)
         {
-            var words = new List<string> { "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1" };
+            var options = new List<string> { "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1" };
             if (Toolchain.Version(jdk) >= FirstWithAutomaticArchive)
             {
-                words.Add("-XX:+AutoCreateSharedArchive");
-                words.Add("-XX:SharedArchiveFile=" + Path.GetFullPath("Library/Collektive/Tools/compiler.jsa"));
-                words.Add("-Xlog:disable");
+                options.Add("-XX:+AutoCreateSharedArchive");
+                options.Add("-XX:SharedArchiveFile=" + Path.GetFullPath("Library/Collektive/Tools/compiler.jsa"));
+                options.Add("-Xlog:disable");
                 Directory.CreateDirectory("Library/Collektive/Tools");
             }
-            words.AddRange(new[]
+            options.AddRange(new[]
             {
                 "-cp", Path.Combine(kotlin, "lib/*") + Path.PathSeparator + Toolchain.Generator, "org.collektive.generator.CompileCommand", "--serve",
                 Path.GetFullPath(Folder), Process.GetCurrentProcess().Id.ToString(CultureInfo.InvariantCulture),
             });
             lock (Messages) Messages.Clear();
-            started = ToolRun.Start(".", Toolchain.Command(jdk, "java"), Messages, words.ToArray());
+            started = ToolRun.Start(".", Toolchain.Command(jdk, "java"), Messages, options.ToArray());
             SessionState.SetString(Key, started.Id + "\n" + started.StartTime.Ticks.ToString(CultureInfo.InvariantCulture) + "\n" + tools);
         }
 

@@ -27,7 +27,7 @@ namespace Collektive.Unity.Editor
 
         private static SchemaProject current;
         private static string sources;
-        private static DateTime begun;
+        private static DateTime startTime;
         private static string request;
         private static int progress;
 
@@ -117,16 +117,16 @@ namespace Collektive.Unity.Editor
         private static void Submit()
         {
             SessionState.SetString(CurrentKey, current.Jar);
-            begun = DateTime.UtcNow;
+            startTime = DateTime.UtcNow;
             try
             {
                 sources = current.Sources;
                 SessionState.SetString(KeyOf(current), sources);
                 var runtime = current.Runtime;
-                var words = WordsOf(current);
+                var options = OptionsOf(current);
                 var libraries = new List<string>(runtime.Library) { Installation.HostJar };
                 libraries.AddRange(Array.FindAll(runtime.Arguments(), File.Exists));
-                request = CompilerProcess.Submit(Toolchain.FindJdk(), Toolchain.FindKotlin(runtime.Kind), libraries, words);
+                request = CompilerProcess.Submit(Toolchain.FindJdk(), Toolchain.FindKotlin(runtime.Kind), libraries, options);
             }
             catch (Exception error) when (error is ToolException || error is IOException || error is UnauthorizedAccessException)
             {
@@ -159,7 +159,7 @@ namespace Collektive.Unity.Editor
             Finish(code == 0 ? Progress.Status.Succeeded : Progress.Status.Failed);
             if (code == 0) AssetDatabase.ImportAsset(built.Jar);
             UpdateWhilePlaying(code == 0);
-            if (built.HasGeneratedSince(begun)) AssetDatabase.Refresh();
+            if (built.HasGeneratedSince(startTime)) AssetDatabase.Refresh();
         }
 
         /// <summary>
@@ -198,18 +198,18 @@ namespace Collektive.Unity.Editor
             Progress.Finish(progress, status);
         }
 
-        private static List<string> WordsOf(SchemaProject project)
+        private static List<string> OptionsOf(SchemaProject project)
         {
-            var words = new List<string>
+            var options = new List<string>
             {
                 "--flatc", Toolchain.Flatc(), "--include", Toolchain.SchemaFolder, "--schema", Path.GetFullPath(project.Schema),
                 "--csharp", Path.GetFullPath(project.Generated), "--jar", Path.GetFullPath(project.Jar), "--work", Path.GetFullPath(Work),
                 "--mark", "Collektive-Runtime:" + project.Runtime.ManifestValue, "--library", Installation.HostJar,
             };
-            foreach (var jar in project.Runtime.Library) words.AddRange(new[] { "--library", jar });
-            foreach (var argument in project.Runtime.Arguments()) words.AddRange(new[] { "--kotlin", argument });
-            if (Directory.Exists(project.Programs)) words.AddRange(new[] { "--source", Path.GetFullPath(project.Programs) });
-            return words;
+            foreach (var jar in project.Runtime.Library) options.AddRange(new[] { "--library", jar });
+            foreach (var argument in project.Runtime.Arguments()) options.AddRange(new[] { "--kotlin", argument });
+            if (Directory.Exists(project.Programs)) options.AddRange(new[] { "--source", Path.GetFullPath(project.Programs) });
+            return options;
         }
     }
 }

@@ -93,15 +93,15 @@ namespace Collektive.Unity.Editor
                     candidates.Add(parent);
             }
             var home = candidates.Find(candidate => candidate.Length > 0);
-            var wanted = "download kotlin-compiler-" + KotlinVersion
+            var instructions = "download kotlin-compiler-" + KotlinVersion
                 + ".x.zip from github.com/JetBrains/kotlin/releases, unpack it and set its folder kotlinc in Preferences > Collektive";
-            if (home == null) throw new ToolException("no Kotlin compiler was found: " + wanted);
+            if (home == null) throw new ToolException("no Kotlin compiler was found: " + instructions);
             var version = Path.Combine(home, "build.txt");
             if (!Directory.Exists(Path.Combine(home, "lib")) || !File.Exists(version))
-                throw new ToolException(home + " is not a Kotlin compiler (lib or build.txt is missing): " + wanted);
+                throw new ToolException(home + " is not a Kotlin compiler (lib or build.txt is missing): " + instructions);
             var text = File.ReadAllText(version).Trim();
             if (runtime == AggregateRuntime.BuiltIn && !text.StartsWith(KotlinVersion + ".", StringComparison.Ordinal))
-                throw new ToolException("the Kotlin compiler in " + home + " has version " + text + ": " + wanted);
+                throw new ToolException("the Kotlin compiler in " + home + " has version " + text + ": " + instructions);
             return home;
         }
 

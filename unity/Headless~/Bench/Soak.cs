@@ -21,13 +21,13 @@ namespace Collektive.Headless.Bench
 
         private readonly BenchSettings settings;
         private readonly AllocationProbe probe;
-        private readonly Action<string> say;
+        private readonly Action<string> log;
 
-        internal Soak(BenchSettings settings, AllocationProbe probe, Action<string> say)
+        internal Soak(BenchSettings settings, AllocationProbe probe, Action<string> log)
         {
             this.settings = settings;
             this.probe = probe;
-            this.say = say;
+            this.log = log;
         }
 
         internal Row Run()
@@ -35,14 +35,14 @@ namespace Collektive.Headless.Bench
             using (var variant = new InProcess(settings, probe, "soak", "in-process", Nodes, 2))
             {
                 var times = new double[Batch];
-                say("soak, " + Nodes + " nodes: warming up");
+                log("soak, " + Nodes + " nodes: warming up");
                 for (var done = 0; done < WarmUp; done += Batch) variant.Run(Batch, times);
                 var before = Jvm.GetStatus(collect: true);
                 var rssAtStart = ResidentKb();
                 var rssSettled = 0L;
                 for (var done = 0; done < Ticks; done += Batch)
                 {
-                    say("soak, " + Nodes + " nodes: tick " + done + " of " + Ticks);
+                    log("soak, " + Nodes + " nodes: tick " + done + " of " + Ticks);
                     if (done == SettledAt) rssSettled = ResidentKb();
                     var jvm = variant.JvmBytes();
                     var managed = GC.GetAllocatedBytesForCurrentThread();

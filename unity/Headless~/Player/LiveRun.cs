@@ -40,7 +40,7 @@ namespace Collektive.Headless
         private bool isRunning = true;
         private int steps;
         private double speed = 1;
-        private double due;
+        private double nextTickMs;
         private int ticks;
         private int capacity;
         private int selected = -1;
@@ -70,9 +70,9 @@ namespace Collektive.Headless
             while (!isEnded())
             {
                 // Handles signals between two waits.
-                var wait = isRunning || steps > 0 ? due - clock.Elapsed.TotalMilliseconds : 100;
+                var wait = isRunning || steps > 0 ? nextTickMs - clock.Elapsed.TotalMilliseconds : 100;
                 if (channel.TryTake(Math.Max(0, (int)Math.Min(wait, 100)), out var command)) Execute(command);
-                else if ((isRunning || steps > 0) && due <= clock.Elapsed.TotalMilliseconds) Tick(frame);
+                else if ((isRunning || steps > 0) && nextTickMs <= clock.Elapsed.TotalMilliseconds) Tick(frame);
                 if (manager.Failure.Length == 0) continue;
                 channel.Send(new JObject(new JProperty("event", "stopped"), new JProperty("message", manager.Failure)));
                 break;
@@ -84,7 +84,7 @@ namespace Collektive.Headless
         {
             var interval = 1000 * scenario.Settings.deltaTime / speed;
             // A simulation that is too slow for real time does not catch up.
-            due = Math.Max(due + interval, clock.Elapsed.TotalMilliseconds - interval);
+            nextTickMs = Math.Max(nextTickMs + interval, clock.Elapsed.TotalMilliseconds - interval);
             var tick = manager.Tick;
             runMetrics.Prepare(manager, rows.IsDue(ticks + 1));
             frame();
@@ -156,14 +156,14 @@ namespace Collektive.Headless
         {
             isRunning = runs;
             steps = 0;
-            due = clock.Elapsed.TotalMilliseconds;
+            nextTickMs = clock.Elapsed.TotalMilliseconds;
         }
 
         private void Step(int count)
         {
             isRunning = false;
             steps += Math.Min(Math.Max(count, 1), 1000);
-            due = clock.Elapsed.TotalMilliseconds;
+            nextTickMs = clock.Elapsed.TotalMilliseconds;
         }
 
         /// <summary>Copies a node, to points on a spiral around a point.</summary>

@@ -21,7 +21,7 @@ namespace Collektive.Headless
         private readonly Scenario scenario;
         private readonly Options options;
         private readonly Interrupt interrupt;
-        private readonly DateTime began;
+        private readonly DateTime startTime;
         private readonly ulong callsBefore = Jvm.StepCalls;
         private readonly List<double> stepTimes = new List<double>();
         private readonly List<double> totalTimes = new List<double>();
@@ -32,15 +32,15 @@ namespace Collektive.Headless
         private MetricsTable metrics;
         private FrameLimit limit;
         private string cause = "";
-        private int done;
+        private int completedTicks;
 
-        /// <param name="began">Start time of the run; by default, of the process.</param>
-        internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, DateTime? began = null)
+        /// <param name="startTime">Start time of the run; by default, of the process.</param>
+        internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, DateTime? startTime = null)
         {
             this.scenario = scenario;
             this.options = options;
             this.interrupt = interrupt;
-            this.began = began ?? Process.GetCurrentProcess().StartTime;
+            this.startTime = startTime ?? Process.GetCurrentProcess().StartTime;
             if (scenario.OriginalRun != null
                 && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
             {
@@ -139,7 +139,7 @@ namespace Collektive.Headless
 
         private void Count(SimulationManager manager)
         {
-            if (++done == 1) firstTick = DateTime.Now - began;
+            if (++completedTicks == 1) firstTick = DateTime.Now - startTime;
             metrics.Add(manager.Times, manager.Network);
             runMetrics.Ticked(manager);
             stepTimes.Add(manager.Times.Step);
@@ -215,13 +215,13 @@ namespace Collektive.Headless
                 var ended = Stopwatch.GetTimestamp();
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished && !HasConverged; frame++)
                 {
-                    var before = done;
-                    runMetrics.Prepare(manager, rows.IsDue(done + 1) || frame == ticks);
-                    limit.Begin(done + 1);
+                    var before = completedTicks;
+                    runMetrics.Prepare(manager, rows.IsDue(completedTicks + 1) || frame == ticks);
+                    limit.Begin(completedTicks + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();
                     if (manager.Failure.Length > 0) throw Stopped(manager);
-                    if (done == before)
+                    if (completedTicks == before)
                     {
                         cause = ReasonForMissingTick(manager);
                         ended = Stopwatch.GetTimestamp();
@@ -229,7 +229,7 @@ namespace Collektive.Headless
                     }
                     hadNodes |= manager.Nodes.Count > 0;
                     if (stopsAtFailures && manager.Simulation.AllRoundsFailed)
-                        throw new ScenarioException("stopped at tick " + done
+                        throw new ScenarioException("stopped at tick " + completedTicks
                             + ": all rounds failed; the errors are above. To continue anyway, use --keep-going");
                     parameters = parameters ?? ProgramsWithParameters(manager);
                     replay?.Add(manager.SimulatedTime);
@@ -237,24 +237,24 @@ namespace Collektive.Headless
                     totalTimes.Add((now - ended) * 1000.0 / Stopwatch.Frequency);
                     ended = now;
                     metrics.AddWhole(totalTimes[totalTimes.Count - 1]);
-                    if (rows.IsDue(done))
+                    if (rows.IsDue(completedTicks))
                     {
                         EndInterval(manager, replay, manager.SimulatedTime);
                         scenario.Convergence.Add(manager.SimulatedTime, metrics.Values);
                         rows.Advance();
                     }
-                    if (nodes != null && nodeRows.IsDue(done))
+                    if (nodes != null && nodeRows.IsDue(completedTicks))
                     {
                         nodes.Add(manager.SimulatedTime);
                         nodeRows.Advance();
                     }
-                    if (progress.Due || frame == ticks || HasConverged) progress.Show(done, manager.SimulatedTime, Text());
+                    if (progress.Due || frame == ticks || HasConverged) progress.Show(completedTicks, manager.SimulatedTime, Text());
                 }
                 progress.End();
                 metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 manifest.AddResults(
-                    manager, parameters ?? new JObject(), done, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
+                    manager, parameters ?? new JObject(), completedTicks, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
                 manifest.AddConvergence(scenario.Convergence.Times());
                 if (nodes != null) manifest.AddNodeColumns(nodes.Types);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
@@ -268,9 +268,9 @@ namespace Collektive.Headless
                 manifest.Outcome = "interrupted";
                 return interrupt.ExitCode;
             }
-            if (done < ticks && !manager.Finished && !Loop.QuitRequested && !HasConverged)
+            if (completedTicks < ticks && !manager.Finished && !Loop.QuitRequested && !HasConverged)
             {
-                var problem = done + " of " + ticks + " ticks were completed" + cause;
+                var problem = completedTicks + " of " + ticks + " ticks were completed" + cause;
                 Console.Error.WriteLine("collektive: " + problem + "; to end a run early, use Application.Quit or a stop condition");
                 manifest.Outcome = problem;
                 return 1;
@@ -308,7 +308,7 @@ namespace Collektive.Headless
                 var live = new LiveRun(scenario, scene, runMetrics, metrics, manager, new LiveChannel(options.Channel));
                 live.Play(() =>
                 {
-                    limit.Begin(done + 1);
+                    limit.Begin(completedTicks + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();
                 }, () => interrupt.Requested || Loop.QuitRequested);
@@ -318,7 +318,8 @@ namespace Collektive.Headless
             return 0;
         }
 
-        private ScenarioException Stopped(SimulationManager manager) => new ScenarioException("stopped at tick " + (done + 1) + ": " + manager.Failure);
+        private ScenarioException Stopped(SimulationManager manager) =>
+            new ScenarioException("stopped at tick " + (completedTicks + 1) + ": " + manager.Failure);
 
         /// <summary>Returns the likely reason why a frame had no tick.</summary>
         private static string ReasonForMissingTick(SimulationManager manager)

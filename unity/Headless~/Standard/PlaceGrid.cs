@@ -8,9 +8,9 @@ namespace Collektive.Standard
     internal sealed class PlaceGrid
     {
         private readonly Dictionary<(int, int), List<Vector3>> cells = new Dictionary<(int, int), List<Vector3>>();
-        private readonly float least;
+        private readonly float minDistance;
 
-        internal PlaceGrid(float least) => this.least = least;
+        internal PlaceGrid(float minDistance) => this.minDistance = minDistance;
 
         internal int Count { get; private set; }
 
@@ -18,10 +18,10 @@ namespace Collektive.Standard
         internal bool TryAdd(Vector3 place)
         {
             int x = CellOf(place.x), z = CellOf(place.z);
-            for (var i = 0; least > 0 && i < 9; i++)
+            for (var i = 0; minDistance > 0 && i < 9; i++)
             {
                 if (!cells.TryGetValue((x + i % 3 - 1, z + i / 3 - 1), out var near)) continue;
-                if (!near.TrueForAll(other => (other - place).sqrMagnitude >= least * least)) return false;
+                if (!near.TrueForAll(other => (other - place).sqrMagnitude >= minDistance * minDistance)) return false;
             }
             if (!cells.TryGetValue((x, z), out var places)) cells[(x, z)] = places = new List<Vector3>();
             places.Add(place);
@@ -30,6 +30,6 @@ namespace Collektive.Standard
         }
 
         // Slightly wider, so that rounding does not put near places two cells apart.
-        private int CellOf(float coordinate) => least > 0 ? (int)Math.Floor(coordinate / (1.001 * least)) : 0;
+        private int CellOf(float coordinate) => minDistance > 0 ? (int)Math.Floor(coordinate / (1.001 * minDistance)) : 0;
     }
 }

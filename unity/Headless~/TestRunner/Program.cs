@@ -30,7 +30,7 @@ static class Program
     };
 
     static readonly XElement results = new XElement("testsuite");
-    static readonly SortedDictionary<string, int> leftOut = new SortedDictionary<string, int>(StringComparer.Ordinal);
+    static readonly SortedDictionary<string, int> skippedCategories = new SortedDictionary<string, int>(StringComparer.Ordinal);
     static int passed, failed;
     static bool isUnity, isPlayMode;
     static string only;
@@ -42,7 +42,7 @@ static class Program
         {
             if (arguments[0] == "--results") file = arguments[1];
             else if (arguments[0] == "--only") only = arguments[1];
-            else if (arguments[0] == "--without") leftOut[arguments[1]] = 0;
+            else if (arguments[0] == "--without") skippedCategories[arguments[1]] = 0;
             else throw new ArgumentException("unknown option " + arguments[0]);
             arguments = arguments.AsSpan(2).ToArray();
         }
@@ -68,7 +68,7 @@ static class Program
                 foreach (TestCaseAttribute testCase in cases) Run(type, method, testCase, filter);
             }
         }
-        foreach (var category in leftOut) Console.WriteLine($"{category.Value} tests of category {category.Key} were skipped");
+        foreach (var category in skippedCategories) Console.WriteLine($"{category.Value} tests of category {category.Key} were skipped");
         Console.WriteLine($"{passed} passed, {failed} failed");
         if (file != null)
         {
@@ -85,10 +85,10 @@ static class Program
         if (name.IndexOf(filter, StringComparison.Ordinal) < 0 || method.IsDefined(typeof(IgnoreAttribute), true)) return;
         bool HasCategory(string category) => testCase?.Category == category || IsIn(category, method) || IsIn(category, type);
         if (only != null && !HasCategory(only)) return;
-        foreach (var category in new List<string>(leftOut.Keys))
+        foreach (var category in new List<string>(skippedCategories.Keys))
         {
             if (!HasCategory(category)) continue;
-            leftOut[category]++;
+            skippedCategories[category]++;
             return;
         }
         var clock = Stopwatch.StartNew();

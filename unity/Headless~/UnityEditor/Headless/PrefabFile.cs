@@ -87,9 +87,9 @@ namespace UnityEditor.Headless
         /// Like an asset, it is inactive, but its copies are not.
         static GameObject Object(string name)
         {
-            var made = new GameObject(name);
-            made.SetActive(false);
-            return made;
+            var created = new GameObject(name);
+            created.SetActive(false);
+            return created;
         }
 
         static string Reference(string part, string key) => Regex.Match(Value(part, key), @"fileID: (-?\d+)").Groups[1].Value;

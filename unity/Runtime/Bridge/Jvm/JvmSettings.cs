@@ -232,11 +232,11 @@ namespace Collektive.Bridge
         /// Removes an archive with another name or without a header. If another JVM was writing it, this one starts without an archive, and the next one writes
         /// it again.
         /// </summary>
-        private static void RemoveUnusable(string archive, string wanted)
+        private static void RemoveUnusable(string archive, string expected)
         {
             try
             {
-                if (archive != wanted || !HasHeader(archive)) File.Delete(archive);
+                if (archive != expected || !HasHeader(archive)) File.Delete(archive);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {

@@ -19,11 +19,11 @@ namespace Collektive.Bridge
                 var flag = response.Flags(i).GetValueOrDefault();
                 flags.Add(flag.Name, flag.Value);
             }
-            var words = Jvm.Description.Split('\n');
-            Home = words[0];
-            Version = words.Length > 1 ? words[1] : "";
+            var lines = Jvm.Description.Split('\n');
+            Home = lines[0];
+            Version = lines.Length > 1 ? lines[1] : "";
             var options = new List<string>();
-            for (var i = 2; i < words.Length; i++) options.Add(words[i]);
+            for (var i = 2; i < lines.Length; i++) options.Add(lines[i]);
             Options = options;
             Process = Jvm.Process;
             Uptime = TimeSpan.FromMilliseconds(response.UptimeMillis);

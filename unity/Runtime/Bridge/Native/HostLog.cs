@@ -27,9 +27,9 @@ namespace Collektive.Bridge
 
         private const int LineCapacity = 16 * 1024;
 
-        private readonly int[] given = new int[4];
+        private readonly int[] returnedLines = new int[4];
         private long secondBegan = Stopwatch.GetTimestamp();
-        private long leftOut;
+        private long omittedLines;
         private ulong lost = Lost();
 
         /// <summary>Removes and returns the oldest line, if any. Allocates only for a returned line.</summary>
@@ -42,12 +42,12 @@ namespace Collektive.Bridge
             while (ShimLibrary.Problem == null && (length = Shim.clk_log_read(&number, buffer, LineCapacity)) >= 0)
             {
                 level = (HostLogLevel)number;
-                if (given[number]++ < LinesPerSecond)
+                if (returnedLines[number]++ < LinesPerSecond)
                 {
                     line = Encoding.UTF8.GetString(buffer, length);
                     return true;
                 }
-                leftOut++;
+                omittedLines++;
             }
             level = HostLogLevel.Info;
             line = null;
@@ -58,15 +58,15 @@ namespace Collektive.Bridge
         public bool TryCount(out HostLogLevel level, out string line)
         {
             secondBegan = Stopwatch.GetTimestamp();
-            System.Array.Clear(given, 0, given.Length);
+            System.Array.Clear(returnedLines, 0, returnedLines.Length);
             var overflowed = Lost() - lost;
             level = HostLogLevel.Warning;
             line = null;
-            if (leftOut == 0 && overflowed == 0) return false;
-            line = (leftOut + (long)overflowed) + " log lines of the JVM and its programs were skipped: the limit is " + LinesPerSecond +
+            if (omittedLines == 0 && overflowed == 0) return false;
+            line = (omittedLines + (long)overflowed) + " log lines of the JVM and its programs were skipped: the limit is " + LinesPerSecond +
                 " lines per second and severity" + (overflowed > 0 ? "; " + overflowed + " of them did not fit into the log buffer" : "");
             lost += overflowed;
-            leftOut = 0;
+            omittedLines = 0;
             return true;
         }
 

@@ -16,7 +16,7 @@ namespace Collektive.Unity
         private readonly List<Node> joining = new List<Node>();
         private readonly PagedArray<int> joiningIndex = new PagedArray<int>();
         private readonly GrowingArray<int> leaving = new GrowingArray<int>();
-        private readonly GrowingArray<int> gone = new GrowingArray<int>();
+        private readonly GrowingArray<int> departed = new GrowingArray<int>();
         private readonly PagedArray<bool> isGone = new PagedArray<bool>();
         private int nextId;
 
@@ -49,7 +49,7 @@ namespace Collektive.Unity
             if (place < 0) return "node '" + node.name + "' has id " + id + ", which node '" + nodes[~place].name
                 + "' already uses: give each node its own id, or -1";
             nextId = Math.Max(nextId, id + 1);
-            if (isGone[id]) DropLinksOfGone(simulation.Links);
+            if (isGone[id]) DropLinksOfDeparted(simulation.Links);
             node.OnJoined(simulation, id);
             nodes.Insert(place, node);
             joiningIndex[id] = joining.Count;
@@ -57,7 +57,7 @@ namespace Collektive.Unity
             return null;
         }
 
-        /// <summary>Removes a node; its links stay until <see cref="DropLinksOfGone"/>.</summary>
+        /// <summary>Removes a node; its links stay until <see cref="DropLinksOfDeparted"/>.</summary>
         internal void Leave(Node node, NeighbourSearch links)
         {
             var id = node.Id;
@@ -67,16 +67,16 @@ namespace Collektive.Unity
             IsKnown[id] = false;
             links.Know(id, false);
             isGone[id] = true;
-            gone.Add(id);
+            departed.Add(id);
         }
 
         /// <summary>Drops the links of all nodes that left, in one pass over the links.</summary>
-        internal void DropLinksOfGone(NeighbourSearch links)
+        internal void DropLinksOfDeparted(NeighbourSearch links)
         {
-            if (gone.Count == 0) return;
-            links.Drop(new Span<int>(gone.Items, 0, gone.Count));
-            for (var i = 0; i < gone.Count; i++) isGone[gone.Items[i]] = false;
-            gone.Clear();
+            if (departed.Count == 0) return;
+            links.Drop(new Span<int>(departed.Items, 0, departed.Count));
+            for (var i = 0; i < departed.Count; i++) isGone[departed.Items[i]] = false;
+            departed.Clear();
         }
 
         /// <summary>Writes to the request the nodes that left and joined since the last call.</summary>

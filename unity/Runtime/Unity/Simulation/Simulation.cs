@@ -39,7 +39,7 @@ namespace Collektive.Unity
         private readonly HashSet<string> changedPrograms = new HashSet<string>();
         private bool isStopReported;
         private long pendingSince;
-        private (long Start, long QueriesEnd, long RulesEnd, long SenseEnd) begun;
+        private (long Start, long QueriesEnd, long RulesEnd, long SenseEnd) timestamps;
 
         /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
         /// <param name="globals">Data written to it is sent with the next tick.</param>
@@ -116,7 +116,7 @@ namespace Collektive.Unity
         {
             get
             {
-                registry.DropLinksOfGone(Links);
+                registry.DropLinksOfDeparted(Links);
                 return Links;
             }
         }
@@ -285,12 +285,12 @@ namespace Collektive.Unity
             var actEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Physics.Auto()) PhysicsSteps.Advance(this);
             var end = Stopwatch.GetTimestamp();
-            Times = TickTimes.Of(begun.Start, begun.QueriesEnd, begun.RulesEnd, begun.SenseEnd, stepEnd, actEnd, end);
+            Times = TickTimes.Of(timestamps.Start, timestamps.QueriesEnd, timestamps.RulesEnd, timestamps.SenseEnd, stepEnd, actEnd, end);
         }
 
         private void Begin()
         {
-            begun.Start = Stopwatch.GetTimestamp();
+            timestamps.Start = Stopwatch.GetTimestamp();
             TickInProgress = session.Tick + 1;
             using (TickMarkers.Queries.Auto())
             {
@@ -298,16 +298,16 @@ namespace Collektive.Unity
                 FlushChanges();
                 BeginQueries();
             }
-            begun.QueriesEnd = Stopwatch.GetTimestamp();
+            timestamps.QueriesEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Rules.Auto()) UpdateRules();
-            begun.RulesEnd = Stopwatch.GetTimestamp();
+            timestamps.RulesEnd = Stopwatch.GetTimestamp();
             using (TickMarkers.Sense.Auto())
             {
                 Sense();
                 // Last, since users' code may add and remove links until here.
                 Links.Flush(session.Request);
             }
-            begun.SenseEnd = Stopwatch.GetTimestamp();
+            timestamps.SenseEnd = Stopwatch.GetTimestamp();
         }
 
         /// <summary>Makes the one call into the JVM.</summary>
@@ -353,7 +353,7 @@ namespace Collektive.Unity
         /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>
         private void FlushChanges()
         {
-            registry.DropLinksOfGone(Links);
+            registry.DropLinksOfDeparted(Links);
             var problem = globals.Flush(session.Request);
             if (problem != null) Fail(problem);
             for (var i = 0; i < registry.Joining.Count && IsOpen; i++)

@@ -58,9 +58,9 @@ namespace Collektive.Unity
         {
             get
             {
-                var wanted = (title, scale.low, scale.high, scale.lowest, scale.highest);
-                if (text == null || !wanted.Equals(inLegend)) Describe();
-                inLegend = wanted;
+                var currentLegend = (title, scale.low, scale.high, scale.lowest, scale.highest);
+                if (text == null || !currentLegend.Equals(inLegend)) Describe();
+                inLegend = currentLegend;
                 return text;
             }
         }
@@ -124,9 +124,9 @@ namespace Collektive.Unity
 
         private void Describe()
         {
-            var made = new StringBuilder(title).Append("  ").Append(Text(scale.lowest)).Append(' ');
-            for (var step = 0; step < ColourScale.Steps; step++) made.Append("<color=#").Append(Hex(scale.At(step))).Append(">\u2588</color>");
-            text = made.Append(' ').Append(Text(scale.highest)).ToString();
+            var builder = new StringBuilder(title).Append("  ").Append(Text(scale.lowest)).Append(' ');
+            for (var step = 0; step < ColourScale.Steps; step++) builder.Append("<color=#").Append(Hex(scale.At(step))).Append(">\u2588</color>");
+            text = builder.Append(' ').Append(Text(scale.highest)).ToString();
         }
 
         private static string Text(float number) => number.ToString("G4", CultureInfo.InvariantCulture);
