@@ -12,7 +12,7 @@ namespace Collektive.Bridge
         internal int Id;
     }
 
-    /// <summary>A point near a place.</summary>
+    /// <summary>A point that a search found.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal struct NearPoint
     {

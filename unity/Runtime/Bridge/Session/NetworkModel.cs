@@ -40,7 +40,7 @@ namespace Collektive.Bridge
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
         internal string FindProblem(double deltaTime)
         {
-            if (!(loss >= 0 && loss <= 1)) return "network loss is " + loss + ": it must be in 0..1";
+            if (!(loss >= 0 && loss <= 1)) return "network loss is " + loss + ": it must be from 0 to 1";
             if (!IsAmount(lossPerMetre)) return "network loss per metre is " + lossPerMetre + ": it must be 0 or greater";
             if (!IsAmount(lossPerAttenuation)) return "network loss per attenuation is " + lossPerAttenuation + ": it must be 0 or greater";
             if (!IsAmount(delay)) return "network delay is " + delay + " s: it must be 0 or greater";
@@ -49,7 +49,7 @@ namespace Collektive.Bridge
             var shortest = Math.Max(1, burstShare / (1 - burstShare));
             if (!(burstLength >= shortest) || double.IsInfinity(burstLength))
                 return "network burst length is " + burstLength + ": with a burst share of " + burstShare + " it must be at least " + shortest;
-            if (!(burstLoss >= 0 && burstLoss <= 1)) return "network burst loss is " + burstLoss + ": it must be in 0..1";
+            if (!(burstLoss >= 0 && burstLoss <= 1)) return "network burst loss is " + burstLoss + ": it must be from 0 to 1";
             if (IsAmount(retention) && (retention == 0 || retention >= deltaTime)) return null;
             return "network retention is " + retention + " s: it must be 0 (until the next message) or at least the delta time, " + deltaTime +
                 " s, otherwise messages expire before they are read";

@@ -188,7 +188,7 @@ namespace Collektive.Unity
             if (deltaTime / (double)physicsStep > MaxSubSteps)
                 return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would need more than a million steps; raise the physics step";
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
-            if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be in 1..256";
+            if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be from 1 to 256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
             if (runtime == AggregateRuntime.Collektive && string.IsNullOrWhiteSpace(runtimeJars))
                 return "runtime is Collektive, but runtime jars is empty: select the folder of Collektive's jars";

@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// When a node runs its rounds under the asynchronous schedule, in simulated seconds: round k is due <c>phase + k * period</c>
-    /// after the node joined, and up to <c>jitter</c> later. A tick runs the rounds that came due since the one before, at most one per node.
+    /// When a node runs its rounds under the asynchronous schedule, in simulated seconds: round k is due <c>phase + k * period</c> after the node joined, and
+    /// up to <c>jitter</c> later. A tick runs the rounds that became due since the previous tick, at most one per node.
     /// </summary>
     [Serializable]
     public sealed class RoundTiming
@@ -15,7 +15,7 @@ namespace Collektive.Unity
         [Min(0.001f)]
         public float period = 0.1f;
 
-        /// <summary>Seconds from joining to the first round; negative: drawn for each node, below the period.</summary>
+        /// <summary>Seconds from joining to the first round; negative: random for each node, less than the period.</summary>
         [Tooltip("Simulated seconds from joining to the first round. Negative: random for each node, less than the period.")]
         public float phase = -1;
 
