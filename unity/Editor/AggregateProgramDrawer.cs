@@ -22,7 +22,7 @@ namespace Collektive.Unity.Editor
         {
             var line = new Rect(position.x, position.y, position.width, EditorGUIUtility.singleLineHeight);
             var name = NameOf(property);
-            TakeDrop(line, property);
+            HandleDrop(line, property);
             EditorGUI.BeginChangeCheck();
             EditorGUI.ObjectField(line, property, label);
             if (EditorGUI.EndChangeCheck() && name != null) name.stringValue = "";
@@ -41,7 +41,7 @@ namespace Collektive.Unity.Editor
             return property.serializedObject.FindProperty(path.Substring(0, path.LastIndexOf('.') + 1) + nameof(SimulationSettings.program));
         }
 
-        private static void TakeDrop(Rect line, SerializedProperty property)
+        private static void HandleDrop(Rect line, SerializedProperty property)
         {
             var now = Event.current;
             var isDrop = now.type == EventType.DragPerform;
@@ -53,10 +53,10 @@ namespace Collektive.Unity.Editor
             if (!isDrop) return;
             DragAndDrop.AcceptDrag();
             if (library.Programs.Count == 1) Set(property, library.Programs[0]);
-            else Offer(property.Copy(), library);
+            else ShowMenu(property.Copy(), library);
         }
 
-        private static void Offer(SerializedProperty property, ProgramLibrary library)
+        private static void ShowMenu(SerializedProperty property, ProgramLibrary library)
         {
             var menu = new GenericMenu();
             foreach (var program in library.Programs) menu.AddItem(new GUIContent(program.Name), false, () => Set(property, program));

@@ -35,7 +35,7 @@ namespace Collektive.Unity.Editor
             if (status.Recording == RecordingState.On)
             {
                 if (GUILayout.Button("Dump Recording")) Dump(NewFile("dump"));
-                if (GUILayout.Button("Stop Recording")) jvm.Ask(JvmRecording.Stop);
+                if (GUILayout.Button("Stop Recording")) jvm.Enqueue(JvmRecording.Stop);
             }
             if (status.RecordingsWritten > 0 && GUILayout.Button("Show Recordings")) EditorUtility.RevealInFinder(Folder);
         }
@@ -43,8 +43,8 @@ namespace Collektive.Unity.Editor
         private static string NewFile(string name) =>
             Path.Combine(Folder, name + "-" + DateTime.Now.ToString("yyyyMMdd-HHmmss", CultureInfo.InvariantCulture) + ".jfr");
 
-        private void Start(string file, string chosen) => jvm.Ask(() => JvmRecording.Start(file, chosen));
+        private void Start(string file, string chosen) => jvm.Enqueue(() => JvmRecording.Start(file, chosen));
 
-        private void Dump(string file) => jvm.Ask(() => JvmRecording.Dump(file));
+        private void Dump(string file) => jvm.Enqueue(() => JvmRecording.Dump(file));
     }
 }

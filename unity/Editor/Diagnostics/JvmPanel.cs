@@ -40,14 +40,14 @@ namespace Collektive.Unity.Editor
             var isOwnProcess = Status.Process != 0;
             using (new EditorGUI.DisabledScope(!isOwnProcess || EditorApplication.isPlaying))
             {
-                if (GUILayout.Button("Restart JVM")) Ask(() => Jvm.Stop(StopLimitMs));
+                if (GUILayout.Button("Restart JVM")) Enqueue(() => Jvm.Stop(StopLimitMs));
             }
             if (!isOwnProcess) EditorGUILayout.LabelField(" ", "A JVM in the editor's process restarts with the editor.");
             else if (EditorApplication.isPlaying) EditorGUILayout.LabelField(" ", "Leave play mode to restart the JVM.");
         }
 
         /// <summary>Acts on the JVM after the query in progress, and then queries the status.</summary>
-        internal void Ask(Action action)
+        internal void Enqueue(Action action)
         {
             lastQuery = EditorApplication.timeSinceStartup;
             var before = query ?? Task.FromResult(Status);

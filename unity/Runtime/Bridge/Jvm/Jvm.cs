@@ -79,7 +79,7 @@ namespace Collektive.Bridge
         /// <summary>Returns the status of the running JVM. Takes a few milliseconds, about 50 the first time, and up to 10 s while a tick runs.</summary>
         /// <param name="collect">Whether to collect garbage first, so that only live objects are counted.</param>
         /// <exception cref="BridgeException">No JVM runs.</exception>
-        public static JvmStatus GetStatus(bool collect = false) => JvmControl.Ask(new JvmControl.Question { Collect = collect });
+        public static JvmStatus GetStatus(bool collect = false) => JvmControl.Send(new JvmControl.Query { Collect = collect });
 
         /// <summary>Returns the same as <see cref="GetStatus"/>, or null if no JVM runs or a debugger has stopped it.</summary>
         internal static JvmStatus TryGetStatus()

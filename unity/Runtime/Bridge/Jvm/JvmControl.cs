@@ -19,18 +19,18 @@ namespace Collektive.Bridge
             "UseSharedSpaces", "AutoCreateSharedArchive", "UseLibmIntrinsic", "UseG1GC", "UseSerialGC", "UseParallelGC", "UseZGC", "UseShenandoahGC",
         };
 
-        internal static JvmStatus Ask(Question question)
+        internal static JvmStatus Send(Query query)
         {
-            lock (Gate) return AskNow(question);
+            lock (Gate) return SendNow(query);
         }
 
-        private static JvmStatus AskNow(Question question)
+        private static JvmStatus SendNow(Query query)
         {
             var slot = new SlotAllocator(FirstCapacity);
             try
             {
                 var builder = new FlatBufferBuilder(new ByteBuffer(slot, 0));
-                Write(builder, question);
+                Write(builder, query);
                 var offset = builder.DataBuffer.Position;
                 var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
                 Shim.Check(Shim.clk_control(slot.Slot, offset, builder.DataBuffer.Length - offset, LimitMs, &answer));
@@ -44,17 +44,17 @@ namespace Collektive.Bridge
             }
         }
 
-        private static void Write(FlatBufferBuilder builder, Question question)
+        private static void Write(FlatBufferBuilder builder, Query query)
         {
             var names = new List<StringOffset>();
             foreach (var flag in Flags) names.Add(builder.CreateString(flag));
             var flags = Frame.ControlRequest.CreateFlagsVector(builder, names.ToArray());
-            var settings = builder.CreateString(question.Settings ?? "");
-            var path = builder.CreateString(question.Path ?? "");
-            builder.Finish(Frame.ControlRequest.CreateControlRequest(builder, flags, question.Collect, question.Recording, settings, path).Value);
+            var settings = builder.CreateString(query.Settings ?? "");
+            var path = builder.CreateString(query.Path ?? "");
+            builder.Finish(Frame.ControlRequest.CreateControlRequest(builder, flags, query.Collect, query.Recording, settings, path).Value);
         }
 
-        internal struct Question
+        internal struct Query
         {
             internal bool Collect;
             internal Frame.RecordingAction Recording;

@@ -25,21 +25,21 @@ namespace Collektive.Bridge
         {
             if (settings == null) throw new ArgumentNullException(nameof(settings));
             var isFile = settings.EndsWith(".jfc", StringComparison.Ordinal);
-            Ask(RecordingAction.Start, path, isFile ? Path.GetFullPath(settings) : settings);
+            Send(RecordingAction.Start, path, isFile ? Path.GetFullPath(settings) : settings);
         }
 
         /// <summary>Writes the recorded events to a file. The recording continues.</summary>
         /// <exception cref="BridgeException">No JVM runs.</exception>
-        public static void Dump(string path) => Ask(RecordingAction.Dump, path, "");
+        public static void Dump(string path) => Send(RecordingAction.Dump, path, "");
 
         /// <summary>Ends the recording and writes its file.</summary>
         /// <exception cref="BridgeException">No JVM runs.</exception>
-        public static void Stop() => JvmControl.Ask(new JvmControl.Question { Recording = RecordingAction.Stop });
+        public static void Stop() => JvmControl.Send(new JvmControl.Query { Recording = RecordingAction.Stop });
 
-        private static void Ask(RecordingAction action, string path, string settings)
+        private static void Send(RecordingAction action, string path, string settings)
         {
             if (string.IsNullOrWhiteSpace(path)) throw new ArgumentException("the recording's path is empty: enter the path of a file", nameof(path));
-            JvmControl.Ask(new JvmControl.Question { Recording = action, Path = Path.GetFullPath(path), Settings = settings });
+            JvmControl.Send(new JvmControl.Query { Recording = action, Path = Path.GetFullPath(path), Settings = settings });
         }
     }
 }

@@ -76,7 +76,7 @@ namespace Collektive.Unity
             for (var i = 0; i < near.Count; i++)
             {
                 ref var node = ref near.Items[i];
-                node.Line = tick.SightLines.Ask(Node, tick.Grid.NodeAt(node.Near), layers, node.Near.Distance);
+                node.Line = tick.SightLines.Request(Node, tick.Grid.NodeAt(node.Near), layers, node.Near.Distance);
             }
         }
 

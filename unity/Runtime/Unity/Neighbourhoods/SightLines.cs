@@ -86,7 +86,7 @@ namespace Collektive.Unity
 
         /// <summary>Adds the line between two nodes to the batch, unless it is already there; call it in <see cref="NodePart.Enqueue"/>.</summary>
         /// <returns>The line's number in this tick.</returns>
-        internal int Ask(Node a, Node b, int layers, float distance)
+        internal int Request(Node a, Node b, int layers, float distance)
         {
             if (rays.Count == MaxRays) Cast();
             var number = NumberOf(a.Id, b.Id, layers, out var isNew);

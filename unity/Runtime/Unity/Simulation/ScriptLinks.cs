@@ -9,7 +9,7 @@ namespace Collektive.Unity
     {
         private readonly Simulation simulation;
         // Ids of missing nodes with a warning.
-        private readonly HashSet<int> warnedOf = new HashSet<int>();
+        private readonly HashSet<int> warnedIds = new HashSet<int>();
 
         internal ScriptLinks(Simulation simulation)
         {
@@ -42,7 +42,7 @@ namespace Collektive.Unity
             if (simulation.Find(missing) == null)
             {
                 // Nodes may leave while scripts still have their ids or touch their colliders.
-                if (warnedOf.Add(missing))
+                if (warnedIds.Add(missing))
                 {
                     Debug.LogWarning("cannot " + verb + " a link between nodes " + a + " and " + b + ": node " + missing
                         + " is not in the simulation. Later links of this node are ignored without a warning", simulation.Manager);

@@ -48,7 +48,7 @@ namespace Collektive.Unity
         protected sealed override void Act(TData data)
         {
             var target = Finite(Read(data));
-            if (body == null) Go(target);
+            if (body == null) MoveTowards(target);
             else if (body.isKinematic) body.MovePosition(body.position + Node.AnswerInterval * Velocity(target - body.position));
             else Drive(target - body.position);
         }
@@ -63,7 +63,7 @@ namespace Collektive.Unity
             if (TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
         }
 
-        private void Go(Vector3 target)
+        private void MoveTowards(Vector3 target)
         {
             var place = Node.Body.position;
             Node.Body.position = place + Node.AnswerInterval * Velocity(target - place);

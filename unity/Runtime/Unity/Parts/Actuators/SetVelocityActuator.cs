@@ -34,7 +34,7 @@ namespace Collektive.Unity
             var velocity = Finite(Read(data));
             if (body.isKinematic)
             {
-                WarnOfKinematic();
+                WarnAboutKinematic();
                 return;
             }
             if (keepVertical) velocity.y = body.linearVelocity.y;
@@ -42,7 +42,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Reported once, because Unity would log it at each answer.</summary>
-        private void WarnOfKinematic()
+        private void WarnAboutKinematic()
         {
             if (hasReportedKinematic) return;
             hasReportedKinematic = true;

@@ -35,7 +35,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
-            RemoveGone();
+            RemoveStale();
             Write(ref data, new Span<Contact>(contacts.Items, 0, contacts.Count));
             BeginRound();
         }
@@ -83,7 +83,7 @@ namespace Collektive.Unity
             return place;
         }
 
-        private void RemoveGone()
+        private void RemoveStale()
         {
             var centre = Node.Position;
             var kept = 0;
