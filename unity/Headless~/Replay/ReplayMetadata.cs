@@ -6,8 +6,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The parts of a replay outside of its frames, in metres, seconds and Unity's axes. Fill it before you create the <see cref="ReplayWriter"/>; later
-    /// changes have no effect. Every number must be finite.
+    /// The parts of a replay outside its frames, in metres, seconds and Unity's axes. Fill it before you create the <see cref="ReplayWriter"/>; later changes
+    /// have no effect. Every number must be finite.
     /// </summary>
     public sealed class ReplayMetadata
     {

@@ -8,7 +8,7 @@ namespace CollektiveSamples.Swarm
 {
     /// <summary>
     /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers, because 10,000 of them would take longer than the
-    /// rest of a frame; twenty draw calls of 500 instances do not. Nothing is drawn without a model or in batch mode.
+    /// rest of a frame; twenty draw calls of 500 instances do not. Without a model and in batch mode, the component does not draw.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Drone View")]
     public sealed class DroneView : MonoBehaviour

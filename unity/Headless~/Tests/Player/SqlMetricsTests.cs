@@ -7,7 +7,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Player
 {
-    /// <summary>Metrics are untrusted: they can read the table of nodes and nothing else.</summary>
+    /// <summary>Metrics are untrusted: they can read only the table of nodes.</summary>
     [TestFixture]
     public sealed class SqlMetricsTests : SimulationFixture
     {
