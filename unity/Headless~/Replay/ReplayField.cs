@@ -83,7 +83,7 @@ namespace Collektive.Headless
             if (Max.HasValue) json["max"] = ReplayMetadata.Number(Max.Value);
             if (Kind == ReplayFieldKind.Category) json["order"] = order;
             if (Categories.Count > 0) json["words"] = new JArray(Categories);
-            // Without values, the range is unknown.
+            // Without values, the range is 0 to 0.
             json["least"] = Least <= Greatest ? Least : 0;
             json["greatest"] = Least <= Greatest ? Greatest : 0;
             json["someWithout"] = HasMissingValues;
