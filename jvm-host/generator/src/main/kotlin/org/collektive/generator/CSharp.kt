@@ -2,7 +2,7 @@ package org.collektive.generator
 
 /** Builds the models of the C# templates. */
 internal class CSharp(private val schema: UserSchema) {
-    /** The names of flatc's readers that generated code needs: those of a table that actuators read, and of all enums. */
+    /** The files of flatc's readers that generated code needs: those of the actuator table and the types in it, and of all enums. */
     private val readers = (reachable(listOfNotNull(schema.actuator as? TableType)).map { it.name } + schema.enums.map { it.name })
         .mapTo(HashSet()) { "${it.toString().replace('.', '/')}.cs" }
 
@@ -295,8 +295,8 @@ internal class CSharp(private val schema: UserSchema) {
         private val TAKEN = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
 
         /**
-         * Adapts flatc's C# to our FlatBuffers assembly: its namespace, and the symbols with which it was compiled. Defined per file, they need no
-         * settings in users' projects.
+         * Adapts flatc's C# to the package's FlatBuffers assembly: changes the namespace, and defines the symbols with which the assembly was
+         * compiled. Symbols defined in each file need no settings in users' projects.
          */
         fun adapt(text: String): String {
             val header = "// </auto-generated>\n"

@@ -2,7 +2,7 @@ package org.collektive.generator
 
 import java.nio.file.Path
 
-/** Runs `flatc`, and passes on its messages, which name file and line. */
+/** Runs `flatc` and forwards its messages, which name the file and the line. */
 internal class Flatc(private val executable: Path, private val includes: List<Path>) {
     /** Writes the binary form of [schema], with comments, attributes and paths, to the folder [output]. */
     fun fullBinarySchema(schema: Path, output: Path) {
@@ -38,7 +38,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         }
         val process = ProcessBuilder(command).redirectErrorStream(true).start()
         process.outputStream.close()
-        // Names of fields may be those of Alchemist's molecules, so flatc's warnings about their style are dropped.
+        // Drops flatc's warnings about the style of names, because field names may be those of Alchemist's molecules.
         val messages = process.inputStream.bufferedReader().readLines().filterNot { STYLE in it }.joinToString("\n").trim()
         val code = process.waitFor()
         if (code > SIGNAL) {
@@ -46,12 +46,12 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
                 "${schema.fileName}:1: flatc crashed on this file (signal ${code - SIGNAL}); simplify the schema",
             )
         }
-        if (code != 0) throw GeneratorException("flatc refuses ${schema.fileName}:\n${placed(messages)}")
+        if (code != 0) throw GeneratorException("flatc rejects ${schema.fileName}:\n${placed(messages)}")
         if (messages.isNotEmpty()) System.err.println(messages)
     }
 
     internal companion object {
-        /** The exit code of a process that a signal ended is this and the signal's number. */
+        /** The exit code of a process that was ended by a signal, minus the number of the signal. */
         private const val SIGNAL = 128
 
         /** Part of a warning about the style of names. */
@@ -59,7 +59,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
 
         private val ERROR = Regex("""(?m)^(?:error:)?\s*(\S.*?):(\d+): (\d+): (error|warning): (.*?)(?:, originally at: (.+):(\d+))?$""")
 
-        /** [messages] with the place of each error at the front, in the form that terminals and editors recognise. It is the place of the error. */
+        /** Returns [messages] with the place of each error at the start, in the format that terminals and editors recognise. */
         fun placed(messages: String): String = ERROR.replace(messages) {
             val (file, line, column, kind, text, origin, originLine) = it.destructured
             when {

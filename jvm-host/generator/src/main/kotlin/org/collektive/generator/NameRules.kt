@@ -6,7 +6,7 @@ import com.google.flatbuffers.reflection.Field as BinaryField
 import com.google.flatbuffers.reflection.Object as BinaryObject
 
 /**
- * Rejects names with which the code of flatc or this generator would not compile, or would have another meaning.
+ * Rejects names that would break the code of flatc or of this generator, or change its meaning.
  *
  * @property isOwn whether code is generated for the file with this path, as flatc writes it.
  * @property refuse throws the error about a type, or about a field of a type (`a.b.Type.field`).
@@ -24,10 +24,10 @@ internal class NameRules(
         (0 until schema.objectsLength()).map { schema.objects(it).name() } + (0 until schema.enumsLength()).map { schema.enums(it).name() }
         ).map { it.substringBefore('.') }.toSet()
 
-    /** Checks the types of the user's files, and the names [made] of generated types. */
-    fun check(made: List<String>) {
+    /** Checks the types of the user's files, and the names of [generatedTypes]. */
+    fun check(generatedTypes: List<String>) {
         for (name in objects.map { it.name() } + enums.map { it.name() }) checkType(name)
-        checkDistinct(made)
+        checkDistinct(generatedTypes)
         for (type in objects) checkFields(type)
         for (enum in enums) {
             val values = (0 until enum.valuesLength()).map { enum.values(it).name() }
@@ -59,7 +59,7 @@ internal class NameRules(
         }
         if (simple in roots) refuse(name, "in generated code it hides the namespace $simple; rename one of them")
         namespace.drop(1).find { it in roots }?.let {
-            refuse(name, "in C# the $it in its namespace hides the namespace $it; rename one of them")
+            refuse(name, "in C# the $it inside its namespace hides the namespace $it; rename one of them")
         }
         if (name.length > MAX_NAME) {
             refuse(name.take(MAX_NAME), "the name has more than $MAX_NAME characters with its namespace; shorten it")
@@ -71,12 +71,12 @@ internal class NameRules(
         if (word.length > MAX_WORD) refuse(place, "the name has more than $MAX_WORD characters; shorten it")
     }
 
-    /** Types become files, also on case-insensitive file systems, and constants in upper case. */
-    private fun checkDistinct(made: List<String>) {
+    /** Each type becomes a file, also on case-insensitive file systems, and a constant in upper case. */
+    private fun checkDistinct(generatedTypes: List<String>) {
         val seen = HashMap<String, String>()
-        for (name in objects.map { it.name() } + enums.map { it.name() } + made) {
+        for (name in objects.map { it.name() } + enums.map { it.name() } + generatedTypes) {
             val other = seen.put(name.replace('.', '_').uppercase(), name) ?: continue
-            val place = if (name in made) other else name
+            val place = if (name in generatedTypes) other else name
             refuse(place, if (name == other) "$TAKEN; rename the type" else "its name is too similar to that of $other; rename one of them")
         }
         for (name in objects.map { it.name() }) {
@@ -93,9 +93,9 @@ internal class NameRules(
         val simple = type.name().substringAfterLast('.')
         val taken = HashMap<String, String>()
         // The builder is a parameter of the methods that create a struct or table.
-        for (made in listOf("Builder", "Create$simple", "Start$simple", "End$simple", "GetRootAs$simple")) taken[made] = simple
+        for (name in listOf("Builder", "Create$simple", "Start$simple", "End$simple", "GetRootAs$simple")) taken[name] = simple
         val fields = (0 until type.fieldsLength()).map(type::fields)
-        for (field in fields) for (made in derived(field)) taken[made] = field.name()
+        for (field in fields) for (name in derived(field)) taken[name] = field.name()
         val seen = HashMap<String, String>()
         for (field in fields.sortedBy(BinaryField::id)) {
             val place = "${type.name()}.${field.name()}"
@@ -112,7 +112,7 @@ internal class NameRules(
         }
     }
 
-    /** Constructors of structs have a parameter for each number, whose name is invalid in C# if a keyword is in its middle. */
+    /** A struct's constructor has a parameter for each nested number. The name of that parameter is invalid in C# with a keyword in its middle. */
     private fun checkInner(field: BinaryField) {
         if (field.type().baseType() != BaseType.Obj) return
         val inner = schema.objects(field.type().index())
@@ -123,7 +123,7 @@ internal class NameRules(
         }
     }
 
-    /** The names of the members that generated code has for a field, beside its own. */
+    /** Returns the names of the members that flatc generates for a field, besides the accessor itself. */
     private fun derived(field: BinaryField): List<String> {
         val member = upperCamel(field.name())
         val type = field.type().baseType()
@@ -154,7 +154,7 @@ internal class NameRules(
         val SCALARS = BaseType.UType..BaseType.Double
         val ENUM_MEMBERS = setOf("names", "value__")
 
-        /** Field names with which flatc's code does not compile. */
+        /** Member names that clash with inherited members or members of flatc's base types. */
         val RESERVED_MEMBERS = setOf(
             "Class", "GetClass", "ToString", "HashCode", "Notify", "NotifyAll", "Wait", "Clone", "Finalize",
             "Equals", "GetHashCode", "GetType", "MemberwiseClone", "ReferenceEquals", "ByteBuffer", "Table",

@@ -22,7 +22,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
     private val texts by lazy { files.associateWith(SchemaText::read) }
 
-    /** How many types that contain each other are being read. */
+    /** Nesting depth of the type that is being read. */
     private var nesting = 0
 
     /**
@@ -45,11 +45,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         val global = root("GlobalData")
         if (sensor.name.namespace != actuator.name.namespace) {
             throw error(
-                "SensorData is in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}: use one",
+                "SensorData is in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}; use one namespace for both",
                 "${actuator.name}",
             )
         }
-        if (global != null && global !is TableType) throw error("make it a table", global.name.toString())
+        if (global != null && global !is TableType) throw error("it is not a table; make it a table", global.name.toString())
         val reached = composites.values.sortedBy { it.name.toString() }
         val user = UserSchema(
             file.fileName.toString(),
@@ -64,8 +64,8 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         checkRoots(user)
         checkVisible()
         checkExtent(user)
-        val made = (user.structs + user.tables - user.roots.toSet()).map { "${it.name}Value" } + user.name.toString()
-        NameRules(schema, { plain(it) in files }) { name, what -> throw error(what, name) }.check(made)
+        val generatedTypes = (user.structs + user.tables - user.roots.toSet()).map { "${it.name}Value" } + user.name.toString()
+        NameRules(schema, { plain(it) in files }) { name, what -> throw error(what, name) }.check(generatedTypes)
         return user
     }
 
@@ -212,7 +212,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** A root type has one class on each side, with which it is written or read as a whole. */
+    /** Rejects nested root types: each root type has one class per side, which reads or writes it only as a whole. */
     private fun checkRoots(user: UserSchema) {
         for (type in user.structs + user.tables) {
             for (field in type.fields) {
@@ -225,11 +225,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** The schema's class is named after the file, and its binary form for flatc has a name of at most four letters. */
+    /** The schema's class is named after the file, and flatc copies the file identifier into string literals. */
     private fun checkFile() {
         if (!fileName.matches(file.fileName.toString())) {
             throw error(
-                "the name of the file is the name of a class: begin it with a letter, and use only ASCII letters, digits, _ and -",
+                "the file name becomes a class name: begin it with a letter, and use only ASCII letters, digits, _ and -",
             )
         }
         val identifier = schema.fileIdent().orEmpty()
@@ -238,7 +238,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** Code of private types does not compile together with code of public types. */
+    /** Rejects private types: their code does not compile together with that of public types. */
     private fun checkVisible() {
         for (type in objects().map { it.second }) {
             if (type.attributesByKey("private") != null) throw error("private types are not supported; remove the attribute", type.name())
@@ -248,7 +248,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** The generated code must not become too large: nested types can expand to many fields. */
+    /** Limits the size of the generated code: nested types can expand to many fields. */
     private fun checkExtent(user: UserSchema) {
         var expandedFields = 0
         fun visit(type: Composite, outer: List<Composite>) {
@@ -308,12 +308,12 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         const val MAX_SLOTS = 64
         const val UNION = "unions are not supported; use one optional table field for each case"
 
-        /** As `FrameChecker` reads frames. */
+        /** The maximum depth that `FrameChecker` accepts. */
         const val MAX_DEPTH = 64
         const val TOO_DEEP = "types are nested more than $MAX_DEPTH levels deep, which frames do not support; use fewer levels"
         const val MAX_EXPANDED_FIELDS = 20_000
 
-        /** A constructor of Java has 255 parameters, some of which Kotlin takes. */
+        /** A Java constructor has at most 255 parameters, some of which Kotlin adds. */
         const val MAX_PARAMETERS = 240
 
         /** One Java method creates the layouts of all tables, and methods have at most 64 KB. */

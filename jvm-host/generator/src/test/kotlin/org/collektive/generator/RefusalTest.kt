@@ -24,7 +24,7 @@ internal class RefusalTest {
     @Test
     fun `an error of flatc begins with its position`() {
         val unknown = refusal("namespace a;\ntable SensorData {\n  x: flaot;\n}\n\n\n").lines()
-        assertEquals("flatc refuses user.fbs:", unknown[0])
+        assertEquals("flatc rejects user.fbs:", unknown[0])
         assertTrue(unknown[1].matches(Regex("""/.*/user\.fbs:3: error: type referenced but not defined .*: flaot""")), unknown[1])
         val cut = refusal("namespace a;\nstruct SensorData {").lines()
         assertTrue(cut[1].matches(Regex("""/.*/user\.fbs:2(:\d+)?: error: expecting: identifier .*""")), cut[1])
@@ -120,8 +120,8 @@ internal class RefusalTest {
                 "user.fbs:3: SensorDataVerify: generated code of a.SensorData has a class of this name; rename one of them",
             type("struct a { y: int; }") to "user.fbs:3: a: in generated code it hides the namespace a; rename one of them",
             namespace("SensorData.inner") to "SensorData: in generated code it hides the namespace SensorData",
-            namespace("swarm.inner.swarm") to "in C# the swarm in its namespace hides the namespace swarm; rename one of them",
-            "include \"types.fbs\";\n" + namespace("swarm.org") to "in C# the org in its namespace hides the namespace org",
+            namespace("swarm.inner.swarm") to "in C# the swarm inside its namespace hides the namespace swarm; rename one of them",
+            "include \"types.fbs\";\n" + namespace("swarm.org") to "in C# the org inside its namespace hides the namespace org",
             namespace("Big").replace("x: int", "big: int") to "user.fbs:2: SensorData.big: in C# it hides the namespace Big",
             type("struct C { z: int; }\nstruct B { is: C; }\nstruct A { b: B; }") to
                 "user.fbs:4: B.is: C# cannot use this name where the struct is nested; rename the field",
@@ -136,7 +136,7 @@ internal class RefusalTest {
     fun `a file name that is not a valid class name is refused`() {
         for (name in listOf("1st.fbs", "_.fbs", "sch\u00f6n.fbs", "a\nb.fbs", "a*b.fbs")) {
             val message = assertFailsWith<GeneratorException> { Fixture.generate(user("", "x: int;"), name) }.message.orEmpty()
-            assertContains(message, "the name of the file is the name of a class: begin it with a letter")
+            assertContains(message, "the file name becomes a class name: begin it with a letter")
         }
     }
 
@@ -189,7 +189,7 @@ internal class RefusalTest {
 
     @Test
     fun `a global struct is refused`() {
-        assertEquals("user.fbs:1: GlobalData: make it a table", refusal(user("struct GlobalData { x: float; }", "x: int;")))
+        assertEquals("user.fbs:1: GlobalData: it is not a table; make it a table", refusal(user("struct GlobalData { x: float; }", "x: int;")))
     }
 
     @Test
@@ -202,7 +202,7 @@ internal class RefusalTest {
         )
         assertContains(
             refusal("namespace a; struct SensorData { x: float; } namespace b; struct ActuatorData { x: float; }"),
-            "SensorData is in namespace a, ActuatorData in b: use one",
+            "SensorData is in namespace a, ActuatorData in b; use one namespace for both",
         )
     }
 
