@@ -25,11 +25,11 @@ internal class LiftedFunction private constructor(private val function: StdlibFu
     private val names = listOf("this") + function.parameters.map { checkNotNull(it.name) }
     private val isReified = function.typeParameters.any { it.isReified }
 
-    /** The signature on the JVM. Functions of an object with equal signatures need different names there. */
+    /** The signature on the JVM. Functions of one object with equal signatures need different JVM names. */
     val jvmSignature: String =
         function.name + parameterTypes.indices.map { if (it in fields) "Field" else parameterTypes[it].jvmErasure.qualifiedName }
 
-    /** Returns the function. With [isNamed], its name on the JVM contains its parameter types. */
+    /** Builds the function. With [isNamed], its JVM name contains its parameter types. */
     @OptIn(ExperimentalTypeInference::class)
     fun toFunSpec(isNamed: Boolean): FunSpec {
         val typeParameters = function.typeParameters.map {
@@ -37,7 +37,7 @@ internal class LiftedFunction private constructor(private val function: StdlibFu
         }
         return FunSpec.builder(function.name).apply {
             if (isNamed) {
-                val name = function.name + types.joinToString("", transform = ::letters)
+                val name = function.name + types.joinToString("", transform = ::nameOf)
                 addAnnotation(AnnotationSpec.builder(JvmName::class).addMember("%S", name).build())
             }
             // As in Kotlin's library, the result of a lambda selects the overload for `Iterable` or `Sequence`.
@@ -83,25 +83,25 @@ internal class LiftedFunction private constructor(private val function: StdlibFu
 
         private fun fieldOf(type: KType) = FIELD.parameterizedBy(ID, typeName(type))
 
-        private fun typeName(type: KType) = adapted(type.asTypeName())
+        private fun typeName(type: KType) = normalized(type.asTypeName())
 
         /** Returns [type] without annotations. As in Collektive, `Comparator<in Byte>` becomes `Comparator<Byte>`. */
-        private fun adapted(type: TypeName): TypeName = when (type) {
-            is ParameterizedTypeName -> type.copy(annotations = emptyList(), typeArguments = type.typeArguments.map(::adapted))
+        private fun normalized(type: TypeName): TypeName = when (type) {
+            is ParameterizedTypeName -> type.copy(annotations = emptyList(), typeArguments = type.typeArguments.map(::normalized))
 
             is WildcardTypeName -> {
-                val bound = adapted(type.inTypes.singleOrNull() ?: type.outTypes.single())
+                val bound = normalized(type.inTypes.singleOrNull() ?: type.outTypes.single())
                 if (type.inTypes.isEmpty()) producerOf(bound) else bound as? ClassName ?: consumerOf(bound)
             }
 
             else -> type.copy(annotations = emptyList())
         }
 
-        private fun letters(type: TypeName): String = when (type) {
+        private fun nameOf(type: TypeName): String = when (type) {
             STAR, ID -> ""
             is ClassName -> type.simpleNames.joinToString("")
-            is ParameterizedTypeName -> letters(type.rawType) + type.typeArguments.joinToString("", transform = ::letters)
-            is WildcardTypeName -> type.inTypes.singleOrNull()?.let { "in" + letters(it) } ?: ("out" + letters(type.outTypes.single()))
+            is ParameterizedTypeName -> nameOf(type.rawType) + type.typeArguments.joinToString("", transform = ::nameOf)
+            is WildcardTypeName -> type.inTypes.singleOrNull()?.let { "in" + nameOf(it) } ?: ("out" + nameOf(type.outTypes.single()))
             else -> "$type".removeSuffix("?")
         }
     }

@@ -13,10 +13,10 @@ internal class LiftedObject private constructor(type: KClass<*>, file: String?) 
     private val stdlibFunctions = if (file == null) StdlibFunction.members(type) else StdlibFunction.extensions("${file}Kt", type)
     private val packageName = "it.unibo.collektive.stdlib.${type.simpleName?.lowercase()}s"
     private val name = "Fielded" + if (file == null) "${type.simpleName}s" else "${file}Extensions"
-    private val what = if (file == null) "The members of [${type.qualifiedName}]" else "Extensions of [${type.qualifiedName}]"
+    private val subject = if (file == null) "The members of [${type.qualifiedName}]" else "Extensions of [${type.qualifiedName}]"
     private val documentation =
         """
-        $what for fields: each function calls Kotlin's function of the same name for every entry.
+        $subject for fields: each function calls Kotlin's function of the same name for every entry.
         Receiver and arguments are fields, or single values for all entries.
 
         A call throws the exceptions of Kotlin's function, and an [IllegalStateException] if its fields have different devices.

@@ -29,7 +29,7 @@ internal class StdlibFunction private constructor(
     val isProperty: Boolean get() = callable is KProperty<*>
     val isInfix: Boolean get() = callable is KFunction<*> && callable.isInfix
 
-    /** Whether it is an operator, except `compareTo`: its lifted version returns a field, which `<` cannot use. */
+    /** Whether it is an operator, except `compareTo`: its lifted version returns a field, which `<` does not accept. */
     val isOperator: Boolean get() = callable is KFunction<*> && callable.isOperator && name != "compareTo"
 
     /**
@@ -46,7 +46,7 @@ internal class StdlibFunction private constructor(
 
     companion object {
         /**
-         * Functions that Collektive does not lift: those of `Any`; `inc` and `dec`, which assign; `contains`, because `in` needs a Boolean; names
+         * Functions that Collektive does not lift: those of `Any`; `inc` and `dec`, which assign; `contains`, because `in` requires a Boolean result; names
          * that fields already have; functions of Kotlin/JVM only; and functions newer than the Kotlin version of Collektive 28.3.
          */
         private val NOT_LIFTED = setOf(

@@ -11,7 +11,7 @@ import org.collektive.spi.SharingRule
 public class CollektiveRuntime : RuntimeProvider {
     override val name: String get() = "collektive"
 
-    /** Runs a round first, so that jars of another version fail here and not in the first tick. */
+    /** Runs a trial round first, so that jars of another version fail here and not in the first tick. */
     override fun runtimes(rule: SharingRule): DeviceRuntimes = MailboxRuntimes(rule).also { runtimes ->
         val device = runtimes.device(0)
         @Suppress("UNCHECKED_CAST")

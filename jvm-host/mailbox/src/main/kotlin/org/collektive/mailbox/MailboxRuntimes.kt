@@ -20,8 +20,8 @@ import org.collektive.spi.RoundProgram
 import org.collektive.spi.SharingRule
 
 /**
- * Runs devices through Collektive's public API alone ([Collektive], [Mailbox]), so with any implementation of it on the class path.
- * Results equal those of the project's own runtime. A round costs many times as much, because messages are copied for each receiver.
+ * Runs devices only through Collektive's public API ([Collektive], [Mailbox]), so it works with any implementation on the class path.
+ * Results equal those of the built-in runtime. A round is many times as expensive, because messages are copied for each receiver.
  */
 public class MailboxRuntimes(private val rule: SharingRule = SharingRule { null }) : DeviceRuntimes {
     override fun device(id: Int): DeviceRuntime = MailboxRuntime(id, rule)
@@ -74,9 +74,9 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
 
     override fun currentInbound(): NeighborsData<Int> = inbound
 
-    override fun deliverableReceived(message: Message<Int, *>) = error("messages are read from the links, not pushed")
+    override fun deliverableReceived(message: Message<Int, *>) = error("this mailbox reads messages from the links and does not accept pushed ones")
 
-    /** Creates all messages, because an envelope need not support concurrent readers. */
+    /** Creates all messages in advance, because an envelope need not support concurrent readers. */
     override fun deliverableFor(outboundMessage: OutboundEnvelope<Int>) {
         val default = outboundMessage.prepareMessageFor(NO_ID)
         val each = inbound.neighbors.associateWith { outboundMessage.prepareMessageFor(it) }
@@ -99,7 +99,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
 
     private fun place(path: Path?): String = "node $id" + if (path == null) "" else " at ${path.toMultilineString(" > ")}"
 
-    /** The messages of one round: one for [each] neighbour of that round, and the [default] one for all others. */
+    /** The messages of one round: those for [each] neighbour of that round, and the [default] for all other receivers. */
     private class Messages(private var each: Map<Int, Message<Int, *>>, private var default: Message<Int, *>?) : Export() {
         fun message(receiver: Int): Message<Int, *>? = each[receiver] ?: default
 
@@ -128,7 +128,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     }
 
     private companion object {
-        /** Not the id of a device. Stands for receivers that were not neighbours when the message was sent. */
+        /** Stands for receivers that were not neighbours when the message was sent. Not the id of a device. */
         const val NO_ID = -1
     }
 }

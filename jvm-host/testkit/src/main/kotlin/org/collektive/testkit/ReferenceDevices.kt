@@ -161,7 +161,7 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
     /** All tokens pushed so far, in order. */
     public val pushed: MutableList<String> = mutableListOf()
 
-    /** The path of the last failure, and the failure. */
+    /** The last failure and its path. */
     public var failed: Pair<ProgramPlace, Throwable>? = null
         private set
 

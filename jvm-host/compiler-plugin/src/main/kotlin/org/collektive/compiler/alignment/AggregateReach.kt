@@ -98,7 +98,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
 
     private fun leadsToPrimitive(function: IrFunction): Boolean {
         known[function]?.let { return it }
-        known[function] = false // ends recursion: the rest of the body decides
+        known[function] = false // ends the recursion; the rest of the body decides
         // A constructor runs the initialisers of its class.
         val code = if (function is IrConstructor) function.parentAsClass else function
         val found = Finder().apply { code.acceptChildrenVoid(this) }.found

@@ -63,12 +63,12 @@ import org.jetbrains.kotlin.name.Name
 
 /**
  * Rewrites the aggregate functions of one file:
- * - A call that can reach a primitive runs between push and pop of its token; its arguments are evaluated before.
- * - So does each arm of a branch that contains such a call or reads a field.
+ * - A call that can reach a primitive runs between the push and the pop of its token. Its arguments are evaluated before the push.
+ * - An arm of a branch that contains such a call or reads a field also gets a token.
  * - Inside an arm or the body of `alignedOn`, each read of a field from outside goes through `project`.
  *
- * Pops are in `finally`, so that no exit from a call (return, break, a caught exception) leaves a token on the stack. A `catch` before it
- * records the path of the failure, which the pops would destroy.
+ * Pops are in `finally` blocks, so no exit from a call (return, break, a caught exception) leaves a token on the stack. A preceding `catch`
+ * records the path of the failure before the pops destroy it.
  */
 internal class AlignmentTransformer(
     private val plugin: IrPluginContext,
@@ -76,26 +76,26 @@ internal class AlignmentTransformer(
     private val reach: AggregateReach,
     private val tokens: Tokens,
 ) : IrElementTransformerVoidWithContext() {
-    /** Where the current function gets its Aggregate from; `null` outside aggregate functions. */
+    /** The source of the current function's Aggregate; `null` outside aggregate functions. */
     private var source: Source? = null
 
-    /** The outermost lambda with an Aggregate; `null` inside aggregate functions with a name. See [Tokens]. */
+    /** The outermost lambda with an Aggregate; `null` inside named aggregate functions. See [Tokens]. */
     private var entry: IrFunction? = null
 
-    /** The parameter [given], or the [property] of that object. */
-    private class Source(val given: IrValueParameter, val property: IrProperty? = null)
+    /** An Aggregate that is the [parameter] itself, or is stored in that object's [property]. */
+    private class Source(val parameter: IrValueParameter, val property: IrProperty? = null)
 
-    /** A part of the program in which the aligned neighbours are the same: a function's body, an arm, the body of an `alignedOn`. */
+    /** A part of the program with the same aligned neighbours: the body of a function or an `alignedOn`, or an arm. */
     private class Region(val outer: Region?)
 
     private var region: Region? = null
     private val regionOf = HashMap<IrValueDeclaration, Region?>()
     private val alignedBodies = HashSet<IrFunction>()
 
-    /** Function arguments of the standard library, such as that of `map`: their parameters come from outside the region. */
-    private val eachBodies = HashSet<IrFunction>()
+    /** Lambdas passed to the standard library, for example to `map`: their parameters come from outside the region. */
+    private val stdlibLambdas = HashSet<IrFunction>()
 
-    /** Whether the current arm contains something aligned or projected, so that it needs a token. */
+    /** Whether the current arm needs a token, because it contains an aligned call or a projected field. */
     private var dependsOnPath = false
 
     override fun visitFileNew(declaration: IrFile): IrFile = if (isIgnored(declaration)) declaration else super.visitFileNew(declaration)
@@ -129,7 +129,7 @@ internal class AlignmentTransformer(
             entry = declaration
         }
         if (declaration in alignedBodies) region = Region(outerRegion)
-        if (declaration !in eachBodies) for (parameter in declaration.parameters) regionOf[parameter] = region
+        if (declaration !in stdlibLambdas) for (parameter in declaration.parameters) regionOf[parameter] = region
         val result = super.visitFunctionNew(declaration)
         source = outerSource
         region = outerRegion
@@ -197,7 +197,7 @@ internal class AlignmentTransformer(
         return projected(expression, nameOf(read))
     }
 
-    /** Whether [call] returns an existing field: from a property, a list, a pair. */
+    /** Whether [call] returns an existing field, for example from a property, a list or a pair. */
     private fun returnsExistingField(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
         !dsl.isFieldMember(call.symbol.owner) && !reach.mustAlign(call) && call.arguments.none { it != null && dsl.isField(it.type) }
 
@@ -238,7 +238,7 @@ internal class AlignmentTransformer(
 
     private fun visitAccess(call: IrFunctionAccessExpression): IrExpression {
         val mustAlign = reach.mustAlign(call)
-        if (reach.isKotlinBuiltIn(call.symbol.owner)) functionArguments(call).forEach { eachBodies += it.function }
+        if (reach.isKotlinBuiltIn(call.symbol.owner)) functionArguments(call).forEach { stdlibLambdas += it.function }
         call.transformChildren(this, null)
         return if (mustAlign) aligned(call) else call
     }
@@ -302,14 +302,14 @@ internal class AlignmentTransformer(
     /** Reads the Aggregate of the enclosing function. */
     private fun IrBlockBuilder.current(): IrExpression {
         val source = checkNotNull(source)
-        val given = irGet(source.given)
+        val given = irGet(source.parameter)
         val property = source.property
         val getter = property?.getter
         val field = property?.backingField
         return when {
             field != null -> irGetField(given, field)
             getter != null -> irCall(getter).apply { arguments[0] = given }
-            dsl.isAggregate(source.given.type) -> given
+            dsl.isAggregate(source.parameter.type) -> given
             else -> irCall(dsl.fieldContext, dsl.aggregate.starProjectedType).apply { arguments[0] = given }
         }
     }
@@ -331,13 +331,13 @@ internal class AlignmentTransformer(
         val parameter = given.firstOrNull { dsl.isAggregate(it.type) }
             ?: given.firstOrNull { dsl.isField(it.type) && !it.type.isNullable() }
             ?: self.firstOrNull { function.parentClassOrNull?.let(dsl::isAggregateByDelegation) == true }
-        return if (parameter != null) Source(parameter) else self.firstOrNull()?.let { keptBy(it, function.parentAsClass) }
+        return if (parameter != null) Source(parameter) else self.firstOrNull()?.let { storedIn(it, function.parentAsClass) }
     }
 
-    /** The Aggregate that [self], of class [type], or an object around it keeps in a property, or `null`. */
-    private fun keptBy(self: IrValueParameter, type: IrClass): Source? {
-        dsl.keptAggregate(type)?.let { return Source(self, it) }
-        return if (type.isInner) type.parentAsClass.let { outer -> outer.thisReceiver?.let { keptBy(it, outer) } } else null
+    /** Returns the Aggregate that [self], of class [type], or an enclosing object stores in a property, or `null`. */
+    private fun storedIn(self: IrValueParameter, type: IrClass): Source? {
+        dsl.aggregateProperty(type)?.let { return Source(self, it) }
+        return if (type.isInner) type.parentAsClass.let { outer -> outer.thisReceiver?.let { storedIn(it, outer) } } else null
     }
 
     private fun isLocalEntry(callee: IrSimpleFunction) = dsl.isFieldMember(callee) &&
@@ -345,7 +345,7 @@ internal class AlignmentTransformer(
 
     private fun isIgnored(declaration: IrAnnotationContainer) = declaration.hasAnnotation(DslNames.ignore)
 
-    /** Whether the compiler generates [function] for `by` or inherits it: it only forwards. */
+    /** Whether [function] only forwards: the compiler generated it for `by`, or it is inherited. */
     private fun isForwarding(function: IrFunction) =
         function.origin == IrDeclarationOrigin.DELEGATED_MEMBER || function is IrSimpleFunction && function.isFakeOverride
 

@@ -47,30 +47,30 @@ internal class DslSymbols private constructor(
     /** Whether a value of [type] is or may contain an Aggregate or a Field. */
     fun mentions(type: IrType): Boolean = isAggregate(type) || isField(type) ||
         type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mentions) == true } ||
-        type.getClass()?.let(::keepsAggregate) == true
+        type.getClass()?.let(::storesAggregate) == true
 
-    private val keepers = HashMap<IrClass, Boolean>()
+    private val storesAggregateByClass = HashMap<IrClass, Boolean>()
 
-    /** Whether an object of [type] keeps an Aggregate in a property, directly or through other objects. */
-    private fun keepsAggregate(type: IrClass): Boolean {
+    /** Whether an object of [type] stores an Aggregate in a property, directly or through other objects. */
+    private fun storesAggregate(type: IrClass): Boolean {
         if (PLATFORM.any(type.getPackageFragment().packageFqName::startsWith)) return false
-        keepers[type]?.let { return it }
-        keepers[type] = false // ends recursion between classes that refer to each other
-        val found = keptAggregate(type) != null || type.properties.any { property ->
-            property.backingField?.type?.getClass()?.let(::keepsAggregate) == true
-        } || type.isInner && keepsAggregate(type.parentAsClass)
-        keepers[type] = found
+        storesAggregateByClass[type]?.let { return it }
+        storesAggregateByClass[type] = false // ends the recursion between classes that refer to each other
+        val found = aggregateProperty(type) != null || type.properties.any { property ->
+            property.backingField?.type?.getClass()?.let(::storesAggregate) == true
+        } || type.isInner && storesAggregate(type.parentAsClass)
+        storesAggregateByClass[type] = found
         return found
     }
 
     /**
-     * The property in which an object of [type] keeps the Aggregate of its program; or `null`. Implementations of Aggregate
+     * The property in which an object of [type] stores the Aggregate of its program, or `null`. Implementations of Aggregate
      * are excluded, because their property is a delegate.
      */
-    fun keptAggregate(type: IrClass): IrProperty? =
-        if (type.symbol.isSubtypeOfClass(aggregate)) null else type.properties.firstOrNull(::isKeptAggregate)
+    fun aggregateProperty(type: IrClass): IrProperty? =
+        if (type.symbol.isSubtypeOfClass(aggregate)) null else type.properties.firstOrNull(::isAggregateProperty)
 
-    private fun isKeptAggregate(property: IrProperty): Boolean {
+    private fun isAggregateProperty(property: IrProperty): Boolean {
         if (property.isVar || property.isDelegated) return false
         val getter = property.getter
         val kept = property.backingField?.type ?: getter?.takeIf(::isInheritedOrAbstract)?.returnType ?: return false
@@ -105,7 +105,7 @@ internal class DslSymbols private constructor(
         /** First segments of packages that contain no programs. */
         private val PLATFORM = listOf("kotlin", "kotlinx", "java", "javax").map(Name::identifier)
 
-        /** Finds the DSL; `null` when it is not on the class path, so that there is nothing to align. */
+        /** Finds the DSL; `null` when it is not on the class path, so nothing needs to be aligned. */
         fun find(finder: DeclarationFinder): DslSymbols? {
             val field = finder.findClass(DslNames.field) ?: return null
             return DslSymbols(

@@ -49,7 +49,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
 
                         isPerElement(element) -> return true
 
-                        // The outer call is the one to report.
+                        // The outer call is reported instead.
                         isAggregateCall(element) -> return false
                     }
                     lambda = null

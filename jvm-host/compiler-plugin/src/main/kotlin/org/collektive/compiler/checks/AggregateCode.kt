@@ -14,20 +14,20 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirClassSymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirFunctionSymbol
 import org.jetbrains.kotlin.fir.types.coneType
 
-/** Whether the expression under check is part of an aggregate function, so that the plugin aligns it. */
+/** Whether the expression under check is part of an aggregate function, which the plugin aligns. */
 context(context: CheckerContext)
 internal fun isAggregateCode(): Boolean {
     val session = context.session
     if (context.containingFileSymbol?.hasAnnotation(DslNames.ignore, session) == true) return false
     if (context.containingDeclarations.any { it.hasAnnotation(DslNames.ignore, session) }) return false
     return context.containingDeclarations.any {
-        it is FirFunctionSymbol<*> && isAggregateFunction(it) || it is FirClassSymbol<*> && keepsAggregate(it)
+        it is FirFunctionSymbol<*> && isAggregateFunction(it) || it is FirClassSymbol<*> && storesAggregate(it)
     }
 }
 
-/** Whether an object of [type] keeps the Aggregate of its program in a property. Excludes implementations of Aggregate. */
+/** Whether an object of [type] stores the Aggregate of its program in a property. Excludes implementations of Aggregate. */
 context(context: CheckerContext)
-private fun keepsAggregate(type: FirClassSymbol<*>): Boolean = with(context.session) {
+private fun storesAggregate(type: FirClassSymbol<*>): Boolean = with(context.session) {
     type.resolvedSuperTypes.none { it.isAggregate() } && (keptIn(type) || inherited(type).any { keptIn(it, isInherited = true) })
 }
 

@@ -10,7 +10,7 @@ import org.jetbrains.kotlin.diagnostics.warning0
 import org.jetbrains.kotlin.diagnostics.warning1
 import org.jetbrains.kotlin.diagnostics.warning2
 
-/** The diagnostics of the checks: when each is reported, and what to do. `@Suppress` accepts their names. */
+/** The diagnostics of the checks, with their conditions and fixes. `@Suppress` accepts their names. */
 internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     /**
      * A `Field` is the value of an arm of `if` or `when`.
@@ -18,7 +18,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
      */
     val FIELD_FROM_BRANCH by error0<PsiElement>()
 
-    /** A `Field` leaves an arm by `?:`, by `return` or by assignment to something outside. Do the same as for [FIELD_FROM_BRANCH]. */
+    /** A `Field` leaves an arm by `?:`, by `return` or by assignment to an outer variable or property. Fix it like [FIELD_FROM_BRANCH]. */
     val FIELD_LEAVES_BRANCH by warning0<PsiElement>()
 
     /**
@@ -62,7 +62,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
             )
             map.put(
                 MANUAL_ALIGNMENT,
-                "''{0}'' can leave the program misaligned, and the compiler aligns calls itself. Use alignedOn(pivot) '{' ... '}'.",
+                "The compiler plugin already aligns calls, and ''{0}'' can leave the program misaligned. Use alignedOn(pivot) '{' ... '}'.",
                 CommonRenderers.STRING,
             )
             map.put(

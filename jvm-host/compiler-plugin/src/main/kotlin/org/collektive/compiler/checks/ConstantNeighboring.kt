@@ -11,7 +11,7 @@ import org.jetbrains.kotlin.fir.expressions.FirLiteralExpression
 import org.jetbrains.kotlin.fir.expressions.arguments
 import org.jetbrains.kotlin.fir.expressions.unwrapArgument
 
-/** Reports `neighboring(1)`: every device sends the same constant, which every receiver knows already. */
+/** Reports `neighboring(1)`: every device sends the same constant, which receivers already know. */
 internal object ConstantNeighboring : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {

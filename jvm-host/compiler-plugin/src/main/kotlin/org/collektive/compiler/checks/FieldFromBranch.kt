@@ -30,7 +30,7 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirLocalPropertySymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirValueParameterSymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** Reports fields that leave an `if` or `when`, because devices that took other arms are aligned outside. */
+/** Reports fields that are the value of an `if` or `when`: they lack the neighbours that took other arms, which are aligned again outside. */
 internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirWhenExpression) {
@@ -39,7 +39,7 @@ internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppChe
     }
 }
 
-/** Warns of a field from the right side of `?:`; as everywhere in this file, it contains only the neighbours that took the same branch. */
+/** Warns about a field from the right side of `?:`, which also contains only the neighbours that took this branch. */
 internal object FieldFromElvis : FirExpressionChecker<FirElvisExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirElvisExpression) {
@@ -58,7 +58,7 @@ internal object FieldReturnedFromBranch : FirExpressionChecker<FirReturnExpressi
     }
 }
 
-/** Warns of a field that is assigned inside an arm to an outer variable, or to a property of an outer object. */
+/** Warns about a field that is assigned inside an arm to an outer variable, or to a property of an outer object. */
 internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignment>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirVariableAssignment) {
@@ -67,7 +67,7 @@ internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignme
         if (isInArm(expression, isOutside)) reportField(expression.rValue, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
     }
 
-    /** A test for elements in which the variable or object at the start of [read] is declared; `null` when [read] starts with a call. */
+    /** Returns a predicate for the elements that declare the variable or object at the start of [read], or `null` if [read] starts with a call. */
     private fun declares(read: FirExpression): ((FirElement) -> Boolean)? {
         val start = read.unwrapSmartcastExpression()
         if (start is FirThisReceiverExpression) {

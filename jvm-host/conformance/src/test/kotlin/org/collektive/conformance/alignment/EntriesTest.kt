@@ -11,7 +11,7 @@ import kotlin.test.assertNotEquals
 
 fun Aggregate<Int>.counted(start: Int): Int = share(start) { it.local.value + 1 }
 
-/** Two programs that are lambdas in two places align where they make the same calls in the same order. */
+/** Two lambda programs in different places are aligned where they make the same calls in the same order. */
 class EntriesTest {
     private fun paths(result: AggregateResult<Int, *>) = result.toSend.prepareMessageFor(9).sharedData.keys
 

@@ -32,13 +32,13 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Passes a token to the nearest id, to which all others add. */
+/** Sends the sum of all values to the neighbour with the lowest id, and 0 to all others. */
 private fun Aggregate<Int>.passToFirst(number: Int): Int = exchanging(number) { seen ->
     val first = seen.neighbors.ids.list.minOrNull()
     mapNeighborhood { id -> if (id == first) seen.all.values.sum() % MODULUS else 0 }.yielding { seen.all.values.sum() }
 }
 
-/** Sends each neighbour its id plus what it sent. */
+/** Sends each neighbour the sum of its id and its last value. */
 private fun Aggregate<Int>.reply(number: Int): Int = exchanging(number) { seen ->
     seen.map { (id, value) -> (id + value) % MODULUS }.yielding { seen.all.values.sum() }
 }

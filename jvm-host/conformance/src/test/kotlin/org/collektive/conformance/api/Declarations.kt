@@ -22,10 +22,10 @@ import kotlin.metadata.kind
 import kotlin.metadata.visibility
 
 /**
- * The public declarations of compiled Kotlin, one a line: kind, owner, name, signature, and `operator` or `var`; tab separated.
+ * The public declarations of compiled Kotlin, one per line with tab-separated columns: kind, owner, name, signature, and `operator` or `var`.
  *
- * This is the form of `core.tsv`, without what a user's sources do not depend on: whether a function is inline, a class `data` or
- * `value`. Type parameters have numbers: C of the class, T of the function, A of the alias.
+ * This is the format of `core.tsv` without details that do not affect a user's sources, such as `inline`, `data` and `value`. Type
+ * parameters are numbered, with the prefix C for classes, T for functions and A for aliases.
  */
 internal class Declarations {
     private val lines = sortedSetOf<String>()
@@ -144,7 +144,7 @@ internal class Declarations {
         private fun short(name: String): String = SHORT.firstOrNull { name.startsWith(it.first) }
             ?.let { (long, short) -> short + name.removePrefix(long) } ?: name
 
-        /** The line of a table of Collektive's declarations in the form of this class. */
+        /** Converts a line of a table of Collektive's declarations to the format of this class. */
         fun normalized(line: String): String {
             val (kind, owner, name, signature, modifiers) = line.split('\t') + ""
             val kept = modifiers.split(' ').filter { it == "operator" || it == "infix" || it == "var" }

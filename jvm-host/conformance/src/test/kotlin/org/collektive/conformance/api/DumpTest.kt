@@ -24,7 +24,7 @@ import kotlin.metadata.visibility
 import kotlin.reflect.KClass
 import kotlin.test.fail
 
-/** Compares the API of modules for programs with `jvm-host/MODULE/api/MODULE.api`. For `dsl` and `stdlib`, see [PublicApiTest]. */
+/** Compares the API of the modules that programs use with `jvm-host/MODULE/api/MODULE.api`. For `dsl` and `stdlib`, see [PublicApiTest]. */
 internal class DumpTest {
     @TempDir
     lateinit var folder: Path
@@ -40,7 +40,7 @@ internal class DumpTest {
         dump.writeText(dump(File(sample.java.protectionDomain.codeSource.location.toURI())))
         if (System.getProperty("api.update").toBoolean()) dump.copyTo(known.createParentDirectories(), overwrite = true)
         tools.filesDiff(known.toFile(), dump.toFile())?.let {
-            fail("the public API of module $module changed; if that is meant, run: $UPDATE\n$it")
+            fail("the public API of module $module changed; if the change is intended, run: $UPDATE\n$it")
         }
     }
 
@@ -49,7 +49,7 @@ internal class DumpTest {
         return StringBuilder().also { tools.printJvmDump(it, classes, NAMES) }.toString() + reified(place)
     }
 
-    /** Inline functions with reified types: they are API of Kotlin but not of the JVM, so the dump omits them. */
+    /** Inline functions with reified types: the dump omits them, because they are part of the Kotlin API but not of the JVM API. */
     private fun reified(place: File): String = compiledKotlin(place).joinToString("") { (type, metadata) ->
         (metadata as? KotlinClassMetadata.FileFacade)?.kmPackage?.functions.orEmpty()
             .filter { it.visibility == Visibility.PUBLIC && it.typeParameters.any { parameter -> parameter.isReified } }
@@ -65,7 +65,7 @@ internal class DumpTest {
             "testing" to TestNetwork::class,
         )
 
-        /** The packages that programs use, and those that the compiler plugin makes them call. */
+        /** The packages that programs use, and those of the calls that the compiler plugin inserts. */
         val NAMES = AbiFilters(
             setOf(
                 "it.unibo.**",

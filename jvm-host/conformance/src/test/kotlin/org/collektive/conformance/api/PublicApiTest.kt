@@ -34,7 +34,7 @@ class PublicApiTest {
         for (sample in samples) read(File(sample.java.protectionDomain.codeSource.location.toURI()))
     }.all().filterNotTo(LinkedHashSet()) { it.split('\t')[1].startsWith("org.collektive.runtime") }
 
-    /** The key in [EXCEPTIONS] of the declaration [line], which is the class or the function, or `null`. */
+    /** Returns the key of [EXCEPTIONS] (a class or a function) that covers the declaration [line], or `null`. */
     private fun exceptionFor(line: String): String? {
         val (_, owner, name) = line.split('\t')
         return EXCEPTIONS.keys.firstOrNull { it == owner || it == "$owner.$name" }
@@ -52,7 +52,7 @@ class PublicApiTest {
         val EXCEPTIONS = mapOf(
             "~.networking.OutboundEnvelope.Companion" to "it is empty, so programs cannot call it",
             "~.path.KotlinCryptoDigest" to "it wraps a class of a library that programs on the JVM do not need: JdkDigest has all digests",
-            "~a.Aggregate.InternalAPI" to "internal by its name: the receiver of the two functions below",
+            "~a.Aggregate.InternalAPI" to "its name marks it as internal: it is the receiver of the two functions below",
             "~a.Aggregate._ serialization aware exchanging" to "internal by its receiver: programs call the extension exchanging",
             "~a.Aggregate._ serialization aware neighboring" to "internal by its receiver: programs call the extension neighboring",
         )

@@ -28,7 +28,7 @@ enum class Topology(val nodes: Int, val place: (Int) -> Pair<Double, Double>) {
 }
 
 /**
- * The network that the golden answers were measured on. When it is [churning], nodes move, leave and join, and 70 % of them are due in a
+ * The network on which the golden answers were recorded. When it is [churning], nodes move, leave and join, and 70 % of them are due in a
  * tick; otherwise only the sensor data changes. Do not change the order in which random numbers are drawn.
  */
 @CollektiveIgnore("it calls the programs")

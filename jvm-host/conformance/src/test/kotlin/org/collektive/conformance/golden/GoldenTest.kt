@@ -38,7 +38,7 @@ class GoldenTest {
         }
     }
 
-    /** Whether the texts are equal except for the last digits of doubles: Collektive computes distances by `hypot`. */
+    /** Whether the texts are equal except for the last digits of doubles: Collektive computes distances with `hypot`. */
     private fun isSame(a: String, b: String): Boolean = a == b || NUMBER.split(a) == NUMBER.split(b) &&
         NUMBER.findAll(a).zip(NUMBER.findAll(b)).all { (x, y) -> isSame(x.value.toDouble(), y.value.toDouble()) }
 
