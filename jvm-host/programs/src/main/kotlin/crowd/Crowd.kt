@@ -12,8 +12,8 @@ import org.collektive.schema.Vector3Value
 import kotlin.math.sqrt
 
 /**
- * Walks to a goal and keeps its distance from obstacles and other walkers; it passes these on the right. Where the crowd is too
- * dense, a warning spreads a few hops; walkers that receive it walk at half speed.
+ * Walks to a goal and keeps its distance from obstacles and other walkers, passing them on the right. Where the crowd is too dense, a
+ * warning spreads a few hops. Walkers that receive it walk at half speed.
  */
 @Program(
     "crowd",
@@ -62,7 +62,7 @@ private class Steering {
         z += scale * toZ
     }
 
-    /** Pushes away from an obstacle at a vector, [gap] metres apart, and a little to the right of it. */
+    /** Adds a push away from an obstacle in the given direction, [gap] metres away, and slightly to the right. */
     fun avoid(toX: Double, toZ: Double, gap: Double) {
         val length = sqrt(toX * toX + toZ * toZ)
         if (gap > PERSONAL_SPACE || length < TOO_SMALL) return

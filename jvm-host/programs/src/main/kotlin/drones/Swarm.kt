@@ -13,8 +13,8 @@ import org.collektive.schema.Vector3Value
 import kotlin.math.sqrt
 
 /**
- * Forms one shape after another. The drones elect a leader, whose clock determines the current shape, which spreads from neighbour to
- * neighbour. A drone flies to the nearest point of the shape, turns with a round one, and keeps its distance from others.
+ * Forms one shape after another. The drones elect a leader. Its clock determines the current shape, which spreads from neighbour to
+ * neighbour. Each drone flies to the nearest point of the shape, circles on round shapes, and keeps its distance from other drones.
  */
 @Program(
     "swarm",
@@ -51,7 +51,7 @@ public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorDa
     )
 }
 
-/** The sum of pushes from [others] that are too near. */
+/** Returns the sum of the pushes away from [others] that are too near. */
 private fun Point3D.awayFrom(others: List<Point3D>): Point3D {
     var x = 0.0
     var y = 0.0

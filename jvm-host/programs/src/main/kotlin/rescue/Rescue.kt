@@ -85,7 +85,7 @@ private class Drive {
         z += weight * toZ
     }
 
-    /** Keeps away from robots that are nearer than [spacing], most of all from those nearer to the base; goes to the nearest one if all are farther. */
+    /** Moves away from robots nearer than [spacing], most strongly from those nearer to the base, or to the nearest robot if all are farther. */
     fun spread(me: Other, others: List<Other>, spacing: Double) {
         val here = me.place
         var nearest = here
@@ -103,7 +103,7 @@ private class Drive {
         if (least.isFinite() && least > spacing) add(nearest.x - here.x, nearest.y - here.y, 1 / least)
     }
 
-    /** Moves away from obstacles, more strongly if they are near. */
+    /** Moves away from obstacles, more strongly the nearer they are. */
     fun avoid(sensors: SensorData) {
         val obstacle = Vector3()
         for (index in 0 until sensors.obstaclesLength()) {

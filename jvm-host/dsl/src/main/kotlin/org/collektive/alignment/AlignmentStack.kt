@@ -34,6 +34,6 @@ public interface AlignmentStack {
     /** The place that the program has reached. */
     public val place: ProgramPlace
 
-    /** Records the current path as the place where [failure] was thrown, unless this has been done. */
+    /** Records the current path as the place where [failure] was thrown, unless a place is already recorded. */
     public fun recordFailure(failure: Throwable)
 }

@@ -1,6 +1,6 @@
 @file:OptIn(DelicateCollektiveApi::class)
 
-// The compiler plugin inserts calls to these functions. Do not call them otherwise.
+// The compiler plugin inserts calls to these functions. Do not call them directly.
 
 package org.collektive.alignment
 

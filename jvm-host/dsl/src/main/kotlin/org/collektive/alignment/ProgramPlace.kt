@@ -33,9 +33,9 @@ public class ProgramPlace(public val node: Any, tokens: List<Any?>) {
     }
 }
 
-/** [message] followed by the place that this device's program has reached. All errors of programs have this form. */
+/** Returns [message], followed by the place that this device's program has reached. All errors of programs have this format. */
 public fun Aggregate<*>.withPlace(message: String): String =
     withPlace(message, (this as? AlignmentStack)?.place ?: ProgramPlace(localId, emptyList()))
 
-/** [message], followed by [place]. */
+/** Returns [message], followed by [place]. */
 public fun withPlace(message: String, place: ProgramPlace): String = "$message [$place]"

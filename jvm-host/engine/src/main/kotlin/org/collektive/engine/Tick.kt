@@ -48,7 +48,7 @@ public class Tick {
     /** Whether the answer contains the metrics of the session. */
     public var measures: Boolean = false
 
-    /** Resets everything except [number], [time], [deltaTime] and what to measure; keeps the memory. */
+    /** Resets everything except [number], [time], [deltaTime], [measuresMessages] and [measures]. Keeps the memory. */
     public fun clear() {
         reload = null
         nodesRemoved.clear()

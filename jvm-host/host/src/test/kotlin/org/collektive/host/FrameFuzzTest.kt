@@ -9,7 +9,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Damaged frames are either processed or refused with a code; a refused one changes nothing. */
+/** Damaged frames are either processed or rejected with a code; a rejected one changes nothing. */
 @Timeout(120)
 class FrameFuzzTest {
     private val shim = TestShim()
@@ -49,7 +49,7 @@ class FrameFuzzTest {
                 assertEquals(state(control, next), state(fuzzed, next))
             }
         }
-        assertTrue(refused > 2000, "only $refused frames were refused")
+        assertTrue(refused > 2000, "only $refused frames were rejected")
         fuzzed.close()
         control.close()
     }

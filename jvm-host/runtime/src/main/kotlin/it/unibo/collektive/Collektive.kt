@@ -12,7 +12,7 @@ import it.unibo.collektive.state.State
 import org.collektive.runtime.MailboxRound
 
 /**
- * One device that runs [computeFunction] round by round and reaches others through a [Mailbox]. Confined to one thread at a time.
+ * One device that runs [computeFunction] round by round and exchanges messages through a [Mailbox]. Confined to one thread at a time.
  *
  * The primitives behave as in simulations. A simulation is faster, because its devices read each other's messages in place.
  *

@@ -130,19 +130,19 @@ internal class AggregateDevice<ID : Any>(
 
     /** Creates the path of [pivot] below [parent]. @throws IllegalArgumentException when [pivot] is not a valid pivot. */
     fun enter(parent: PathNode, pivot: Any?): PathNode {
-        val fault = pivotError(pivot) ?: rule.refusal(pivot)?.let { "$it; it cannot be a pivot" } ?: return tree.enter(parent, pivot)
-        throw IllegalArgumentException(withPlace(fault, ProgramPlace(localId, stack.resolvedTokens())))
+        val reason = pivotError(pivot) ?: rule.refusal(pivot)?.let { "$it; it cannot be a pivot" } ?: return tree.enter(parent, pivot)
+        throw IllegalArgumentException(withPlace(reason, ProgramPlace(localId, stack.resolvedTokens())))
     }
 
     @Suppress("UNCHECKED_CAST")
-    override fun <T> keptAt(path: PathNode, initial: T): T {
-        val value = valid.keptAt(path)
+    override fun <T> storedAt(path: PathNode, initial: T): T {
+        val value = valid.storedAt(path)
         return if (value === RoundRecord.Nothing) initial else value as T
     }
 
-    override fun keep(path: PathNode, value: Any?) {
+    override fun store(path: PathNode, value: Any?) {
         requireShareable(value)
-        running.keep(path, value)
+        running.store(path, value)
     }
 
     override fun <T> receive(path: PathNode, local: T, sharing: DataSharingMethod<T>): Field<ID, T> {

@@ -73,9 +73,9 @@ internal class MailboxRound<ID : Any>(
     }
 
     @Suppress("UNCHECKED_CAST")
-    override fun <T> keptAt(path: Path, initial: T): T = if (path in previousState) previousState[path] as T else initial
+    override fun <T> storedAt(path: Path, initial: T): T = if (path in previousState) previousState[path] as T else initial
 
-    override fun keep(path: Path, value: Any?) {
+    override fun store(path: Path, value: Any?) {
         newState[path] = value
     }
 

@@ -1,8 +1,8 @@
 package org.collektive.runtime
 
 /**
- * The alignment stack of a thread, reused by all rounds that run on it. One stack stays in the core's L1 cache; one per device would
- * not.
+ * The alignment stack of a thread, reused by all rounds that run on it. One stack stays in the core's L1 cache, unlike one per
+ * device.
  */
 internal class PathStack(private val tree: PathTree) {
     // tokens[0 until depth] is the stack. nodes[0..resolved] are the paths of its first prefixes. Paths are looked up only when a
@@ -31,7 +31,7 @@ internal class PathStack(private val tree: PathTree) {
         entries[entryCount++] = depth
     }
 
-    /** Pops tokens until the depth is [depth], and clears them, so that they can be collected. */
+    /** Pops tokens until the depth is [depth], and clears their references for the garbage collector. */
     fun popTo(depth: Int) {
         while (this.depth > depth) tokens[--this.depth] = null
         while (resolved > depth) nodes[resolved--] = null
@@ -44,7 +44,7 @@ internal class PathStack(private val tree: PathTree) {
     /** The tokens whose paths have been looked up. */
     fun resolvedTokens(): List<Any?> = tokens().subList(0, resolved)
 
-    /** The path of the whole stack; [device] makes it when it is new. */
+    /** Returns the path of the whole stack, which [device] creates if it is new. */
     fun path(device: AggregateDevice<*>): PathNode {
         var node = checkNotNull(nodes[resolved])
         while (resolved < depth) {

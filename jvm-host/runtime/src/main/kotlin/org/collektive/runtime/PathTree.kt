@@ -67,7 +67,7 @@ internal class PathTree {
 internal class PathNode(val parent: PathNode?, val token: Any?) {
     private val tokenHash = token.hashCode()
 
-    /** Mixed well, because tables use its low bits. */
+    /** The hash, with well-mixed low bits, because tables use those. */
     val hash: Int = ((parent?.hash ?: 0) * 31 + tokenHash).let { it * -0x61c88647 xor (it ushr 15) }
 
     /** The children, or `null`. A racing reader may see `null`, too. Written under the tree's lock. */

@@ -13,7 +13,7 @@ import org.collektive.alignment.AlignmentStack
 import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.withPlace
 
-/** The semantics of the primitives, independent of how devices reach each other. [Path] is how a subclass represents paths. */
+/** The semantics of the primitives, independent of how devices reach each other. [Path] is the subclass's representation of paths. */
 internal abstract class Primitives<ID : Any, Path : Any> :
     Aggregate<ID>,
     AlignmentStack {
@@ -26,20 +26,21 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     /** Pushes [token]. */
     protected abstract fun push(token: Any?)
 
-    /** Marks the last token as the id of an entry, which paths of projections leave out. */
+    /** Marks the last token as the id of an entry, which paths of projections omit. */
     protected abstract fun markEntry()
 
     /**
-     * Reserves the current path for a primitive that starts from [value], and returns it; throws [AlignmentClashException] when it is
-     * in use.
+     * Reserves the current path for a primitive that starts from [value], and returns it.
+     *
+     * @throws AlignmentClashException when a primitive of this round already uses the path.
      */
     protected abstract fun reservePath(value: Any?): Path
 
-    /** The value that the last round stored at [path], or [initial] if it stored none. */
-    protected abstract fun <T> keptAt(path: Path, initial: T): T
+    /** Returns the value that the last round stored at [path], or [initial] if it stored none. */
+    protected abstract fun <T> storedAt(path: Path, initial: T): T
 
     /** Stores [value] for the next round. */
-    protected abstract fun keep(path: Path, value: Any?)
+    protected abstract fun store(path: Path, value: Any?)
 
     /** Returns the field of the values that aligned neighbours sent to this device at [path]. */
     protected abstract fun <T> receive(path: Path, local: T, sharing: DataSharingMethod<T>): Field<ID, T>
@@ -64,13 +65,13 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     /** The place where [failure], which ended the round, was thrown. */
     fun failurePlace(failure: Throwable): ProgramPlace = ProgramPlace(localId, if (failure === this.failure) failedAt else tokens())
 
-    /** Forgets the failure of the last round. */
+    /** Clears the failure of the last round. */
     protected fun clearFailure() {
         failure = null
         failedAt = emptyList()
     }
 
-    /** The reason why [pivot] cannot align devices; `null` when it can. */
+    /** Returns why [pivot] cannot align devices, or `null` if it can. */
     protected fun pivotError(pivot: Any?): String? = when {
         pivot is Field<*, *> || pivot is Aggregate<*> -> "a ${pivot.javaClass.simpleName} cannot be a pivot: it differs on each device"
 
@@ -82,15 +83,15 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     override fun <Stored> evolve(initial: Stored, transform: (Stored) -> Stored): Stored {
         val path = reservePath(initial)
-        val value = transform(keptAt(path, initial))
-        keep(path, value)
+        val value = transform(storedAt(path, initial))
+        store(path, value)
         return rejectField(value, "evolve")
     }
 
     override fun <Stored, Return> evolving(initial: Stored, transform: YieldingScope<Stored, Return>): Return {
         val path = reservePath(initial)
-        val (kept, result) = YieldingContext<Stored, Return>().transform(keptAt(path, initial))
-        keep(path, kept)
+        val (stored, result) = YieldingContext<Stored, Return>().transform(storedAt(path, initial))
+        store(path, stored)
         return rejectField(result, "evolving")
     }
 
@@ -100,10 +101,10 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         body: YieldingScope<Field<ID, Shared>, Return>,
     ): Return {
         val path = reservePath(initial)
-        val received = receive(path, keptAt(path, initial), dataSharingMethod)
+        val received = receive(path, storedAt(path, initial), dataSharingMethod)
         val (toSend, result) = YieldingContext<Field<ID, Shared>, Return>().body(received)
         send(path, toSend, dataSharingMethod)
-        keep(path, toSend.local.value)
+        store(path, toSend.local.value)
         return result
     }
 

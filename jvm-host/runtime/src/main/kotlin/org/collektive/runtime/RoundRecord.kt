@@ -9,10 +9,10 @@ internal class RoundRecord : Export() {
     // The first two paths are fields of the record; many programs have no more. Neighbours read records at random addresses, and fields
     // save them a second cache miss.
     private var path0: PathNode? = null
-    private var kept0: Any? = null
+    private var stored0: Any? = null
     private var sent0: Any? = null
     private var path1: PathNode? = null
-    private var kept1: Any? = null
+    private var stored1: Any? = null
     private var sent1: Any? = null
 
     // All other paths: a hash table by identity, at most half full. A path and its values are adjacent.
@@ -24,25 +24,25 @@ internal class RoundRecord : Export() {
 
     fun clear() {
         path0 = null
-        kept0 = null
+        stored0 = null
         sent0 = null
         path1 = null
-        kept1 = null
+        stored1 = null
         sent1 = null
         if (count > 2) slots.fill(null)
         count = 0
     }
 
-    /** Reserves [path] for a primitive; `false` when it is taken. */
+    /** Reserves [path] for a primitive. Returns `false` if it is already reserved. */
     fun reserve(path: PathNode): Boolean {
         if (path === path0 || path === path1) return false
         if (count == 0) {
             path0 = path
-            kept0 = Nothing
+            stored0 = Nothing
             sent0 = Nothing
         } else if (count == 1) {
             path1 = path
-            kept1 = Nothing
+            stored1 = Nothing
             sent1 = Nothing
         } else if (!reserveSlot(path)) {
             return false
@@ -56,22 +56,22 @@ internal class RoundRecord : Export() {
         val slot = slotOf(path)
         if (slots[slot] === path) return false
         slots[slot] = path
-        slots[slot + KEPT] = Nothing
+        slots[slot + STORED] = Nothing
         slots[slot + SENT] = Nothing
         return true
     }
 
-    fun keep(path: PathNode, value: Any?) {
+    fun store(path: PathNode, value: Any?) {
         if (path === path0) {
-            kept0 = value
+            stored0 = value
         } else if (path === path1) {
-            kept1 = value
+            stored1 = value
         } else {
-            slots[slotOf(path) + KEPT] = value
+            slots[slotOf(path) + STORED] = value
         }
     }
 
-    /** Sends [value]; a `Field` or [AllButOne] holds a value per receiver. */
+    /** Sends [value]; a `Field` or [AllButOne] contains a value for each receiver. */
     fun send(path: PathNode, value: Any?) {
         if (path === path0) {
             sent0 = value
@@ -91,22 +91,22 @@ internal class RoundRecord : Export() {
 
     /** The number of paths at which a value was stored. */
     fun countKept(): Int {
-        var kept = 0
-        forEachPath { if (keptAt(it) !== Nothing) kept++ }
-        return kept
+        var stored = 0
+        forEachPath { if (storedAt(it) !== Nothing) stored++ }
+        return stored
     }
 
-    /** Replaces all paths and values by those of [conversion]. */
+    /** Replaces all paths and values with their results from [conversion]. */
     fun convert(conversion: ConvertedPaths) {
         val paths = ArrayList<PathNode>(count)
         forEachPath(paths::add)
-        val kept = paths.map(::keptAt)
+        val stored = paths.map(::storedAt)
         val sent = paths.map(::sentAt)
         clear()
         for (index in paths.indices) {
             val path = conversion.path(paths[index]) ?: continue
             if (!reserve(path)) continue
-            keep(path, conversion.value(kept[index]))
+            store(path, conversion.value(stored[index]))
             send(path, conversion.value(sent[index]))
         }
     }
@@ -131,16 +131,16 @@ internal class RoundRecord : Export() {
         }
     }
 
-    /** The value stored at [path], or [Nothing]. */
-    fun keptAt(path: PathNode): Any? = if (path === path0) {
-        kept0
+    /** Returns the value stored at [path], or [Nothing]. */
+    fun storedAt(path: PathNode): Any? = if (path === path0) {
+        stored0
     } else if (path === path1) {
-        kept1
+        stored1
     } else {
-        at(path, KEPT)
+        at(path, STORED)
     }
 
-    /** The value sent at [path], or [Nothing]. */
+    /** Returns the value sent at [path], or [Nothing]. */
     fun sentAt(path: PathNode): Any? = if (path === path0) {
         sent0
     } else if (path === path1) {
@@ -167,7 +167,7 @@ internal class RoundRecord : Export() {
         }
     }
 
-    /** The slot of [path], or the free slot where it belongs. */
+    /** Returns the slot of [path], or the free slot for it. */
     private fun slotOf(path: PathNode): Int {
         val slots = slots
         var slot = firstSlot(path, slots)
@@ -194,7 +194,7 @@ internal class RoundRecord : Export() {
     private companion object {
         // A path, its two values and one unused element: a power of two, so that a mask replaces the division.
         const val WIDTH = 4
-        const val KEPT = 1
+        const val STORED = 1
         const val SENT = 2
         const val INITIAL = 4 * WIDTH
         val NONE = arrayOfNulls<Any?>(0)

@@ -49,7 +49,7 @@ public class OutboxStress {
   }
 
   @JCStressTest
-  @Outcome(id = "nothing", expect = Expect.ACCEPTABLE, desc = "no export from before the tick")
+  @Outcome(id = "nothing", expect = Expect.ACCEPTABLE, desc = "the round found no export from before the tick")
   @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of the same tick")
   @State
   public static class FirstExportWaitsForTheNextTick {

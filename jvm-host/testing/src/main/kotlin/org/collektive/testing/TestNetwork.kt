@@ -32,7 +32,7 @@ import java.util.concurrent.TimeUnit
  * }
  * ```
  *
- * Compile tests with the compiler plugin of the runtime on their class path, as programs. Not thread-safe.
+ * Compile tests, like programs, with the compiler plugin of the runtime on their class path. Not thread-safe.
  *
  * @param seed the seed of all random numbers; the same seed gives the same answers.
  * @param deltaTime simulated seconds from one round to the next.
@@ -161,7 +161,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
             (if (place == null || place in failure.toString()) "$failure" else "$failure [$place]").also { failures[it] = failure }
     }
 
-    /** Provides no sensor data: programs of tests get it from the test. */
+    /** Provides no sensor data: tests pass it to their programs. */
     private object NoFrames : RoundData {
         override fun sensors(worker: Int, index: Int): Any? = null
 

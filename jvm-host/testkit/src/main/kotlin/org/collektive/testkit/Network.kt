@@ -95,7 +95,7 @@ public open class Network(private val runtimes: DeviceRuntimes, vararg ids: Int,
 
     private fun node(id: Int): Node = nodes.getValue(id)
 
-    /** A link that exists since the time [since]. */
+    /** A link that has existed since the time [since]. */
     private class Link(val sender: Node, val since: Int) {
         var length = 1.0
     }

@@ -18,7 +18,7 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
     private val engine = Engine(EngineSettings(seed = 0), AggregateRuntimes())
     private val tick = Tick()
     private val program = Program(program)
-    private val data = Data(senses(topology))
+    private val data = Data(sensorData(topology))
 
     init {
         val links = LinkList()
@@ -47,23 +47,23 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
         engine.close()
     }
 
-    private class Data(private val senses: List<Senses>) : RoundData {
-        override fun sensors(worker: Int, index: Int): Any = senses[index]
+    private class Data(private val sensorData: List<SensorData>) : RoundData {
+        override fun sensors(worker: Int, index: Int): Any = sensorData[index]
 
         override fun pack(worker: Int, index: Int, answer: Any): String? = null
     }
 
     private class Program(override val name: String) : NodeProgram {
-        private val code: Aggregate<Int>.(Senses) -> Any = when (name) {
-            "a" -> { senses -> gradientAscent(senses) }
-            "b" -> { senses -> distanceFromSource(senses) }
-            "b2" -> { senses -> bellmanFordFromSource(senses) }
-            "c" -> { senses -> followers(senses) }
+        private val code: Aggregate<Int>.(SensorData) -> Any = when (name) {
+            "a" -> { sensorData -> gradientAscent(sensorData) }
+            "b" -> { sensorData -> distanceFromSource(sensorData) }
+            "b2" -> { sensorData -> bellmanFordFromSource(sensorData) }
+            "c" -> { sensorData -> followers(sensorData) }
             else -> throw IllegalArgumentException("unknown program '$name'; use a, b, b2 or c")
         }
 
         @Suppress("UNCHECKED_CAST")
-        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = (aggregate as Aggregate<Int>).code(sensors as Senses)
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = (aggregate as Aggregate<Int>).code(sensors as SensorData)
 
         override fun describe(failure: Throwable, place: String?): String = failure.stackTraceToString()
     }

@@ -9,10 +9,10 @@ public class HandwrittenRounds(program: String, private val topology: Topology) 
     private val links = IntArray(firstLink[size]).also { topology.neighbors.forEachIndexed { id, ids -> ids.copyInto(it, firstLink[id]) } }
     private val x = topology.x
     private val y = topology.y
-    private val senses = senses(topology)
-    private val intensity = DoubleArray(size) { senses[it].intensity }
-    private val isSource = BooleanArray(size) { senses[it].isSource }
-    private val hasObstacle = BooleanArray(size) { senses[it].obstacles.isNotEmpty() }
+    private val sensorData = sensorData(topology)
+    private val intensity = DoubleArray(size) { sensorData[it].intensity }
+    private val isSource = BooleanArray(size) { sensorData[it].isSource }
+    private val hasObstacle = BooleanArray(size) { sensorData[it].obstacles.isNotEmpty() }
     private val step = when (program) {
         "a" -> ::gradientAscent
         "b2" -> ::bellmanFord
@@ -22,7 +22,7 @@ public class HandwrittenRounds(program: String, private val topology: Topology) 
     internal val headingX = DoubleArray(size)
     internal val headingY = DoubleArray(size)
 
-    /** The distances of b2 after the last tick; `former` has those of the tick before. */
+    /** The distances of b2 after the last tick; `former` contains those of the previous tick. */
     internal var distances = DoubleArray(size) { Double.POSITIVE_INFINITY }
     private var former = DoubleArray(size)
 

@@ -21,7 +21,7 @@ public class Topology internal constructor(
     public companion object {
         private const val SEED = 42
 
-        /** Makes the topology `grid8` or `rgg10`. */
+        /** Creates the topology `grid8` or `rgg10`. */
         public fun named(name: String, size: Int): Topology = when (name) {
             "grid8" -> grid(size)
             "rgg10" -> randomGeometric(size, meanDegree = 10.0)

@@ -18,7 +18,7 @@ import org.collektive.runtime.AggregateRuntimes
 import org.collektive.schema.Vector3
 import java.nio.ByteBuffer
 
-/** The rounds of the case study alone, without C#, frames and answers; the sensor data is prepared in memory. */
+/** Only the rounds of the case study, without C#, frames and answers. The sensor data is prepared in memory. */
 internal class EngineOnly(private val grid: Grid, threads: Int) :
     Workload,
     RoundData {
@@ -52,7 +52,7 @@ internal class EngineOnly(private val grid: Grid, threads: Int) :
 
     override fun close() = engine.close()
 
-    /** Makes a frame whose root is the table `Sensors` of [tick]. */
+    /** Creates a frame whose root is the table `Sensors` of [tick]. */
     private fun sensors(tick: Long): ByteBuffer {
         val builder = FlatBufferBuilder(1 shl 16)
         val elements = IntArray(grid.size) { node ->

@@ -11,7 +11,7 @@ import java.nio.ByteOrder
 import java.nio.channels.ServerSocketChannel
 import java.nio.channels.SocketChannel
 
-/** A benchmark of ticks that runs on this JVM alone. */
+/** A benchmark of ticks that runs only on this JVM. */
 internal interface Workload : AutoCloseable {
     fun tick()
 }

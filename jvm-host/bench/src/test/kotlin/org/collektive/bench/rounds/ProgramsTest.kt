@@ -56,7 +56,7 @@ class ProgramsTest {
 
     private fun shortestPaths(network: Topology): DoubleArray {
         val distances = DoubleArray(network.size) { Double.POSITIVE_INFINITY }
-        val source = senses(network).indexOfFirst { it.isSource }
+        val source = sensorData(network).indexOfFirst { it.isSource }
         val open = PriorityQueue<Pair<Double, Int>>(compareBy { it.first })
         open += 0.0 to source
         while (true) {

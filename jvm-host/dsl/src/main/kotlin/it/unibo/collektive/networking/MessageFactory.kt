@@ -13,7 +13,7 @@ public interface MessageFactory<ID : Any, out Payload> {
  * A value to send.
  *
  * @property payload the value.
- * @property representation how it travels.
+ * @property representation how the value is sent.
  */
 public data class PayloadRepresentation<P>(val payload: P, val representation: DataSharingMethod<P>)
 

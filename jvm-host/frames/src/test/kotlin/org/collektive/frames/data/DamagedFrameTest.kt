@@ -61,7 +61,7 @@ internal class DamagedFrameTest {
                 refused++
             }
         }
-        assertTrue(refused > 0, "no frame was refused; $passed passed")
+        assertTrue(refused > 0, "no frame was rejected; $passed passed")
     }
 
     private fun survives(schema: DataSchema, frame: Frame): Boolean {

@@ -85,7 +85,7 @@ internal object Objects {
     fun randomResult(schema: DataSchema, random: Random): Any =
         randomResult(Schema.getRootAsSchema(ByteBuffer.wrap(binarySchema(schema))), schema.actuatorType, random, 0)
 
-    /** A result, or a part of one, by the constructor with all fields. */
+    /** Creates a result, or a part of one, with the constructor that has all fields. */
     private fun randomResult(schema: Schema, type: Class<*>, random: Random, nesting: Int): Any {
         val constructor = type.constructors.filter { !it.isSynthetic }.maxBy { it.parameterCount }
         val names = type.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.map { it.name.lowercase() }

@@ -10,7 +10,7 @@ import java.util.Random
 
 /**
  * The Kotlin half of `schema/test/test_roundtrip.py`: compares sensor and global data that C# wrote, and writes random actuator data
- * for C#. The files are those of the C# half, one for each of the schemas, which are separated by commas.
+ * for C#. It shares one file per schema with the C# half. The schemas are given as a comma-separated list.
  */
 internal object RoundTrip {
     @JvmStatic

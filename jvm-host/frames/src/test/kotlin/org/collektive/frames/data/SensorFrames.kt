@@ -5,7 +5,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.util.Random
 
-/** A frame as C# sends it, with the [position] of its table and its content as [objects]. */
+/** A frame in the format of C#, with the [position] of its table and its content as [objects]. */
 internal class Frame(val bytes: ByteArray, val position: Int, val objects: List<Any>) {
     fun buffer(): ByteBuffer = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
 }

@@ -22,7 +22,7 @@ internal class Programs(
 ) : NewNodes {
     private val byName = functions.programs
 
-    /** The measured metrics, in the order of the session's. */
+    /** The measured metrics, in the session's order. */
     val metrics: List<LoadedMetric> = measured.map { name ->
         functions.metrics[name] ?: throw HostException(
             HostError.PROGRAM,

@@ -3,16 +3,16 @@ package org.collektive.host.shim
 import java.util.Properties
 import java.util.function.LongSupplier
 
-/** A clock like `System.nanoTime()` that stands still while a debugger is attached to this JVM, so that breakpoints do not count towards time limits. */
+/** A clock like `System.nanoTime()` that stops while a debugger is attached to this JVM, so breakpoints do not count towards time limits. */
 internal object Debugger : LongSupplier {
-    // The agent sets it to its address while it listens for a debugger, and clears it when one attaches.
+    // The debugger agent sets this property to its address while it listens, and clears it when a debugger attaches.
     private const val LISTENER = "sun.jdwp.listenerAddress"
     private const val POLL_MILLIS = 20L
 
     @Volatile
     private var excluded = 0L
 
-    // The time when the present debugger attached; 0 without one.
+    // The time at which the current debugger attached; 0 without one.
     @Volatile
     private var attached = 0L
 

@@ -19,7 +19,7 @@ internal object ControlFuzzer : Fuzzer {
     private val shim = TestShim()
     private val refusals = setOf(HostError.FRAME)
 
-    /** What Jazzer calls. */
+    /** Called by Jazzer for each input. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)
@@ -40,7 +40,7 @@ internal object ControlFuzzer : Fuzzer {
         val place = Host.control(0, frame, 0, frame.capacity(), 1, answer, LIMIT_MILLIS)
         check(place >= 0) { shim.error }
         val state = ControlResponse.getRootAsControlResponse(answer.position((place ushr Int.SIZE_BITS).toInt()))
-        check(state.recordingPath() == null && state.recordingsWritten() == 0) { "a refused control started a recording" }
+        check(state.recordingPath() == null && state.recordingsWritten() == 0) { "a rejected control request started a recording" }
     }
 
     /** Arbitrary bytes could name any path for a recording, and a collection takes a thousand times as long as everything else. */

@@ -39,7 +39,7 @@ class CorpusTest {
         return files.map { file ->
             DynamicTest.dynamicTest(file.name) {
                 val isAccepted = fuzzer.run(file.readBytes())
-                if (file.name in accepted) assertTrue(isAccepted, "a valid frame is refused")
+                if (file.name in accepted) assertTrue(isAccepted, "a valid frame is rejected")
             }
         }
     }

@@ -8,17 +8,17 @@ import java.nio.file.Path
 import java.nio.file.StandardCopyOption.REPLACE_EXISTING
 import kotlin.io.path.createParentDirectories
 
-/** Calls an entry of [org.collektive.host.Host] with bytes from anywhere. One thread. */
+/** Calls an entry point of [org.collektive.host.Host] with arbitrary bytes, on one thread. */
 internal fun interface Fuzzer {
     /**
      * Runs one input and returns whether it was accepted.
      *
-     * @throws IllegalStateException when a rule is broken.
+     * @throws IllegalStateException when the host violates its contract.
      */
     fun run(bytes: ByteArray): Boolean
 }
 
-/** A [code] below 0 must be one of [allowed]: all others, [HostError.JAVA] above all, indicate a bug in the host. */
+/** A [code] below 0 must be one of [allowed]; any other, in particular [HostError.JAVA], indicates a bug in the host. */
 internal fun requireRefusal(code: Long, allowed: Set<HostError>, shim: TestShim) =
     check(code >= 0 || allowed.any { it.code.toLong() == code }) { "code $code: ${shim.error}" }
 

@@ -18,7 +18,7 @@ internal object OpenFuzzer : Fuzzer {
     @JvmStatic
     fun fuzzerInitialize() = FuzzedPrograms.place()
 
-    /** What Jazzer calls. */
+    /** Called by Jazzer for each input. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)

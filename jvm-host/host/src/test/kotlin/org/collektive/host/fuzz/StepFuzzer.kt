@@ -30,7 +30,7 @@ internal object StepFuzzer : Fuzzer {
     @JvmStatic
     fun fuzzerInitialize() = FuzzedPrograms.place()
 
-    /** What Jazzer calls. */
+    /** Called by Jazzer for each input. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)
@@ -39,7 +39,7 @@ internal object StepFuzzer : Fuzzer {
     override fun run(bytes: ByteArray): Boolean {
         FuzzedPrograms.place()
         val twins = pair ?: SessionPair()
-        // After a violated rule, the next input starts with new sessions.
+        // After a contract violation, the next input starts with new sessions.
         pair = null
         val accepted = twins.run(bytes)
         pair = twins

@@ -87,7 +87,7 @@ internal class ProfileReport {
             val rounds = program.rounds.map { it.toNanos() / NANOS_PER_MICRO }.sorted()
             line("\nprogram %s (%s)", name, program.function)
             line(
-                "  %d rounds sampled (one in %d): %.1f us median, %.1f us p99, %.1f exports a round",
+                "  %d rounds sampled (one in %d): %.1f us median, %.1f us p99, %.1f exports per round",
                 rounds.size,
                 RoundSampling.INTERVAL,
                 rounds.median(),

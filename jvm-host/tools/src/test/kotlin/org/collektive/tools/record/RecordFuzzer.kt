@@ -10,13 +10,13 @@ import java.util.zip.CRC32
 import kotlin.io.path.writeBytes
 
 /**
- * A record of any bytes is read to its end, or up to a [RecordException]. Checksums are corrected first: no fuzzer would get beyond them. The programs
- * in it do not run.
+ * Reads arbitrary bytes as a record, to the end or up to a [RecordException]. Corrects checksums first, because fuzzed bytes would not get past
+ * them. Does not run the programs of the record.
  */
 internal object RecordFuzzer {
     private val file: Path by lazy { Files.createTempFile("fuzzed", ".clkrec").also { it.toFile().deleteOnExit() } }
 
-    /** What Jazzer calls. */
+    /** Called by Jazzer for each input. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)

@@ -2,7 +2,7 @@ package it.unibo.collektive.aggregate.api
 
 import kotlinx.serialization.KSerializer
 
-/** The way in which values of type [T] are sent between devices. */
+/** How values of type [T] are sent between devices. */
 public sealed interface DataSharingMethod<in T>
 
 /** By reference, inside one process. A shared value must not change afterwards: all receivers share the same object. */

@@ -15,7 +15,7 @@ import it.unibo.collektive.stdlib.util.aligned
 
 /**
  * The id of the least entry of [potential] by [comparator]: the next device downhill, or this device at the bottom. On ties the
- * neighbour with the lowest id wins, and this device comes last: two devices of equal potential may choose each other.
+ * neighbour with the lowest id wins, and this device comes last, so two devices of equal potential may choose each other.
  */
 @Suppress("UnusedReceiverParameter")
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParent(

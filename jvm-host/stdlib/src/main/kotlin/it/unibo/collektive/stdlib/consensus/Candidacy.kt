@@ -8,7 +8,7 @@ import kotlinx.serialization.Serializable
  *
  * @property candidate the device that stands for election.
  * @property distance from the candidate to this device, in units of the election's metric.
- * @property strength what the election compares first.
+ * @property strength the value that the election compares first.
  */
 @Serializable
 public data class Candidacy<ID : Any, D : Comparable<D>, S : Comparable<S>>(

@@ -16,12 +16,12 @@ public typealias ReplicaID = ULong
 
 /**
  * Runs several overlapping replicas of [process] and returns the result of the oldest. A process that never forgets, such as
- * `nonStabilizingGossip`, then follows changes, because each replica ends after [timeToSpawn] * [maxReplicas] and its state with it.
+ * `nonStabilizingGossip`, then follows changes, because each replica and its state end after [timeToSpawn] * [maxReplicas].
  *
  * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).
  * A device takes part in the youngest replica that a neighbour knows. It starts the next one in the round after [sharedTimeLeftTo] of
- * [timeToSpawn] was over, unless it has just started or adopted a replica, or receives a younger one: so replicas start two rounds apart
- * at least. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer depends on
+ * [timeToSpawn] was over, unless it has just started or adopted a replica, or receives a younger one. Replicas therefore start at least
+ * two rounds apart. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer depends on
  * earlier ones after [timeToSpawn] * [maxReplicas] plus the time that a number takes to cross the connected component. [process] must
  * settle within [timeToSpawn] * ([maxReplicas] - 1).
  *

@@ -24,14 +24,14 @@ import kotlinx.serialization.Serializable
  * Self-stabilising if [reducer] chooses: once values and links stop changing, every device has the best value of its connected component
  * after as many rounds of every device as the longest simple path has hops, plus the component's diameter.
  *
- * A reducer that merges its arguments, such as a union or a sum, has a result on each device, but it need not be the merge of all values
- * and need not stabilise, because each offer arrives with its own history. To merge values, use [nonStabilizingGossip].
+ * With a reducer that merges its arguments, such as a union or a sum, the result need not merge all values and need not stabilise,
+ * because each offer arrives with its own history. To merge values, use [nonStabilizingGossip].
  *
  * @param local this device's value.
  * @param maxDiameter the greatest number of hops of a value, counted at the neighbour: it travels one hop farther. With a limit, a device
  *   may miss a value within reach, where a better value displaces it on the way but does not reach the device itself.
- * @param reducer returns the better of its arguments, as a maximum does; of equally good ones either. By default the first: every device
- *   keeps its own value.
+ * @param reducer returns the better of its arguments, as a maximum does, or either of equally good ones. By default it returns the first, so
+ *   every device keeps its own value.
  */
 public inline fun <reified ID : Comparable<ID>, reified V> Aggregate<ID>.gossip(
     local: V,

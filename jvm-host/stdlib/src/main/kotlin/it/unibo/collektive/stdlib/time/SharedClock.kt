@@ -30,8 +30,8 @@ public fun Aggregate<*>.sharedClock(localTime: Instant): Instant = aligned("shar
 }
 
 /**
- * The time left until [timeToWait] has passed on the [sharedClock] since this device called the function first, or since the last wait
- * was over: periodic. It is zero or negative in the round in which a wait is over, and never elsewhere.
+ * The time left until [timeToWait] has passed on the [sharedClock] since this device first called the function, or since the last wait
+ * ended. Waits repeat. The result is zero or negative only in the round in which a wait ends.
  */
 public fun Aggregate<*>.sharedTimeLeftTo(now: Instant, timeToWait: Duration): Duration = aligned("sharedTimeLeftTo") {
     val clock = sharedClock(now)

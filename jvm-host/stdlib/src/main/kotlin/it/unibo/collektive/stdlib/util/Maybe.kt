@@ -8,7 +8,7 @@ import kotlinx.serialization.Serializable
 /**
  * An [Option] that can be serialised. Its value may be `null`.
  *
- * @property option the value, if there is one.
+ * @property option the value, or none.
  */
 @JvmInline
 @Serializable(with = MaybeSerializer::class)

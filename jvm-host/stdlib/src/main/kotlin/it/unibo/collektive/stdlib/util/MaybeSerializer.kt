@@ -17,7 +17,7 @@ internal class MaybeSerializer<T>(value: KSerializer<T>) : KSerializer<Maybe<T>>
 
     override fun deserialize(decoder: Decoder): Maybe<T> {
         val found = decoder.decodeSerializableValue(values)
-        if (found.size > 1) throw SerializationException("${found.size} values; at most one is expected")
+        if (found.size > 1) throw SerializationException("an optional value contains ${found.size} values; expected at most one")
         return if (found.isEmpty()) Maybe.none else Maybe.some(found[0])
     }
 }
