@@ -62,11 +62,11 @@ typedef struct clk_near {
     float distance; /* from the place */
 } clk_near;
 
-/* A search for the links of a rule. If `outer` is negative or a distance is NaN, it finds nothing. */
+/* A search for the links of a rule. With `nearest` -1, it finds nothing if `outer` is negative or a distance is NaN. */
 typedef struct clk_search {
     int32_t rule;    /* of clk_neighbours_add_rule */
     int32_t centre;  /* index of the rule's point, which is not found */
-    int32_t nearest; /* finds so many points, those nearest to the centre; -1: all between the two distances */
+    int32_t nearest; /* number of nearest points to find, at any distance; -1: all points between the two distances */
     float inner;     /* smallest distance */
     float outer;     /* largest distance */
     float tolerance; /* a link's length is updated when it has changed by more than this */
@@ -148,7 +148,7 @@ CLK_NEIGHBOURS_API int32_t clk_neighbours_within(clk_neighbours *neighbours, flo
 
 /*
  * Finds the points nearest to a place, at most `limit`, and returns their number. They ascend by distance, then by index. The search is fastest if
- * some more than these are within `guess`; 0 for no guess.
+ * slightly more than `limit` points are within `guess`; 0: no guess.
  */
 CLK_NEIGHBOURS_API int32_t clk_neighbours_nearest(clk_neighbours *neighbours, float x, float y, float z, int32_t limit, float guess,
                                                   const clk_near **found);
@@ -166,7 +166,7 @@ CLK_NEIGHBOURS_API void clk_neighbours_remove_rule(clk_neighbours *neighbours, i
 CLK_NEIGHBOURS_API int32_t clk_neighbours_update(clk_neighbours *neighbours, const clk_search *searches, int32_t count, int32_t threads,
                                                  int32_t max_links);
 
-/* Replaces the links of a rule whose point has the id `centre`. Of several neighbours with the same id the first counts. */
+/* Replaces the links of a rule whose point has the id `centre`. Uses the first of several neighbours with the same id. */
 CLK_NEIGHBOURS_API int32_t clk_neighbours_take(clk_neighbours *neighbours, int32_t rule, int32_t centre, const clk_neighbour *list,
                                                int32_t count, float tolerance, int32_t both);
 
@@ -179,10 +179,10 @@ CLK_NEIGHBOURS_API int32_t clk_neighbours_release(clk_neighbours *neighbours, in
 /* Returns whether a link exists. */
 CLK_NEIGHBOURS_API int32_t clk_neighbours_has(const clk_neighbours *neighbours, int32_t from, int32_t to);
 
-/* Sets whether the receiver of clk_neighbours_flush knows an id; initially it does not. Links of unknown ids wait. */
+/* Sets whether the receiver of clk_neighbours_flush knows an id; initially it does not. New links wait until both ids are known. */
 CLK_NEIGHBOURS_API int32_t clk_neighbours_know(clk_neighbours *neighbours, int32_t id, int32_t known);
 
-/* Removes all links of some ids; the receiver of clk_neighbours_flush removes its own. */
+/* Removes all links of some ids. clk_neighbours_flush does not report them: its receiver must remove its own. */
 CLK_NEIGHBOURS_API int32_t clk_neighbours_drop(clk_neighbours *neighbours, const int32_t *ids, int32_t count);
 
 /* Returns the changes of links since the last call. */

@@ -4,13 +4,13 @@
 #include <string.h>
 #include "array.h"
 
-/* Beyond this, the number of a cell would not fit an int32_t. */
+/* With more cells, the number of a cell would not fit into an int32_t. */
 #define MAX_CELLS (1 << 30)
-/* More rows share a number. */
+/* With more rows, several have the same number. */
 #define MAX_ROWS 0xFFFF
 #define MIN_RADIUS 1e-3f
-/* Keys that are sorted by insertion. */
-enum { FEW = 16 };
+/* Length of the runs that insertion sort handles. */
+enum { RUN = 16 };
 
 static inline int32_t min(int32_t a, int32_t b) { return a < b ? a : b; }
 static inline int32_t max(int32_t a, int32_t b) { return a > b ? a : b; }
@@ -23,10 +23,10 @@ static inline int32_t cell_of(const struct grid *grid, double coordinate) {
     return cell < towards_zero ? towards_zero - 1 : towards_zero;
 }
 
-/* The number of a row of cells along x: no two rows of one search have the same. */
+/* Returns the number of a row of cells along x, unique among the rows of one search. */
 static inline int32_t row_of(int32_t y, int32_t z) { return (int32_t)((uint32_t)y << 16 | ((uint32_t)z & MAX_ROWS)); }
 
-/* Cells that are neighbours along x have neighbouring buckets, so that a row of them is one range of entries. */
+/* Returns the bucket of a cell. Adjacent cells along x have adjacent buckets, so a row of cells is one range of entries. */
 static inline uint32_t bucket_of(const struct grid *grid, int32_t x, int32_t row) {
     uint32_t mixed = (uint32_t)row * 0x9E3779B1u;
     return ((uint32_t)x + (mixed ^ mixed >> 15)) & grid->mask;
@@ -95,7 +95,7 @@ void grid_free(struct grid *grid) {
     free(grid->row_of);
 }
 
-/* Appends the entries of a range with squared distances in a band, of one row or of all: other rows may share its buckets. */
+/* Appends the entries of a range whose squared distances are in a band. Checks their row unless `any_row`: other rows may share its buckets. */
 static bool add_near(const struct grid *grid, int32_t start, int32_t end, const float place[3], const float band[2], bool any_row,
                      int32_t row, struct hits *hits) {
     if (start >= end) return true;
@@ -113,7 +113,7 @@ static bool add_near(const struct grid *grid, int32_t start, int32_t end, const 
             float value;
             uint32_t bits;
         } squared = {.value = dx * dx + dy * dy + dz * dz};
-        /* Without branches: the processor cannot predict which points are near. */
+        /* Branchless, because the processor cannot predict which points are near. */
         keys[found] = (uint64_t)(uint32_t)entries[i].index << 32 | squared.bits;
         found += (squared.value <= most) & (squared.value >= least) & (any_row | (rows[i] == row));
     }
@@ -121,12 +121,12 @@ static bool add_near(const struct grid *grid, int32_t start, int32_t end, const 
     return true;
 }
 
-/* Replaces the hits by those of a search, with squared distances. */
+/* Replaces the hits with those of a search, with squared distances. */
 static bool collect(const struct grid *grid, const float place[3], float inner, float outer, struct hits *hits) {
     hits->count = 0;
     if (!(outer >= 0) || !(inner <= outer)) return true;
     float band[2] = {inner > 0 ? inner * inner : 0, outer * outer};
-    /* A little more, since distances are rounded. */
+    /* Slightly more, because distances are rounded. */
     double reach = outer * (1 + 1e-6);
     struct cell first = {max(cell_of(grid, place[0] - reach), grid->least.x), max(cell_of(grid, place[1] - reach), grid->least.y),
                          max(cell_of(grid, place[2] - reach), grid->least.z)};
@@ -150,7 +150,7 @@ static bool collect(const struct grid *grid, const float place[3], float inner, 
     return true;
 }
 
-static void take_roots(struct hits *hits) {
+static void to_distances(struct hits *hits) {
     for (int32_t i = 0; i < hits->count; i++) {
         union {
             float value;
@@ -162,7 +162,7 @@ static void take_roots(struct hits *hits) {
 
 bool grid_within(const struct grid *grid, const float place[3], float inner, float outer, struct hits *hits) {
     if (!collect(grid, place, inner, outer, hits)) return false;
-    take_roots(hits);
+    to_distances(hits);
     return true;
 }
 
@@ -178,7 +178,7 @@ bool grid_nearest(const struct grid *grid, const float place[3], int32_t limit, 
         reach *= 2;
         if (!collect(grid, place, 0, reach, hits)) return false;
     }
-    take_roots(hits);
+    to_distances(hits);
     *radius = reach;
     int32_t sorted = 0;
     for (int32_t i = 0; i < hits->count; i++) {
@@ -196,7 +196,7 @@ bool grid_nearest(const struct grid *grid, const float place[3], int32_t limit, 
     return true;
 }
 
-static void sort_few(uint64_t *keys, int32_t count) {
+static void sort_run(uint64_t *keys, int32_t count) {
     for (int32_t next = 1; next < count; next++) {
         uint64_t key = keys[next];
         int32_t at = next;
@@ -207,10 +207,10 @@ static void sort_few(uint64_t *keys, int32_t count) {
 
 bool hits_sort(struct hits *hits) {
     int32_t count = hits->count;
-    for (int32_t start = 0; start < count; start += FEW) sort_few(hits->keys + start, min(FEW, count - start));
-    if (count <= FEW) return true;
+    for (int32_t start = 0; start < count; start += RUN) sort_run(hits->keys + start, min(RUN, count - start));
+    if (count <= RUN) return true;
     if (!reserve(&hits->spare, &hits->spare_capacity, hits->capacity, sizeof *hits->spare)) return false;
-    for (int64_t run = FEW; run < count; run *= 2) {
+    for (int64_t run = RUN; run < count; run *= 2) {
         uint64_t *from = hits->keys, *to = hits->spare;
         for (int64_t start = 0; start < count; start += 2 * run) {
             int64_t middle = start + run < count ? start + run : count;

@@ -28,7 +28,7 @@ struct grid {
     /* By bucket: the points of one cell are adjacent, ascending by index. */
     struct entry *entries;
     int32_t *rows;
-    int32_t *starts; /* by bucket, and one more */
+    int32_t *starts; /* by bucket, plus the end of the last one */
 
     /* By index. */
     int32_t *bucket_of;
@@ -57,16 +57,16 @@ static inline float hit_distance(uint64_t key) {
 bool grid_place(struct grid *grid, const clk_point *points, int32_t count, float cell);
 void grid_free(struct grid *grid);
 
-/* Replaces the hits by the points with inner <= distance <= outer, in no order. Returns false without memory. */
+/* Replaces the hits with the points at inner <= distance <= outer, unordered. Returns false if out of memory. */
 bool grid_within(const struct grid *grid, const float place[3], float inner, float outer, struct hits *hits);
 
 /*
- * Replaces the hits by the nearest points but `except` (an index or -1), by distance and index. `radius` is the initial one, and then that of the
- * last search. Returns false without memory.
+ * Replaces the hits with the nearest points other than `except` (an index or -1), ordered by distance and index. `radius` is the initial search
+ * radius, and is set to the last one. Returns false if out of memory.
  */
 bool grid_nearest(const struct grid *grid, const float place[3], int32_t limit, int32_t except, float *radius, struct hits *hits);
 
-/* Sorts keys in ascending order. Returns false without memory. */
+/* Sorts the keys in ascending order. Returns false if out of memory. */
 bool hits_sort(struct hits *hits);
 void hits_free(struct hits *hits);
 

@@ -197,7 +197,7 @@ void links_drop_gone(struct links *links) {
         if (is_free(pair) || (!links_is_gone(links, pair->low) && !links_is_gone(links, pair->high))) continue;
         drop(links, &pair->up);
         drop(links, &pair->down);
-        /* A flush frees the dirty ones. */
+        /* links_flush frees dirty pairs. */
         if (!pair->up.is_dirty && !pair->down.is_dirty) free_pair(links, index);
     }
 }

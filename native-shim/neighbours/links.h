@@ -12,7 +12,7 @@ struct flags {
     int32_t capacity; /* of pages */
 };
 
-/* Most references come and go in pairs: the two links of a pair are adjacent, and one reference may be to both. */
+/* Most links come and go in pairs, so the two links of a pair are adjacent, and one reference may cover both. */
 struct links {
     clk_pair *pairs;
     int32_t *buckets; /* as many as the capacity of pairs, a power of two */
@@ -34,7 +34,7 @@ struct links {
 typedef int32_t reference;
 enum { UP = 1, DOWN = 2, DIRECTIONS = 3 };
 
-/* Returns the reference of a new user of a link, or of both links of a pair; negative without memory. */
+/* Adds a reference to a link, or to both links of a pair, and returns it; negative if out of memory. */
 reference links_add(struct links *links, int32_t from, int32_t to, bool both, float length, float attenuation);
 bool links_set(struct links *links, reference link, float length, float attenuation);
 bool links_release(struct links *links, reference link);
@@ -43,7 +43,7 @@ bool links_release(struct links *links, reference link);
 static inline void links_prefetch(const struct links *links, reference link) { __builtin_prefetch(&links->pairs[link >> 2], 1); }
 
 bool links_hold(struct links *links, const clk_link *link);
-/* Returns 0 if scripts have no reference, otherwise 1; negative without memory. */
+/* Returns 0 if scripts have no reference, otherwise 1; negative if out of memory. */
 int32_t links_release_script(struct links *links, int32_t from, int32_t to);
 bool links_has(const struct links *links, int32_t from, int32_t to);
 

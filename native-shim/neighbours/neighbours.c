@@ -9,11 +9,11 @@
 #include "links.h"
 #include "workers.h"
 
-/* Searches that a thread takes at once. */
+/* Number of searches that a thread claims at a time. */
 #define CHUNK 64
-/* Fewer searches take less than half a millisecond, and waiting for a thread that the system has not run yet can take longer. */
+/* One thread runs fewer searches: they take less than half a millisecond, and waiting until another thread is scheduled can take longer. */
 #define MIN_SEARCHES 2048
-/* New links after which threads stop and the links are updated: it limits the memory of a tick in which all links are new. */
+/* Number of new links after which threads stop and the links are updated. Limits the memory of a tick in which all links are new. */
 #define MAX_NEW_LINKS (1 << 18)
 
 /* A link that a rule references. */
@@ -30,13 +30,13 @@ struct rule {
     int32_t count, capacity;
     int32_t next_free; /* number + 1 of the next removed rule; -1 if the rule is in use */
     int32_t centre;    /* id */
-    uint32_t update;   /* number of the last update that had the rule */
+    uint32_t update;   /* number of the last update that contained the rule */
     float reach;       /* distance of the last search for the nearest points */
 };
 
 enum change_kind { ADD, ADD_BOTH, SET, RELEASE };
 
-/* Links and rules are far apart in memory, so they are loaded some time before they are used. */
+/* Distance of prefetches, in items: links and rules are far apart in memory. */
 enum { AHEAD = 8 };
 
 struct change {
@@ -122,7 +122,7 @@ static void count_search(struct thread_memory *memory, float radius) {
     memory->searches++;
 }
 
-/* The mean and not the largest distance, so that one rule with a long reach does not put all points into one cell. */
+/* Returns the mean and not the maximum, so that one rule with a long reach does not put all points into one cell. */
 static float mean_radius(const clk_neighbours *neighbours) {
     double sum = 0;
     int64_t searches = 0;
@@ -147,8 +147,8 @@ int32_t clk_neighbours_place(clk_neighbours *neighbours, const clk_point *points
     return grid_place(&neighbours->grid, points, count, neighbours->cell) ? 0 : CLK_NEIGHBOURS_MEMORY;
 }
 
-/* Copies the hits of the calling thread to the memory that callers see. */
-static int32_t show_hits(clk_neighbours *neighbours, const clk_near **found) {
+/* Copies the hits of the calling thread to the memory that the caller reads. */
+static int32_t export_hits(clk_neighbours *neighbours, const clk_near **found) {
     const struct hits *hits = &neighbours->threads[0].hits;
     if (!reserve(&neighbours->found, &neighbours->found_capacity, hits->count, sizeof *neighbours->found)) return CLK_NEIGHBOURS_MEMORY;
     for (int32_t i = 0; i < hits->count; i++) {
@@ -164,7 +164,7 @@ int32_t clk_neighbours_within(clk_neighbours *neighbours, float x, float y, floa
     float place[3] = {x, y, z};
     count_search(memory, outer);
     if (!grid_within(&neighbours->grid, place, inner, outer, &memory->hits) || !hits_sort(&memory->hits)) return CLK_NEIGHBOURS_MEMORY;
-    return show_hits(neighbours, found);
+    return export_hits(neighbours, found);
 }
 
 int32_t clk_neighbours_nearest(clk_neighbours *neighbours, float x, float y, float z, int32_t limit, float guess, const clk_near **found) {
@@ -174,7 +174,7 @@ int32_t clk_neighbours_nearest(clk_neighbours *neighbours, float x, float y, flo
     float radius = guess > 0 ? guess : mean_radius(neighbours);
     if (!grid_nearest(&neighbours->grid, place, limit, -1, &radius, &memory->hits)) return CLK_NEIGHBOURS_MEMORY;
     count_search(memory, radius);
-    return show_hits(neighbours, found);
+    return export_hits(neighbours, found);
 }
 
 /* ---- Rules ----------------------------------------------------------------------------------------------------------- */
@@ -215,7 +215,7 @@ static bool add_change(struct thread_memory *memory, enum change_kind kind, int3
 
 static bool is_beyond(float a, float b, float tolerance) { return a - b > tolerance || b - a > tolerance; }
 
-/* Updates a link that stays. */
+/* Updates a link that the rule keeps. */
 static bool keep(struct thread_memory *memory, struct held *held, float length, float attenuation, float tolerance) {
     bool is_longer = is_beyond(length, held->length, tolerance);
     if (!is_longer && attenuation == held->attenuation) return true;
@@ -225,14 +225,14 @@ static bool keep(struct thread_memory *memory, struct held *held, float length, 
 }
 
 /*
- * Replaces the rule's links by those to `requested`, ascending by id, and appends the changes. The links themselves are updated by
- * apply(), so that threads can run this for different rules.
+ * Replaces the rule's links with those to `requested`, ascending by id, and appends the changes. apply() updates the links themselves, so
+ * threads can run this function for different rules.
  */
 static bool merge(struct thread_memory *memory, struct rule *rule, const clk_neighbour *requested, int32_t count, float tolerance,
                   bool both) {
     struct held *held = rule->held;
     int32_t same = 0;
-    /* The usual case. */
+    /* Usually, most links are unchanged. */
     while (same < count && same < rule->count && held[same].id == requested[same].id) {
         if (!keep(memory, &held[same], requested[same].length, requested[same].attenuation, tolerance)) return false;
         same++;
@@ -289,7 +289,7 @@ static bool search(clk_neighbours *neighbours, struct thread_memory *memory, con
         count_search(memory, search->outer);
         if (!grid_within(grid, place, search->inner, search->outer, hits)) return false;
     } else {
-        /* The last search is a good guess. */
+        /* The result of the last search is a good guess. */
         float radius = rule->reach > 0 ? 1.25f * rule->reach : neighbours->cell;
         if (!grid_nearest(grid, place, search->nearest, search->centre, &radius, hits)) return false;
         count_search(memory, radius);
@@ -306,7 +306,7 @@ static bool search(clk_neighbours *neighbours, struct thread_memory *memory, con
     return merge(memory, rule, memory->requested, count, search->tolerance, search->both != 0);
 }
 
-/* Runs searches until none are left, or until there are enough new links. */
+/* Runs searches until none are left or enough links are new. */
 static void run_searches(void *context, int32_t number) {
     clk_neighbours *neighbours = context;
     struct thread_memory *memory = &neighbours->threads[number];
@@ -317,7 +317,7 @@ static void run_searches(void *context, int32_t number) {
         int32_t end = neighbours->search_count - first < CHUNK ? neighbours->search_count : first + CHUNK;
         for (int32_t i = first; i < end; i++) {
             int32_t start = memory->change_count;
-            /* Not of the next chunk, which is another thread's. */
+            /* Not beyond this chunk: the next one belongs to another thread. */
             if (i + AHEAD < end) __builtin_prefetch(neighbours->rules[neighbours->searches[i + AHEAD].rule].held, 1);
             if (!search(neighbours, memory, &neighbours->searches[i])) neighbours->is_out_of_memory = true;
             neighbours->changes[i] = (struct changes){number, start, memory->change_count - start};

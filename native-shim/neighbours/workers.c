@@ -44,7 +44,7 @@ typedef pthread_t thread;
 #define THREAD_FUNCTION static void *
 #define THREAD_RESULT NULL
 
-/* The thread gets no signals, whose handlers belong to the caller's threads. */
+/* Blocks all signals in the thread: their handlers expect the caller's threads. */
 static bool begin(thread *started, void *(*run)(void *), void *context) {
     sigset_t all, before;
     sigfillset(&all);
@@ -76,7 +76,7 @@ static void signal_all(condition *changed) { pthread_cond_broadcast(changed); }
 
 struct workers {
     lock mutex;
-    condition has_work; /* or the end */
+    condition has_work; /* also signalled at the end */
     condition is_done;
     thread threads[MAX_WORKERS - 1];
     int32_t started;

@@ -8,14 +8,14 @@ enum { MAX_WORKERS = 16 };
 
 struct workers;
 
-/* Returns NULL without memory. */
+/* Returns NULL if out of memory. */
 struct workers *workers_create(void);
 void workers_destroy(struct workers *workers);
 
 /*
- * Calls `work(context, 0)` here, and `work(context, number)` with other numbers on up to `threads` - 1 other threads. Returns when all calls have
- * returned. A thread that wakes up after the first call has returned does nothing, so the calls must take their parts of the work from a counter.
- * Missing threads are started; if the system refuses one, fewer threads work.
+ * Calls `work(context, 0)` on this thread, and `work(context, number)` with other numbers on up to `threads` - 1 other threads. Returns when all
+ * calls have returned. A thread that wakes up after the first call has returned does nothing, so the calls must claim parts of the work from a
+ * counter. Starts missing threads; if the system cannot create one, fewer threads work.
  */
 void workers_run(struct workers *workers, int32_t threads, void (*work)(void *context, int32_t number), void *context);
 

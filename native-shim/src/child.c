@@ -142,7 +142,7 @@ static int32_t prepare_channel(void) {
         log_share(&channel->log, false);
         host_share(&channel->state);
     }
-    log_jvm_forget();
+    log_jvm_clear();
     prim_semaphore_share(&channel->request);
     prim_semaphore_share(&channel->done);
     channel->version = CLK_VERSION;

@@ -27,13 +27,13 @@ int32_t launch_check_config(const clk_jvm_config *config) {
         return error_set(CLK_ARGUMENT, "class_path is empty; set it to the jars of the host");
     }
     if (config->option_count < 0 || (config->option_count > 0 && config->options == NULL)) {
-        return error_set(CLK_ARGUMENT, "option_count is %d, which does not match options", config->option_count);
+        return error_set(CLK_ARGUMENT, "option_count is %d; it must be 0 or greater, and 0 if options is NULL", config->option_count);
     }
     for (int32_t i = 0; i < config->option_count; i++) {
-        if (config->options[i] == NULL) return error_set(CLK_ARGUMENT, "option %d is NULL", i);
+        if (config->options[i] == NULL) return error_set(CLK_ARGUMENT, "option %d is NULL; set it to a JVM option", i);
     }
     if (config->placement != CLK_IN_PROCESS && config->placement != CLK_OWN_PROCESS)
-        return error_set(CLK_ARGUMENT, "placement is %d, which is not one of enum clk_placement", config->placement);
+        return error_set(CLK_ARGUMENT, "placement is %d; it must be one of enum clk_placement", config->placement);
     if (config->start_limit_ms < 1) return error_set(CLK_ARGUMENT, "start_limit_ms is %d; it must be 1 or greater", config->start_limit_ms);
     return CLK_OK;
 }

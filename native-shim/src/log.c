@@ -114,7 +114,7 @@ static void keep_last(const char *line, int32_t length) {
     int32_t capacity = sizeof jvm_output.last;
     int32_t used = (int32_t)strlen(jvm_output.last);
     if (length > capacity / 2) length = capacity / 2;
-    if (used + length + 3 > capacity) { /* forgets the older half */
+    if (used + length + 3 > capacity) { /* drops the older half */
         char *kept = text_next_character(jvm_output.last + used / 2);
         used -= (int32_t)(kept - jvm_output.last);
         memmove(jvm_output.last, kept, (size_t)used + 1);
@@ -152,7 +152,7 @@ void log_jvm_last(char *buffer, int32_t capacity) {
     prim_unlock(&jvm_output.mutex);
 }
 
-void log_jvm_forget(void) {
+void log_jvm_clear(void) {
     prim_lock(&jvm_output.mutex);
     jvm_output.used = 0;
     jvm_output.last[0] = '\0';

@@ -1,4 +1,4 @@
-/* The log ring: written by any thread, polled by clk_log_read. A full ring drops lines; no writer waits for a reader. */
+/* The log ring, which any thread writes and clk_log_read polls. A full ring drops lines, so writers never wait for readers. */
 #ifndef COLLEKTIVE_LOG_H
 #define COLLEKTIVE_LOG_H
 
@@ -21,7 +21,7 @@ struct log_ring {
 /* Uses a zeroed ring in memory shared by both processes. Only the child writes to it; the parent also reads it. Call it once. */
 void log_share(struct log_ring *ring, bool is_child);
 
-/* Adds a line. Any thread, including those of the JVM: does not call JNI, and holds one lock for the duration of a copy. */
+/* Adds a line. Any thread, including those of the JVM: does not call JNI, and holds one lock only while it copies. */
 void log_write(int32_t level, const char *text, int32_t length);
 __attribute__((format(printf, 2, 3))) void log_format(int32_t level, const char *format, ...);
 
@@ -34,7 +34,7 @@ void log_jvm_text(int32_t level, const char *text);
 void log_jvm_last(char *buffer, int32_t capacity);
 
 /* Clears these lines before another JVM starts. */
-void log_jvm_forget(void);
+void log_jvm_clear(void);
 
 /* Returns the number of lines that did not fit into the ring. */
 uint64_t log_dropped(void);

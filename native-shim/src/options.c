@@ -25,7 +25,7 @@ static const struct rule forbidden[] = {
     {"-XX:OnError=*", "it forks the process to run a command"},
     {"-XX:+AbortVMOn*", "it aborts the whole process"},
     {"-XX:AbortVMOnException*", "it aborts the whole process"},
-    {"-XX:SelfDestructTimer=*", "it ends the whole process after that many minutes"},
+    {"-XX:SelfDestructTimer=*", "it ends the whole process after the given number of minutes"},
     {"-XX:+ShowMessageBoxOnError", "it waits for input on the console"},
     {"-XX:+AllowUserSignalHandlers", "the signal handlers of the process and of the JVM would conflict"},
     {"-XX:-UseSignalChaining", "the signal handlers of the process would no longer be called"},
@@ -75,7 +75,8 @@ static int32_t check_one(const char *option) {
     for (size_t i = 0; i < sizeof forbidden / sizeof forbidden[0]; i++) {
         if (matches(option, forbidden[i].text)) return refuse(option, forbidden[i].reason);
     }
-    if (is_unsafe_debugger(option)) return refuse(option, "others can reach the port, run commands or delay the start; use " JDWP "PORT");
+    if (is_unsafe_debugger(option))
+        return refuse(option, "it may open the port to other machines, run commands or delay the start; use " JDWP "PORT");
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (matches(option, known[i])) return CLK_OK;
     }
@@ -166,7 +167,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[0] = java;
     int32_t used = 1;
     for (int32_t i = 0; i < count; i++) {
-        /* The child would replace the archive by one with few classes. */
+        /* The child would replace the archive with one that contains few classes. */
         if (!options_write_archive(options[i])) arguments[used++] = options[i];
     }
     arguments[used++] = no_report;

@@ -79,9 +79,10 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     serve.memory = prim_child_attach(text);
     serve.channel = (struct channel *)(void *)serve.memory;
     serve.blocks = calloc(PRIM_SHARED_BYTES / CHANNEL_ALIGNMENT, sizeof(struct block *)); /* only used pages need memory */
-    const char *problem = serve.memory == NULL || serve.blocks == NULL ? "cannot map the caller's memory, or out of memory or threads"
+    const char *problem = serve.memory == NULL || serve.blocks == NULL
+                              ? "cannot map the memory of the caller; free memory or raise the limit of threads"
                           : serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel
-                              ? "the caller has a shim of another version"
+                              ? "the caller has a shim of another version; reinstall the package"
                               : NULL;
     if (problem != NULL) {
         (*env)->ThrowNew(env, (*env)->FindClass(env, "java/lang/IllegalStateException"), problem);

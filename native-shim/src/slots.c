@@ -182,7 +182,7 @@ int32_t clk_slot_acquire(int32_t capacity, clk_slot *slot, clk_memory *memory) {
         int64_t index = slot_take();
         if (index < 0) {
             block_release(block);
-            error_set(CLK_MEMORY, "out of native memory for more than %u slots", pool.length);
+            error_set(CLK_MEMORY, "out of native memory for more than %u slots; release some", pool.length);
         } else {
             pool.slots[index].block = block;
             pool.taken++;

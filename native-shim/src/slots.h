@@ -1,5 +1,5 @@
 /*
- * The pool of native memory. A slot is a handle with a generation; it owns a block of memory, and another one after it grew.
+ * The pool of native memory. A slot is a handle with a generation; it owns one block of memory, which growing replaces.
  * Any thread may call these functions, unless stated otherwise.
  */
 #ifndef COLLEKTIVE_SLOTS_H
@@ -25,7 +25,7 @@ struct block {
 struct block *slots_pin(clk_slot slot);
 void slots_unpin(struct block *block); /* NULL does nothing */
 
-/* Replaces the slot's block by one of at least `capacity` bytes and returns it pinned; NULL on failure, with the last error set. The old block,
+/* Replaces the slot's block with one of at least `capacity` bytes and returns it pinned; NULL on failure, with the last error set. The old block,
  * which the caller has pinned, stays valid until slots_unpin. */
 struct block *slots_exchange(clk_slot slot, int32_t capacity);
 

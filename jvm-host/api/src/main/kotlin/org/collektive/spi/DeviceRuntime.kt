@@ -66,7 +66,7 @@ public interface DeviceRuntimes {
     public fun freeUnused(devices: List<DeviceRuntime>)
 
     /**
-     * Replaces all values that [devices], all devices of the session, have stored or sent, and the pivots of their paths, by [conversion].
+     * Applies [conversion] to all values that [devices], all devices of the session, have stored or sent, and to the pivots of their paths.
      * Removes values that are lost, and all values at a path with a lost pivot.
      *
      * Call it only while no round runs. The default removes everything.

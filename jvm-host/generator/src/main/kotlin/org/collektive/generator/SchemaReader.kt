@@ -76,7 +76,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         .sortedBy { it.name.toString() }
         .ifEmpty { throw error("it defines no tables") }
 
-    /** Rejects numbers that do not fit 64 bits with a sign: flatc's binary schema silently replaces them by 0. */
+    /** Rejects numbers that do not fit into 64 signed bits: flatc's binary schema silently replaces them with 0. */
     private fun checkNumbers(source: Path) {
         for ((index, line) in texts.getValue(source).sanitized.lines().withIndex()) {
             for (match in number.findAll(line.substringBefore("//"))) {

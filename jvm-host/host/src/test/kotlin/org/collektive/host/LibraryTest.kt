@@ -122,7 +122,7 @@ class LibraryTest {
     /** The probe's jar with a mark of the tools that compiled it. */
     private fun marked(mark: String) = repacked("META-INF/MANIFEST.MF" to "Manifest-Version: 1.0\nCollektive-Runtime: $mark\n\n") { it }
 
-    /** The probe's jar with a name in its class files replaced by one of the same length. */
+    /** The probe's jar with a name in its class files replaced with one of the same length. */
     private fun patched(name: String, other: String) = repacked { bytes ->
         require(name.length == other.length)
         bytes.toString(Charsets.ISO_8859_1).replace(name, other).toByteArray(Charsets.ISO_8859_1)

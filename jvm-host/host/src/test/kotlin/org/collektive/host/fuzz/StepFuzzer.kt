@@ -99,7 +99,7 @@ internal object StepFuzzer : Fuzzer {
         }
     }
 
-    /** Returns [bytes], with the tick number replaced by [tick] if they are a frame of tick 2. */
+    /** Returns [bytes], with the tick number set to [tick] if they are a frame of tick 2. */
     private fun ofTick(tick: Long, bytes: ByteArray): ByteArray {
         val copy = bytes.copyOf()
         try {
