@@ -1,4 +1,4 @@
-"""Fuzzes schemas: each is rejected with a line, or compiles on both sides, which exchange equal data.
+"""Fuzzes schemas: each is rejected with a line number, or compiles on both sides, which then exchange equal data.
 
 `./collektive test --fuzz schemas` runs `fuzz.py SECONDS SEED`. test_fuzz.py runs a short batch and the corpus.
 """
@@ -18,7 +18,7 @@ import compile_schemas  # noqa: E402
 CORPUS = os.path.join(HERE, "corpus")
 ROOT = os.path.dirname(os.path.dirname(HERE))
 
-# A case and what went wrong in it.
+# A case and its errors.
 Finding = tuple[str, str]
 
 SCALARS = ["bool", "byte", "ubyte", "short", "ushort", "int", "uint", "long", "ulong", "float", "double"]
@@ -184,20 +184,20 @@ def run(folder: str, records: int = 20) -> tuple[int, int, list[Finding]]:
     findings = []
     if len(outcomes) != len(os.listdir(os.path.join(folder, "cases"))):
         findings.append(("all", "the generator ended early: " + each.stderr[-2000:]))
-    made = [case for case, outcome, _ in outcomes if outcome == "made"]
+    accepted = [case for case, outcome, _ in outcomes if outcome == "accepted"]
     for case, outcome, text in outcomes:
-        if outcome == "crashed" or (outcome == "refused" and not re.search(r"\.fbs:\d+(:\d+)?: ", text)):
+        if outcome == "crashed" or (outcome == "rejected" and not re.search(r"\.fbs:\d+(:\d+)?: ", text)):
             findings.append((case, text))
-    if made:
-        findings += compile_and_compare(folder, made, records)
-    return len(made), sum(outcome == "refused" for _, outcome, _ in outcomes), findings
+    if accepted:
+        findings += compile_and_compare(folder, accepted, records)
+    return len(accepted), sum(outcome == "rejected" for _, outcome, _ in outcomes), findings
 
 
-def compile_and_compare(folder: str, made: list[str], records: int) -> list[Finding]:
+def compile_and_compare(folder: str, accepted: list[str], records: int) -> list[Finding]:
     text = compile_schemas.compile_generated(Path(folder))
     if text:
-        blamed = {case for case in made if re.search(rf"/(csharp|jvm)/{re.escape(case)}/", text)}
-        return [(case, "\n".join(line for line in text.splitlines() if f"/{case}/" in line)[:3000]) for case in sorted(blamed)] or [("all", text[-6000:])]
+        failing = {case for case in accepted if re.search(rf"/(csharp|jvm)/{re.escape(case)}/", text)}
+        return [(case, "\n".join(line for line in text.splitlines() if f"/{case}/" in line)[:3000]) for case in sorted(failing)] or [("all", text[-6000:])]
     names = ",".join(sorted(file[:-len(".bfbs")] for file in os.listdir(os.path.join(folder, "jvm", "META-INF", "collektive"))))
     findings = []
     csharp = compile_schemas.round_trip_csharp(Path(folder, "RoundTrip.exe"))
@@ -229,15 +229,15 @@ def main() -> None:
     work, totals, found = os.path.join(ROOT, "build", "fuzz", "schemas"), [0, 0], 0
     while time.time() < end:
         folder = os.path.join(work, "batch")
-        made, refused, findings = batch(folder, seed, 60)
-        totals = [totals[0] + made, totals[1] + refused]
-        print(f"seed {seed}: {made} accepted, {refused} rejected, {len(findings)} findings", flush=True)
+        accepted, rejected, findings = batch(folder, seed, 60)
+        totals = [totals[0] + accepted, totals[1] + rejected]
+        print(f"seed {seed}: {accepted} accepted, {rejected} rejected, {len(findings)} findings", flush=True)
         for case, text in findings:
             found += 1
-            kept = os.path.join(work, "findings", f"{seed}-{case}")
-            shutil.rmtree(kept, ignore_errors=True)
-            shutil.copytree(os.path.join(folder, "cases", case if case != "all" else ""), kept)
-            print(f"{kept}:\n{text}", flush=True)
+            saved = os.path.join(work, "findings", f"{seed}-{case}")
+            shutil.rmtree(saved, ignore_errors=True)
+            shutil.copytree(os.path.join(folder, "cases", case if case != "all" else ""), saved)
+            print(f"{saved}:\n{text}", flush=True)
         seed += 1
     print(f"Done {sum(totals)} runs: {totals[0]} accepted, {totals[1]} rejected, {found} findings")
     sys.exit(found > 0)

@@ -11,7 +11,7 @@ import org.collektive.links.distances
 fun Aggregate<Int>.distance(sensors: SensorData, device: Device): ActuatorData =
     ActuatorData(distance = distanceFrom(sensors.source(), device).toFloat())
 
-/** Without sensor data, for tests. */
+/** [distance] without sensor data, for tests. */
 internal fun Aggregate<Int>.distanceFrom(source: Boolean, device: Device): Double = with(device) {
     distanceTo(source, metric = distances()).takeIf(Double::isFinite) ?: -1.0
 }

@@ -6,7 +6,7 @@ namespace template
     /// <summary>Senses whether the node is a source.</summary>
     public sealed class SourceSensor : Sensor<SensorData>
     {
-        /// <summary>Whether it is.</summary>
+        /// <summary>Whether this node is a source.</summary>
         public bool isSource;
 
         /// <inheritdoc/>

@@ -6,8 +6,8 @@ import kotlin.io.path.listDirectoryEntries
 import kotlin.io.path.name
 
 /**
- * A part of `schema/test/fuzz.py`: generates code of each `FOLDER/NAME/...fbs` into `FOLDER/csharp` and `FOLDER/jvm`. Prints a line for each:
- * the name, `made`, `refused` or `crashed`, and the schema's class or the message, separated by tabs.
+ * Generates code for `schema/test/fuzz.py`, of each `FOLDER/NAME/...fbs` into `FOLDER/csharp` and `FOLDER/jvm`. Prints a line for each:
+ * the name, `accepted`, `rejected` or `crashed`, and the schema's class or the message, separated by tabs.
  */
 internal object GenerateAll {
     @JvmStatic
@@ -23,9 +23,9 @@ internal object GenerateAll {
 
     private fun outcome(generate: () -> Unit): Pair<String, String> = try {
         generate()
-        "made" to ""
+        "accepted" to ""
     } catch (e: GeneratorException) {
-        "refused" to e.message.orEmpty()
+        "rejected" to e.message.orEmpty()
     } catch (e: Throwable) {
         "crashed" to e.stackTraceToString().take(1000)
     }
