@@ -1,7 +1,7 @@
 /*
  * The engine thread, and the state of the JVM that it drives.
  *
- * One caller at a time has the turn. It takes the turn, fills in the input of its work (static data of its file, which the turn
+ * One caller at a time has the turn. A caller takes the turn, fills in the input of its work (static data of its file, which the turn
  * guards), runs the work on the engine thread and leaves the turn. The hand-off uses two semaphores and does not allocate.
  *
  * Any thread may call these functions, unless stated otherwise.

@@ -332,7 +332,7 @@ static int spawn(char *const argv[], const int descriptors[], int count, pid_t *
 /* The descriptors of the child after its two outputs. Its end of the connection `life` closes when it ends, and the parent's when that ends. */
 enum { CHILD_LIFE = 3, CHILD_MEMORY = 4 };
 
-/* Makes a pipe, or a connection whose ends see each other close. No end is one of the child's descriptors. */
+/* Creates a pipe, or a connection whose ends detect when the other closes. No end is one of the child's descriptors. */
 static bool make_ends(int ends[2], bool is_pipe) {
     if ((is_pipe ? make_pipe(ends) : socketpair(AF_UNIX, SOCK_STREAM | CLOSE_ON_EXEC, 0, ends)) != 0) return false;
     ends[0] = move_up(ends[0]);
@@ -363,7 +363,7 @@ int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, cha
 bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size) {
     for (bool ended = false;;) {
         struct pollfd waits[] = {{.fd = child->output, .events = POLLIN}, {.fd = ended ? -1 : child->life, .events = POLLIN}};
-        /* After the end, a process that the child started may hold its output open: reads only what is there. */
+        /* After the child has ended, a process that it started may keep the output open, so read only the available data. */
         int ready = poll(waits, 2, ended ? 0 : poll_limit(deadline));
         if (ready < 0 && errno == EINTR) continue;
         if (ready == 0 && !ended && prim_now() < deadline) continue; /* poll has a lower limit */

@@ -186,7 +186,7 @@ static void wrong_arguments_are_refused(void) {
 #define IDS 24
 #define RULES (2 * IDS)
 
-/* What a rule references, by id of the other end. */
+/* The references of a rule, by the id at the other end. */
 static struct model_rule {
     int32_t number, centre;
     bool references[IDS];

@@ -29,7 +29,7 @@ extern const char *const host_classes;
 extern const char *const host_jar; /* the same classes */
 extern const char *const incompatible_classes;
 
-/* Makes a folder below the current one. Static storage, valid until the next call. */
+/* Creates a folder below the current one. Static storage, valid until the next call. */
 const char *scratch_folder(void);
 void make_folder(const char *folder, const char *name);
 

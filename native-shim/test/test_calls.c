@@ -8,7 +8,7 @@
 
 /* ---- Answers --------------------------------------------------------------------------------------------------------- */
 
-/* Sends random bytes from a random place in the slot, which grows if it is too small, and checks that they come back. */
+/* Sends random bytes from a random place in the slot, which grows if it is too small, and checks that they are returned. */
 static void check_echo(clk_session session, clk_slot slot, clk_memory *memory, clk_answer *given) {
     int32_t words[] = {ECHO, 0};
     int32_t length = (int32_t)sizeof words + (int32_t)(random_next() % ((uint64_t)1 << (1 + random_next() % 18)));

@@ -24,7 +24,7 @@ static void write_file(const char *folder, const char *name, const char *text, m
     CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0 && chmod(path, mode) == 0);
 }
 
-/* Makes a home with only the real JVM's lib folder. */
+/* Creates a home with only the real JVM's lib folder. */
 static const char *make_home_with_lib(void) {
 #if defined(_WIN32)
     skip("a JVM without its bin/java.exe: its libraries are in bin, and symbolic links are for administrators only");
@@ -365,7 +365,7 @@ void check_while_a_jvm_runs(void) {
     CHECK_OK(start(OPTIONS("-Xmx64m")));
 }
 
-/* Makes a home whose java command creates bin/java.running and runs for 30 s. */
+/* Creates a home whose java command creates bin/java.running and runs for 30 s. */
 static const char *make_home_with_slow_java(void) {
     const char *home = make_home_with_lib();
     make_folder(home, "bin");

@@ -77,7 +77,7 @@ private fun Point3D.toVector() = Vector3Value(x = x.toFloat(), y = y.toFloat(), 
 
 private val ORIGIN = Point3D(Triple(0.0, 0.0, 0.0))
 
-/** Bound of the election: no two drones are more hops apart, so one drone leads the whole swarm. */
+/** Bound of the election in hops, at least the diameter of the swarm, so that one drone leads all others. */
 private const val MAX_HOPS = 120
 private const val NOT_YET = -1
 

@@ -27,7 +27,7 @@ public class Tick {
     /** Nodes to add. */
     public val nodesAdded: MutableList<NewNode> = ArrayList()
 
-    /** New parameters of nodes that stay. */
+    /** New parameters of existing nodes. */
     public val nodesChanged: MutableList<NewNode> = ArrayList()
 
     /** Links to remove, as pairs of ids: sender, receiver. */
@@ -64,7 +64,7 @@ public class Tick {
 /**
  * A node to add, whose [id] must be unused and 0 or greater, or the node with new parameters.
  *
- * @property source what the owner of the engine needs to create the node again with another [program]; see [Engine.replacements].
+ * @property source the data from which the owner of the engine recreates the node with another [program]; see [Engine.replacements].
  */
 public class NewNode(public val id: Int, public val program: NodeProgram, public val parameters: Parameters, public val source: Any? = null)
 

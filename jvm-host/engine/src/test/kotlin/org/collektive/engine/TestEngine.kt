@@ -7,7 +7,7 @@ import org.collektive.runtime.AggregateRuntimes
 import org.collektive.spi.DeviceRuntimes
 import java.util.concurrent.TimeUnit
 
-/** Makes a program from a lambda. */
+/** Creates a program from a lambda. */
 internal fun program(name: String = "test", body: Aggregate<Int>.(Device) -> Any?): NodeProgram = object : NodeProgram {
     override val name = name
 
@@ -35,7 +35,7 @@ internal class TestEngine(
     var tick = 0L
         private set
 
-    /** Runs the next tick. A refused one does not advance the number. */
+    /** Runs the next tick. A rejected one does not advance the number. */
     fun step(limitMillis: Long = 10_000, fill: Tick.() -> Unit): TickResult {
         val request = Tick()
         request.number = tick + 1

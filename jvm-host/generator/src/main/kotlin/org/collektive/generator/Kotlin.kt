@@ -140,14 +140,14 @@ internal class Kotlin(private val schema: UserSchema) {
     )
 
     private fun child(field: Field): String? {
-        val made = when (val type = field.type) {
+        val creation = when (val type = field.type) {
             is StringType -> "builder.createString(it)"
             is TableType -> "pack(builder, it)"
             is VectorType -> vector(type)
             is Scalar, is EnumType, is StructType -> return null
         }
         val value = "data.${member(field)}"
-        return "val child${field.id} = " + if (field.required) "$value.let { $made }" else "$value?.let { $made } ?: 0"
+        return "val child${field.id} = " + if (field.required) "$value.let { $creation }" else "$value?.let { $creation } ?: 0"
     }
 
     private fun vector(type: VectorType): String = when (val element = type.element) {

@@ -20,7 +20,7 @@ import kotlin.io.path.isRegularFile
 
 /**
  * Compiles a schema and its programs into a jar: the generator's Java and Kotlin, then the JDK's Java compiler, then the Kotlin compiler, whose jars are
- * on the class path. Compilers stay loaded, so later jars take a fraction of the time of the first one. For one thread.
+ * on the class path. Compilers stay loaded, so later jars take a fraction of the time of the first one. Confined to one thread.
  */
 internal object ProgramCompiler {
     const val USAGE: String =

@@ -13,7 +13,7 @@ internal object Fixture {
         Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
     }
 
-    /** Makes a temporary folder, which is deleted after the tests. */
+    /** Creates a temporary folder, which is deleted after the tests. */
     fun newFolder(): Path = Files.createTempDirectory(work, "")
 
     /** Generates from a schema with this text, preceded by the `include` of the core types. */

@@ -78,15 +78,15 @@ class ExportTest {
 
     @Test
     fun `a device creates at most two more exports than are retained`() {
-        val made = HashSet<Export>()
+        val exports = HashSet<Export>()
         val last = ArrayDeque<Export>()
         repeat(50) { value ->
             val export = send(value).also(Export::retain)
-            made += export
+            exports += export
             last.addLast(export)
             if (last.size > 3) last.removeFirst().release()
         }
-        assertEquals(5, made.size)
+        assertEquals(5, exports.size)
         last.forEach(Export::release)
         val next = send(0)
         send(1)

@@ -89,9 +89,9 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     private fun functionIn(read: IrGetValue): IrFunction? {
         val variable = read.symbol.owner as? IrVariable ?: return null
         if (variable.isVar) return null
-        return when (val made = variable.initializer) {
-            is IrFunctionExpression -> made.function
-            is IrTypeOperatorCall -> (made.argument as? IrFunctionExpression)?.function
+        return when (val initializer = variable.initializer) {
+            is IrFunctionExpression -> initializer.function
+            is IrTypeOperatorCall -> (initializer.argument as? IrFunctionExpression)?.function
             else -> null
         }
     }

@@ -17,7 +17,7 @@ fun Aggregate<Int>.both(device: Device): Any? = with(device) { distances().all.t
 
 fun Aggregate<Int>.inBranch(device: Device): Any? = with(device) { if (localId != 1) distances().neighbors.size else -1 }
 
-/** Programs can read the lengths and attenuations that the scene gives their links. */
+/** Programs can read the lengths and attenuations that the scene sets for their links. */
 @CollektiveIgnore("it calls the programs")
 class LinksTest {
     @Test

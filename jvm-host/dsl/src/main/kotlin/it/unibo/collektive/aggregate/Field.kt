@@ -282,7 +282,7 @@ public class Field<ID : Any, out T> private constructor(
 
     public companion object {
         /**
-         * Makes a field of [context]'s device. For implementations of [Aggregate]; programs use `neighboring`.
+         * Creates a field of [context]'s device. For implementations of [Aggregate]; programs use `neighboring`.
          *
          * [ids] are the neighbours' ids, ascending if they are [Int]s and without [context]'s own; this is not checked. `values[i]`
          * is the value of `ids[i]`. The field takes ownership of both arrays: do not change them afterwards.

@@ -3,7 +3,7 @@ package it.unibo.collektive.networking
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.path.Path
 
-/** Makes messages of one kind. */
+/** Creates messages of one kind. */
 public interface MessageFactory<ID : Any, out Payload> {
     /** The message of [senderId] with [sharedData]. */
     public operator fun invoke(senderId: ID, sharedData: Map<Path, PayloadRepresentation<Any?>>): Message<ID, Payload>
@@ -17,7 +17,7 @@ public interface MessageFactory<ID : Any, out Payload> {
  */
 public data class PayloadRepresentation<P>(val payload: P, val representation: DataSharingMethod<P>)
 
-/** Makes [InMemoryMessage]s. */
+/** Creates [InMemoryMessage]s. */
 public class InMemoryMessageFactory<ID : Any> : MessageFactory<ID, Any?> {
     override fun invoke(senderId: ID, sharedData: Map<Path, PayloadRepresentation<Any?>>): Message<ID, Any?> =
         InMemoryMessage(senderId, sharedData.mapValues { it.value.payload })

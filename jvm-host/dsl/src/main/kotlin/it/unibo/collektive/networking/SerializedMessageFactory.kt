@@ -13,7 +13,7 @@ import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.withPlace
 
 /**
- * Makes [SerializedMessage]s.
+ * Creates [SerializedMessage]s.
  *
  * @param serializerFormat encodes the values: a [BinaryFormat], or a [StringFormat] such as JSON, stored as UTF-8.
  */

@@ -1,7 +1,7 @@
 package it.unibo.collektive.path
 
 /**
- * Makes short, serialisable paths: digests of the tokens' class names and texts. Confined to one thread, like its digest.
+ * Creates short, serialisable paths: digests of the tokens' class names and texts. Confined to one thread, like its digest.
  *
  * A token's `toString` must contain everything that its `equals` compares, and be the same on all devices. This holds for numbers,
  * strings, enums and data classes of these.

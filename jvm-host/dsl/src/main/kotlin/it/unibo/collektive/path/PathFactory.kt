@@ -1,6 +1,6 @@
 package it.unibo.collektive.path
 
-/** Makes paths from tokens. All devices of a network must use the same factory. */
+/** Creates paths from tokens. All devices of a network must use the same factory. */
 public interface PathFactory {
     /** The path of [tokens], the outermost first. */
     public operator fun invoke(tokens: List<Any?>): Path
@@ -9,7 +9,7 @@ public interface PathFactory {
     public operator fun invoke(vararg tokens: Any?): Path = invoke(tokens.toList())
 }
 
-/** Makes [FullPath]s. */
+/** Creates [FullPath]s. */
 public object FullPathFactory : PathFactory {
     override fun invoke(tokens: List<Any?>): Path = FullPath(tokens.toList())
 }

@@ -41,7 +41,7 @@ public object ResultRules {
     }
 
     @PublishedApi
-    internal fun join(path: String, fault: String): String = if (fault == TOO_DEEP) "$path $fault" else "$path.$fault"
+    internal fun join(path: String, problem: String): String = if (problem == TOO_DEEP) "$path $problem" else "$path.$problem"
 
     private fun isWellFormed(text: String): Boolean {
         var i = 0

@@ -137,21 +137,21 @@ internal class GeneratedCodeTest {
         assertEquals("the program returned a java.lang.String instead of a test.blocks.ActuatorData", blocks.findProblem("x"))
 
         val features = GeneratedSchemas.features.actuatorWriter()
-        fun fault(field: String, value: Any?) = features.findProblem(made(field to value))
-        assertNull(fault("text", "a \ud83d\ude80"))
-        assertEquals("label contains an unpaired surrogate", fault("label", "x\ud83d"))
-        assertEquals("words[1] is null", fault("words", listOf("a", null)))
-        assertEquals("words[0] contains an unpaired surrogate", fault("words", listOf("\ude80")))
-        assertEquals("leaves[0] is null", fault("leaves", listOf(null)))
-        assertEquals("path[0] is null", fault("path", listOf(null)))
+        fun problem(field: String, value: Any?) = features.findProblem(resultWith(field to value))
+        assertNull(problem("text", "a \ud83d\ude80"))
+        assertEquals("label contains an unpaired surrogate", problem("label", "x\ud83d"))
+        assertEquals("words[1] is null", problem("words", listOf("a", null)))
+        assertEquals("words[0] contains an unpaired surrogate", problem("words", listOf("\ude80")))
+        assertEquals("leaves[0] is null", problem("leaves", listOf(null)))
+        assertEquals("path[0] is null", problem("path", listOf(null)))
         val tree = type("TreeValue").constructors.single { it.parameterCount == 1 }.newInstance(leaf("\ud83d"))
-        assertEquals("tree.leaf.name contains an unpaired surrogate", fault("tree", tree))
+        assertEquals("tree.leaf.name contains an unpaired surrogate", problem("tree", tree))
     }
 
     @Test
     fun `a required field can be neither missing nor null, even from Java`() {
         assertEquals(emptyList(), type("LeafValue").constructors.filter { it.parameterCount == 0 })
-        val refusal = assertFailsWith<InvocationTargetException> { made("label" to null) }.targetException
+        val refusal = assertFailsWith<InvocationTargetException> { resultWith("label" to null) }.targetException
         assertContains(refusal.message.orEmpty(), "parameter label")
     }
 
@@ -162,11 +162,11 @@ internal class GeneratedCodeTest {
         val round = all.newInstance(null, null, null, children)
         children += round
         val writer = GeneratedSchemas.features.actuatorWriter()
-        val fault = assertNotNull(writer.findProblem(made("tree" to round)))
-        assertEquals("tree" + ".children[0]".repeat(63) + " is nested deeper than 64 tables", fault)
+        val problem = assertNotNull(writer.findProblem(resultWith("tree" to round)))
+        assertEquals("tree" + ".children[0]".repeat(63) + " is nested deeper than 64 tables", problem)
         var deep = all.newInstance(null, null, null, null)
         repeat(62) { deep = all.newInstance(null, null, deep, null) }
-        val result = made("tree" to deep)
+        val result = resultWith("tree" to deep)
         assertNull(writer.findProblem(result))
         write(GeneratedSchemas.features, arrayOf(result))
     }
@@ -176,11 +176,11 @@ internal class GeneratedCodeTest {
     private fun leaf(name: String) = type("LeafValue").getConstructor(String::class.java).newInstance(name)
 
     /** A random result of the test schema `features`, with another value of one field. */
-    private fun made(field: Pair<String, Any?>): Any {
-        val made = Objects.randomResult(GeneratedSchemas.features, random)
-        val fields = made.javaClass.declaredFields.onEach { it.isAccessible = true }
-        val values = fields.map { if (it.name == field.first) field.second else it.get(made) }
-        return made.javaClass.constructors.single { it.parameterCount == fields.size }.newInstance(*values.toTypedArray())
+    private fun resultWith(field: Pair<String, Any?>): Any {
+        val original = Objects.randomResult(GeneratedSchemas.features, random)
+        val fields = original.javaClass.declaredFields.onEach { it.isAccessible = true }
+        val values = fields.map { if (it.name == field.first) field.second else it.get(original) }
+        return original.javaClass.constructors.single { it.parameterCount == fields.size }.newInstance(*values.toTypedArray())
     }
 
     @Test

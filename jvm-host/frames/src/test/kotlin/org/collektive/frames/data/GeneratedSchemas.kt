@@ -6,7 +6,7 @@ import java.nio.file.Files
 import java.nio.file.Path
 import kotlin.test.assertEquals
 
-/** Generated code of the schemas below `schema/test`, compiled and loaded. Beside it lies flatc's object API, below `objects`. */
+/** Generated code of the schemas below `schema/test`, compiled and loaded. Includes flatc's object API, in packages below `objects`. */
 internal object GeneratedSchemas {
     val blocks: DataSchema by lazy { load("blocks.fbs", "test.blocks.BlocksSchema") }
     val features: DataSchema by lazy { load("features.fbs", "test.features.FeaturesSchema") }

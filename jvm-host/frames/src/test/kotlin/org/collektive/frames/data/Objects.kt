@@ -105,7 +105,7 @@ internal object Objects {
     }
 
     private fun randomObject(type: Class<*>, random: Random, nesting: Int): Any {
-        val made = type.getConstructor().newInstance()
+        val instance = type.getConstructor().newInstance()
         for (setter in type.methods.filter { it.name.startsWith("set") && it.parameterCount == 1 }.sortedBy { it.name }) {
             val part = setter.parameterTypes[0]
             // Half of the scalars keep the schema's default.
@@ -115,9 +115,9 @@ internal object Objects {
             val value = if (absent) null else value(part, random, nesting) { randomObject(it, random, nesting + 1) }
             // flatc writes no optional scalar that is 0.
             val isLost = isBoxed(part) && (value == false || (value as? Number)?.toDouble() == 0.0)
-            setter.invoke(made, if (isLost) null else value)
+            setter.invoke(instance, if (isLost) null else value)
         }
-        return made
+        return instance
     }
 
     /** A value for a field; [part] makes structs and tables. */
@@ -144,9 +144,9 @@ internal object Objects {
 
     private fun array(element: Class<*>, random: Random, nesting: Int, part: (Class<*>) -> Any): Any {
         val count = if (nesting >= MAX_NESTING) 0 else random.nextInt(4)
-        val made = ReflectArray.newInstance(element, count)
-        for (i in 0 until count) ReflectArray.set(made, i, value(element, random, nesting, part))
-        return made
+        val array = ReflectArray.newInstance(element, count)
+        for (i in 0 until count) ReflectArray.set(array, i, value(element, random, nesting, part))
+        return array
     }
 
     /** Unsigned types are wider in Java, so the values fit every schema type with that Java type. */

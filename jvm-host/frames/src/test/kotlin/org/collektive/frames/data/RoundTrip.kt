@@ -86,7 +86,7 @@ internal object RoundTrip {
     private fun DataOutputStream.writeLittle(value: Int) = writeInt(Integer.reverseBytes(value))
 }
 
-/** Writes [results] as a tick's answers, and returns the place of the table `Actuators`; a table's range lies in [ranges]. */
+/** Writes [results] as a tick's answers, and returns the position of the table `Actuators`. Stores the ranges of tables in [ranges]. */
 internal fun ActuatorWriter.writeAll(
     builder: FlatBufferBuilder,
     results: Array<Any?>,

@@ -31,9 +31,9 @@ internal object SensorFrames {
 
     /** A random table of the [type] of the schema. */
     fun table(schema: DataSchema, type: String, random: Random): Frame {
-        val made = Objects.random(GeneratedSchemas.flatc(schema, "${type}T"), random)
+        val content = Objects.random(GeneratedSchemas.flatc(schema, "${type}T"), random)
         val builder = FlatBufferBuilder(64)
-        return finish(builder, pack(builder, GeneratedSchemas.flatc(schema, type), made), listOf(made))
+        return finish(builder, pack(builder, GeneratedSchemas.flatc(schema, type), content), listOf(content))
     }
 
     private fun pack(builder: FlatBufferBuilder, reader: Class<*>, data: Any): Int =

@@ -96,7 +96,7 @@ public class AggregateLibrary private constructor(
             val provider = ServiceLoader.load(RuntimeProvider::class.java, loader).find { it.name == runtime.key }
                 ?: throw HostException(
                     HostError.HOST,
-                    "${runtime.jar} beside the host's jar does not contain the ${runtime.title}; reinstall the package",
+                    "${runtime.jar} next to the host's jar does not contain the ${runtime.title}; reinstall the package",
                 )
             return AggregateLibrary(runtime, loader, provider, folder)
         }

@@ -8,7 +8,7 @@ import org.collektive.host.shim.HostException
  *
  * @property key the name in settings, manifests and records.
  * @property title the name in messages.
- * @property jar the jar beside the host's that contains its `RuntimeProvider`.
+ * @property jar the jar next to the host's that contains its `RuntimeProvider`.
  */
 public enum class AggregateRuntime(public val key: String, public val title: String, internal val jar: String) {
     BUILT_IN("builtIn", "built-in runtime", "collektive-library.jar"),

@@ -27,7 +27,7 @@ internal object ControlFuzzer : Fuzzer {
 
     override fun run(bytes: ByteArray): Boolean {
         Host.shim = shim
-        if (actsOnFiles(bytes)) return false
+        if (isSkipped(bytes)) return false
         val code = Host.control(0, direct(bytes), 0, bytes.size, 1, ByteBuffer.allocateDirect(ANSWER_BYTES), LIMIT_MILLIS)
         requireRefusal(code, refusals, shim)
         if (code < 0) requireNoRecording()
@@ -43,8 +43,8 @@ internal object ControlFuzzer : Fuzzer {
         check(state.recordingPath() == null && state.recordingsWritten() == 0) { "a rejected control request started a recording" }
     }
 
-    /** Arbitrary bytes could name any path for a recording, and a collection takes a thousand times as long as everything else. */
-    private fun actsOnFiles(bytes: ByteArray): Boolean = try {
+    /** Skips requests that could write a recording to any path, or run a garbage collection, which is a thousand times as slow as the rest. */
+    private fun isSkipped(bytes: ByteArray): Boolean = try {
         val request = controlRequest(frameIn(direct(bytes), 0, bytes.size))
         request.collect() || request.recording() in RecordingAction.Start..RecordingAction.Stop
     } catch (_: MalformedFrameException) {

@@ -6,7 +6,7 @@ import kotlin.reflect.KType
 import kotlin.reflect.KTypeParameter
 import kotlin.reflect.jvm.jvmErasure
 
-/** Makes values of types of Kotlin's library; equal seeds give equal values. Type parameters are `Int`, or their bound. */
+/** Creates values of types in Kotlin's library; equal seeds give equal values. Type parameters are `Int`, or their bound. */
 internal object RandomValues {
     fun of(type: KType, seed: Int): Any? = of(type, Random(seed))
 

@@ -14,7 +14,7 @@ import it.unibo.collektive.stdlib.util.forEachNeighborWith
 
 /**
  * Brings the data of the nearest source to every device by the distributed Bellman-Ford algorithm: each device minimises a neighbour's
- * distance plus the distance to that neighbour. This is the cheapest gradient cast, since its messages hold no paths. Use it where
+ * distance plus the distance to that neighbour. This is the cheapest gradient cast, because its messages contain no paths. Use it where
  * sources and links do not vanish; otherwise use [gradientCast].
  *
  * When a source or a link vanishes, the devices that relied on it rely on each other, and their distances rise only by the metric of a

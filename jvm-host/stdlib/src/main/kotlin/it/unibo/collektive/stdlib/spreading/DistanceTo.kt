@@ -45,8 +45,8 @@ public inline fun <reified ID : Any> Aggregate<ID>.distanceTo(
 ): Double = distanceTo(source, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, Double::plus)
 
 /**
- * The number of hops to the nearest [source]: 0 at a source, and where none is reached; there [distanceTo] returns infinity, and
- * `intGradientCast` what the caller chooses.
+ * The number of hops to the nearest [source]; 0 at a source, and also where no source is reached. In the latter case, [distanceTo]
+ * returns infinity, and `intGradientCast` a value of the caller's choice.
  *
  * @param maxDiameter see [gradientCast].
  */

@@ -15,7 +15,7 @@ import it.unibo.collektive.stdlib.util.aligned
  * Merges the values that devices had in their first rounds into one: flooding.
  *
  * Converges to the reduction over the connected component after as many rounds as its diameter. It is **not** self-stabilising: a merged
- * value stays, even when its origin changes its value or leaves. Use [gossip] where values must be forgotten.
+ * value remains, even when its origin changes its value or leaves. Use [gossip] where values must be forgotten.
  *
  * @param value this device's value in the first round; later ones are ignored.
  * @param reducer merges two values. Must be associative, commutative and idempotent, as a maximum or a union is, because a value can arrive more than once.
@@ -24,8 +24,8 @@ public inline fun <ID : Any, reified V> Aggregate<ID>.nonStabilizingGossip(value
     nonStabilizingGossip(value, dataSharingMethod<V>(), reducer)
 
 /**
- * Whether [condition] held in the first round of a device from which a message chain led here. Once `true`, it stays `true`. Later rounds
- * call [condition] but ignore it; to watch for an event, see [isHappeningAnywhere].
+ * Whether [condition] held in the first round of a device whose messages have reached this one, directly or through others. Once `true`,
+ * it stays `true`. Later rounds call [condition] but ignore its result; to watch for an event, see [isHappeningAnywhere].
  */
 public fun <ID : Any> Aggregate<ID>.everHappened(condition: () -> Boolean): Boolean = nonStabilizingGossip(condition()) { a, b -> a || b }
 
