@@ -201,7 +201,7 @@ static int32_t start_child(int64_t deadline) {
 }
 
 /* Needs the turn, and state NONE. */
-static int32_t start_here(int64_t deadline, int32_t limit_ms) {
+static int32_t start_in_process(int64_t deadline, int32_t limit_ms) {
     int32_t result = engine_run(work_start, deadline);
     if (result == CLK_TIMEOUT) {
         engine_lose("it did not start within %d ms", limit_ms);
@@ -222,7 +222,7 @@ static int32_t start(const clk_jvm_config *config, int64_t deadline) {
     child_use(config->placement == CLK_OWN_PROCESS);
     int32_t result = launch_prepare(&jvm.launch, config, deadline);
     if (result != CLK_OK) return result;
-    return child_is_used() ? start_child(deadline) : start_here(deadline, config->start_limit_ms);
+    return child_is_used() ? start_child(deadline) : start_in_process(deadline, config->start_limit_ms);
 }
 
 static int32_t check(const clk_jvm_config *config, int64_t deadline) {
@@ -255,7 +255,7 @@ static bool is_equal(const clk_jvm_config *config) {
     return equal && child_is_used() == (config->placement == CLK_OWN_PROCESS);
 }
 
-static int32_t refuse_other(void) {
+static int32_t reject_configuration(void) {
     if (child_is_used()) return error_set(CLK_JVM_RUNNING, "a JVM with other settings has open sessions; close them first");
     return error_set(CLK_JVM_RUNNING,
                      "a JVM is already running with another home, class path or options; restart the process to change them");
@@ -272,7 +272,7 @@ static int lock_archive(int32_t limit_ms) {
 static int32_t end_child(void) {
     int32_t result = child_end();
     if (result != CLK_OK) return result;
-    session_forget_all();
+    session_remove_all();
     slots_unpin_shared();
     engine_reset();
     return CLK_OK;
@@ -282,7 +282,7 @@ static int32_t end_child(void) {
 static int32_t stop_child(int32_t limit_ms) {
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int lock = lock_archive(limit_ms);
-    int32_t result = session_settle(deadline);
+    int32_t result = session_complete(deadline);
     engine_set_state(CLK_STATE_STOPPED); /* the end of the child is expected */
     if (result == CLK_OK) result = child_stop(limit_ms, deadline);
     int32_t ended = end_child();
@@ -294,8 +294,8 @@ static int32_t start_or_compare(const clk_jvm_config *config, int64_t deadline) 
     int32_t state = engine_state();
     if (state == CLK_STATE_RUNNING && is_equal(config)) return CLK_OK;
     if (state != CLK_STATE_NONE && (!child_is_used() || engine_is_forked()))
-        return state == CLK_STATE_RUNNING ? refuse_other() : engine_check_running();
-    if (state == CLK_STATE_RUNNING && session_count() > 0) return refuse_other();
+        return state == CLK_STATE_RUNNING ? reject_configuration() : engine_check_running();
+    if (state == CLK_STATE_RUNNING && session_count() > 0) return reject_configuration();
     if (state == CLK_STATE_RUNNING && stop_child((int32_t)((deadline - prim_now()) / PRIM_MILLI / 2) + 1) != CLK_OK)
         log_format(CLK_LOG_WARNING, "%s", error_last());
     int32_t result = end_child();
@@ -339,7 +339,7 @@ static void detach_halt_thread(void) {
  * removes its signal handlers. */
 static int32_t work_stop(void) {
     bool idle = host_stop(jvm.stop_limit_ms / 2);
-    session_forget_all();
+    session_remove_all();
     int lock = lock_archive(jvm.stop_limit_ms);
     if (!idle && jvm.halt != NULL && host_run_exit_hooks()) jvm.halt(0);
     detach_halt_thread();

@@ -97,7 +97,7 @@ static void check_archive(struct launch *launch) {
 }
 
 /* The shim's own options come first, so that the caller's can override them. -Xrs leaves signals such as SIGTERM to the process.
- * The log option suppresses a warning about host_refuse_exit. Conditional card marks avoid false sharing of the card table, which doubles the
+ * The log option suppresses a warning about replace_exit() in host.c. Conditional card marks avoid false sharing of the card table, which doubles the
  * processor time of two host threads. */
 static int32_t fill(struct launch *launch, const clk_jvm_config *config) {
     static const char *const own[] = {"-Xrs", "-Djava.awt.headless=true", "-Xlog:jni+resolve=error", "-XX:+UseCondCardMark"};

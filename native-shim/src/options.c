@@ -66,21 +66,21 @@ static bool is_unsafe_debugger(const char *option) {
     return port[0] == '\0' || port[strspn(port, "0123456789")] != '\0';
 }
 
-static int32_t refuse(const char *option, const char *reason) {
+static int32_t reject(const char *option, const char *reason) {
     return error_set(CLK_JVM_OPTIONS, "the JVM option '%s' is not allowed: %s", option, reason);
 }
 
 static int32_t check_one(const char *option) {
-    if (strchr(option, '\n') != NULL) return refuse(option, "it contains a line break");
+    if (strchr(option, '\n') != NULL) return reject(option, "it contains a line break");
     for (size_t i = 0; i < sizeof forbidden / sizeof forbidden[0]; i++) {
-        if (matches(option, forbidden[i].text)) return refuse(option, forbidden[i].reason);
+        if (matches(option, forbidden[i].text)) return reject(option, forbidden[i].reason);
     }
     if (is_unsafe_debugger(option))
-        return refuse(option, "it may open the port to other machines, run commands or delay the start; use " JDWP "PORT");
+        return reject(option, "it may open the port to other machines, run commands or delay the start; use " JDWP "PORT");
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (matches(option, known[i])) return CLK_OK;
     }
-    return refuse(option, "an embedded JVM does not support it; write each option as one word, with '=' before its value");
+    return reject(option, "an embedded JVM does not support it; write each option as one word, with '=' before its value");
 }
 
 /* Longer options could not be tried in a child process: Windows limits a command line to 32 KiB. */

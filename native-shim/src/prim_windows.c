@@ -133,16 +133,16 @@ static unsigned __stdcall thread_main(void *argument) {
 }
 
 /* Pins this library: threads, native methods and hooks of the JVM use it until the process ends. */
-static void stay_loaded(void) {
+static void pin_library(void) {
     HMODULE self;
-    GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_PIN | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS, (LPCWSTR)(uintptr_t)&stay_loaded, &self);
+    GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_PIN | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS, (LPCWSTR)(uintptr_t)&pin_library, &self);
 }
 
 bool prim_thread_start(void (*body)(void), const char *name, size_t stack_bytes) {
     struct thread_start *start = malloc(sizeof *start);
     if (start == NULL) return false;
     *start = (struct thread_start){body, name};
-    stay_loaded();
+    pin_library();
     uintptr_t thread = _beginthreadex(NULL, (unsigned)stack_bytes, thread_main, start, STACK_SIZE_PARAM_IS_A_RESERVATION, NULL);
     if (thread == 0) {
         free(start);
@@ -233,7 +233,7 @@ enum prim_file prim_file_kind(const char *path) {
 bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FILE; }
 
 /* Writes the path of `name` in the folder of a file to `folder`. False if the file's path has no folder or is too long. */
-static bool beside(const char *file, const wchar_t *name, wchar_t *folder) {
+static bool path_in_folder(const char *file, const wchar_t *name, wchar_t *folder) {
     if (!to_wide(file, folder, PATH_UNITS)) return false;
     wchar_t *end = folder + wcslen(folder);
     while (end > folder && end[-1] != L'/' && end[-1] != L'\\') end--;
@@ -245,7 +245,7 @@ static bool beside(const char *file, const wchar_t *name, wchar_t *folder) {
 int64_t prim_disk_free(const char *file) {
     wchar_t folder[PATH_UNITS];
     ULARGE_INTEGER bytes;
-    if (!beside(file, L"", folder) || !GetDiskFreeSpaceExW(folder, &bytes, NULL, NULL)) return INT64_MAX;
+    if (!path_in_folder(file, L"", folder) || !GetDiskFreeSpaceExW(folder, &bytes, NULL, NULL)) return INT64_MAX;
     return bytes.QuadPart > INT64_MAX ? INT64_MAX : (int64_t)bytes.QuadPart;
 }
 
@@ -254,7 +254,7 @@ int64_t prim_disk_free(const char *file) {
 /* Windows cannot lock a folder, so the lock is a file in it, which only one process can open and which is deleted when it is closed. */
 int prim_folder_lock(const char *file, int64_t deadline) {
     wchar_t path[PATH_UNITS];
-    if (!beside(file, L".collektive-lock", path)) return -1;
+    if (!path_in_folder(file, L".collektive-lock", path)) return -1;
     for (;;) {
         HANDLE lock = CreateFileW(path, GENERIC_WRITE, 0, NULL, CREATE_ALWAYS, FILE_ATTRIBUTE_HIDDEN | FILE_FLAG_DELETE_ON_CLOSE, NULL);
         if (lock != INVALID_HANDLE_VALUE) return (int)(intptr_t)lock; /* handles have 32 significant bits */
@@ -298,7 +298,7 @@ bool prim_library_path(char *path, size_t size) {
     wchar_t wide[PATH_UNITS];
     HMODULE self;
     if (!GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_UNCHANGED_REFCOUNT | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS,
-                            (LPCWSTR)(uintptr_t)&stay_loaded, &self)) {
+                            (LPCWSTR)(uintptr_t)&pin_library, &self)) {
         return false;
     }
     DWORD units = GetModuleFileNameW(self, wide, PATH_UNITS);

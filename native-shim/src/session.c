@@ -83,7 +83,7 @@ static void session_release(struct session *session) {
     session->open = session->closing = false;
 }
 
-void session_forget_all(void) {
+void session_remove_all(void) {
     if (sessions.control.open) clk_slot_release(sessions.control.answer);
     sessions.control.open = false;
     sessions.caller = NULL;
@@ -209,7 +209,7 @@ static int32_t close_session(struct session *session, int64_t deadline) {
     return result;
 }
 
-int32_t session_settle(int64_t deadline) {
+int32_t session_complete(int64_t deadline) {
     while (sessions.caller != NULL) {
         struct session *session = sessions.caller;
         int32_t result = session->closing || session == &sessions.control ? await_call(prim_now()) : CLK_PENDING;
@@ -240,7 +240,7 @@ static int32_t enter(int32_t limit_ms, int64_t *deadline) {
     *deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = take_turn(*deadline);
     if (result != CLK_OK) return result;
-    result = session_settle(*deadline);
+    result = session_complete(*deadline);
     if (result != CLK_OK) engine_leave();
     return result;
 }
@@ -305,7 +305,7 @@ int32_t clk_control(clk_slot slot, int32_t offset, int32_t length, int32_t limit
     if (result != CLK_OK) return result;
     if (!sessions.control.open) result = session_begin(&sessions.control);
     if (result == CLK_OK) result = call_host(HOST_CONTROL, &sessions.control, slot, offset, length, deadline, answer);
-    if (result == CLK_PENDING) result = session_settle(deadline);
+    if (result == CLK_PENDING) result = session_complete(deadline);
     engine_leave();
     return result;
 }
@@ -320,9 +320,9 @@ int32_t clk_session_close(clk_session session, int32_t limit_ms) {
         result = CLK_HANDLE;
     } else if (sessions.caller == found) {
         session_mark_closing(found);
-        result = session_settle(deadline) == CLK_JVM_LOST ? CLK_JVM_LOST : CLK_OK;
+        result = session_complete(deadline) == CLK_JVM_LOST ? CLK_JVM_LOST : CLK_OK;
     } else {
-        result = session_settle(deadline);
+        result = session_complete(deadline);
         if (result == CLK_OK) result = close_session(found, deadline);
     }
     engine_leave();

@@ -10,10 +10,10 @@
 
 /* Completes the call that a debugger has stopped, unless its caller still waits for it. Needs the turn. CLK_TIMEOUT if it has not ended. The
  * deadline is for closing its session. */
-int32_t session_settle(int64_t deadline);
+int32_t session_complete(int64_t deadline);
 
 /* Removes all sessions and releases their slots when the JVM ends. Needs the turn. */
-void session_forget_all(void);
+void session_remove_all(void);
 
 /* Return the number of open sessions, and of calls of clk_step that reached the host. Any thread. */
 int32_t session_count(void);

@@ -85,7 +85,7 @@ private class Drive {
         z += weight * toZ
     }
 
-    /** Moves away from robots nearer than [spacing], most strongly from those nearer to the base, or to the nearest robot if all are farther. */
+    /** Moves away from robots nearer than [spacing], most from those nearer to the base, or to the nearest robot if all are farther. */
     fun spread(me: Other, others: List<Other>, spacing: Double) {
         val here = me.place
         var nearest = here

@@ -8,8 +8,8 @@ package org.collektive.engine
  * [delay] to [delay] + [jitter] seconds after its tick. A message that arrives after a later one is ignored.
  *
  * Losses can come in bursts: each link is in a good or a bad state, and may change it with each message (Gilbert-Elliott model: E. O. Elliott,
- * "Estimates of error rates for codes on burst-noise channels", Bell System Technical Journal 42(5), 1963). In the bad state a message that is
- * not lost otherwise is lost with probability [burstLoss].
+ * "Estimates of error rates for codes on burst-noise channels", Bell System Technical Journal 42(5), 1963). In the bad state, a message
+ * that is not lost otherwise is lost with probability [burstLoss].
  *
  * @property loss base probability of loss, 0..1.
  * @property lossPerMetre additional probability per metre of the link, 0 or greater.

@@ -295,7 +295,7 @@ internal class CSharp(private val schema: UserSchema) {
         private val TAKEN = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
 
         /**
-         * Adapts flatc's C# to the package's FlatBuffers assembly: changes the namespace, and defines the symbols with which the assembly was
+         * Adapts flatc's C# to the package's FlatBuffers assembly: changes the namespace, and defines the symbols with which it was
          * compiled. Symbols defined in each file need no settings in users' projects.
          */
         fun adapt(text: String): String {

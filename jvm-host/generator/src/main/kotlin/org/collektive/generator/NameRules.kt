@@ -112,7 +112,7 @@ internal class NameRules(
         }
     }
 
-    /** A struct's constructor has a parameter for each nested number. The name of that parameter is invalid in C# with a keyword in its middle. */
+    /** A struct's constructor has a parameter for each nested number, whose name is invalid in C# with a keyword in its middle. */
     private fun checkInner(field: BinaryField) {
         if (field.type().baseType() != BaseType.Obj) return
         val inner = schema.objects(field.type().index())

@@ -45,11 +45,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         val global = root("GlobalData")
         if (sensor.name.namespace != actuator.name.namespace) {
             throw error(
-                "SensorData is in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}; use one namespace for both",
+                "SensorData is in namespace ${sensor.name.namespace}, ActuatorData in ${actuator.name.namespace}; use one for both",
                 "${actuator.name}",
             )
         }
-        if (global != null && global !is TableType) throw error("it is not a table; make it a table", global.name.toString())
+        if (global != null && global !is TableType) throw error("it must be a table", global.name.toString())
         val reached = composites.values.sortedBy { it.name.toString() }
         val user = UserSchema(
             file.fileName.toString(),

@@ -189,7 +189,7 @@ internal class RefusalTest {
 
     @Test
     fun `a global struct is refused`() {
-        assertEquals("user.fbs:1: GlobalData: it is not a table; make it a table", refusal(user("struct GlobalData { x: float; }", "x: int;")))
+        assertEquals("user.fbs:1: GlobalData: it must be a table", refusal(user("struct GlobalData { x: float; }", "x: int;")))
     }
 
     @Test
@@ -202,7 +202,7 @@ internal class RefusalTest {
         )
         assertContains(
             refusal("namespace a; struct SensorData { x: float; } namespace b; struct ActuatorData { x: float; }"),
-            "SensorData is in namespace a, ActuatorData in b; use one namespace for both",
+            "SensorData is in namespace a, ActuatorData in b; use one for both",
         )
     }
 

@@ -46,8 +46,9 @@ internal class StdlibFunction private constructor(
 
     companion object {
         /**
-         * Functions that Collektive does not lift: those of `Any`; `inc` and `dec`, which assign; `contains`, because `in` requires a Boolean result; names
-         * that fields already have; functions of Kotlin/JVM only; and functions newer than the Kotlin version of Collektive 28.3.
+         * Functions that Collektive does not lift: those of `Any`; `inc` and `dec`, which assign; `contains`, because `in` requires a
+         * Boolean; names that fields already have; functions of Kotlin/JVM only; and functions newer than the Kotlin version of
+         * Collektive 28.3.
          */
         private val NOT_LIFTED = setOf(
             "equals",

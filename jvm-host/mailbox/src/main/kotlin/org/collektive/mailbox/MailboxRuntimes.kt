@@ -74,7 +74,7 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
 
     override fun currentInbound(): NeighborsData<Int> = inbound
 
-    override fun deliverableReceived(message: Message<Int, *>) = error("this mailbox reads messages from the links and does not accept pushed ones")
+    override fun deliverableReceived(message: Message<Int, *>) = error("this mailbox reads messages only from the links")
 
     /** Creates all messages in advance, because an envelope need not support concurrent readers. */
     override fun deliverableFor(outboundMessage: OutboundEnvelope<Int>) {

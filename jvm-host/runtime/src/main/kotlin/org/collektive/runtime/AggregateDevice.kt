@@ -77,7 +77,7 @@ internal class AggregateDevice<ID : Any>(
     }
 
     /** Number of values that the next round can read from the last one. */
-    fun countStored(): Int = valid.countKept()
+    fun countStored(): Int = valid.countStored()
 
     /** Applies [conversion] to everything that neighbours or this device's next round can still read. */
     fun convert(conversion: ConvertedPaths) {

@@ -90,7 +90,7 @@ internal class RoundRecord : Export() {
     }
 
     /** The number of paths at which a value was stored. */
-    fun countKept(): Int {
+    fun countStored(): Int {
         var stored = 0
         forEachPath { if (storedAt(it) !== Nothing) stored++ }
         return stored

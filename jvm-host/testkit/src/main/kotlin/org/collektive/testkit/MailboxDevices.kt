@@ -64,7 +64,7 @@ public class MailboxDevices(
             outbound = Envelope(outboundMessage)
         }
 
-        override fun deliverableReceived(message: Message<Int, *>) = error("this mailbox reads messages from the inbox and does not accept pushed ones")
+        override fun deliverableReceived(message: Message<Int, *>) = error("this mailbox reads messages only from the inbox")
 
         override fun currentInbound() = inbound
     }

@@ -63,7 +63,8 @@ public class EngineRounds(program: String, private val topology: Topology) : Aut
         }
 
         @Suppress("UNCHECKED_CAST")
-        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any = (aggregate as Aggregate<Int>).code(sensors as SensorData)
+        override fun round(aggregate: Any, sensors: Any?, device: RoundDevice): Any =
+            (aggregate as Aggregate<Int>).code(sensors as SensorData)
 
         override fun describe(failure: Throwable, place: String?): String = failure.stackTraceToString()
     }

@@ -11,12 +11,12 @@ import it.unibo.collektive.stdlib.util.euclideanDistance2D
 import kotlin.math.sqrt
 
 /** Program a, the case study: heads for neighbours that sense a higher intensity, and away from obstacles. */
-internal fun Aggregate<Int>.gradientAscent(sensorData: SensorData): Heading {
-    val here = sensorData.position
+internal fun Aggregate<Int>.gradientAscent(sensors: SensorData): Heading {
+    val here = sensors.position
     var x = 0.0
     var y = 0.0
-    for ((_, there) in neighboring(sensorData).neighbors.list) {
-        val more = there.intensity - sensorData.intensity
+    for ((_, there) in neighboring(sensors).neighbors.list) {
+        val more = there.intensity - sensors.intensity
         if (more <= 0.0) continue
         val dx = there.position.x - here.x
         val dy = there.position.y - here.y
@@ -24,7 +24,7 @@ internal fun Aggregate<Int>.gradientAscent(sensorData: SensorData): Heading {
         x += pull * dx
         y += pull * dy
     }
-    for (obstacle in sensorData.obstacles) {
+    for (obstacle in sensors.obstacles) {
         val distance = sqrt(obstacle.x * obstacle.x + obstacle.y * obstacle.y)
         val push = 1 / (distance * distance * distance)
         x -= push * obstacle.x
@@ -34,19 +34,20 @@ internal fun Aggregate<Int>.gradientAscent(sensorData: SensorData): Heading {
 }
 
 /** Program b: the distance from the source, by the self-stabilising `distanceTo`. */
-internal fun Aggregate<Int>.distanceFromSource(sensorData: SensorData): Double = distanceTo(sensorData.isSource, euclideanDistance2D(sensorData.position))
+internal fun Aggregate<Int>.distanceFromSource(sensors: SensorData): Double =
+    distanceTo(sensors.isSource, euclideanDistance2D(sensors.position))
 
 /** Program b2: the distance from the source, by `bellmanFordGradientCast`. */
-internal fun Aggregate<Int>.bellmanFordFromSource(sensorData: SensorData): Double = bellmanFordGradientCast(
-    source = sensorData.isSource,
-    local = if (sensorData.isSource) 0.0 else Double.POSITIVE_INFINITY,
+internal fun Aggregate<Int>.bellmanFordFromSource(sensors: SensorData): Double = bellmanFordGradientCast(
+    source = sensors.isSource,
+    local = if (sensors.isSource) 0.0 else Double.POSITIVE_INFINITY,
     accumulateData = { fromSource, toNeighbor, _ -> fromSource + toNeighbor },
-    metric = euclideanDistance2D(sensorData.position),
+    metric = euclideanDistance2D(sensors.position),
 )
 
 /** Program c: elects leaders within 5 metres, counts the followers of each, and broadcasts the count to them. */
-internal fun Aggregate<Int>.followers(sensorData: SensorData): Region {
-    val metric = euclideanDistance2D(sensorData.position)
+internal fun Aggregate<Int>.followers(sensors: SensorData): Region {
+    val metric = euclideanDistance2D(sensors.position)
     val isLeader = boundedElection(bound = 5.0, metric = metric) == localId
     val potential = distanceTo(isLeader, metric)
     val count = convergeCast(1, potential) { a, b -> a + b }

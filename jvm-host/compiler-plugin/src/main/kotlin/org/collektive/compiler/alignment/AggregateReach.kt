@@ -49,11 +49,11 @@ internal class AggregateReach(private val dsl: DslSymbols) {
             dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionArguments(call).any()
 
             // These call no primitives themselves, but may call a function that does.
-            dsl.isFieldMember(callee) || isKotlinBuiltIn(callee) -> functionArguments(call).any(::carries)
+            dsl.isFieldMember(callee) || isKotlinBuiltIn(callee) -> functionArguments(call).any(::passesDslType)
 
-            callee.isLocal && leadsToPrimitive(callee) -> true
+            callee.isLocal && reachesPrimitive(callee) -> true
 
-            else -> call.arguments.any { it != null && carries(it) }
+            else -> call.arguments.any { it != null && passesDslType(it) }
         }
     }
 
@@ -63,25 +63,25 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     /** Whether [callee] is part of Kotlin's standard library, or an operator such as `==` and `!!`. */
     fun isKotlinBuiltIn(callee: IrFunction) = callee.getPackageFragment().packageFqName.startsWith(StandardNames.BUILT_INS_PACKAGE_NAME)
 
-    private fun carries(value: IrExpression): Boolean = when (value) {
-        is IrTypeOperatorCall -> carries(value.argument) || dsl.mentions(value.type)
+    private fun passesDslType(value: IrExpression): Boolean = when (value) {
+        is IrTypeOperatorCall -> passesDslType(value.argument) || dsl.containsDslType(value.type)
 
-        is IrFunctionExpression -> leadsToPrimitive(value.function)
+        is IrFunctionExpression -> reachesPrimitive(value.function)
 
-        is IrFunctionReference -> dsl.mentions(value.type) || value.arguments.any { it != null && carries(it) } ||
-            value.symbol.owner.let { it.isLocal && leadsToPrimitive(it) }
+        is IrFunctionReference -> dsl.containsDslType(value.type) || value.arguments.any { it != null && passesDslType(it) } ||
+            value.symbol.owner.let { it.isLocal && reachesPrimitive(it) }
 
-        is IrCallableReference<*> -> dsl.mentions(value.type) || value.arguments.any { it != null && carries(it) }
+        is IrCallableReference<*> -> dsl.containsDslType(value.type) || value.arguments.any { it != null && passesDslType(it) }
 
-        is IrVararg -> value.elements.any { carries(if (it is IrSpreadElement) it.expression else it as IrExpression) }
+        is IrVararg -> value.elements.any { passesDslType(if (it is IrSpreadElement) it.expression else it as IrExpression) }
 
-        is IrGetValue -> functionIn(value)?.let(::leadsToPrimitive) ?: mayCarry(value)
+        is IrGetValue -> functionIn(value)?.let(::reachesPrimitive) ?: mayPassDslType(value)
 
-        else -> mayCarry(value)
+        else -> mayPassDslType(value)
     }
 
     /** A function value whose body is unknown may reach a primitive. */
-    private fun mayCarry(value: IrExpression) = isFunction(value.type) || dsl.mentions(value.type)
+    private fun mayPassDslType(value: IrExpression) = isFunction(value.type) || dsl.containsDslType(value.type)
 
     private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
@@ -96,7 +96,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         }
     }
 
-    private fun leadsToPrimitive(function: IrFunction): Boolean {
+    private fun reachesPrimitive(function: IrFunction): Boolean {
         known[function]?.let { return it }
         known[function] = false // ends the recursion; the rest of the body decides
         // A constructor runs the initialisers of its class.

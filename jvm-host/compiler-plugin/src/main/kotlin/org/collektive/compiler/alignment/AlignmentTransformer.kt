@@ -145,12 +145,12 @@ internal class AlignmentTransformer(
     override fun visitBlockBody(body: IrBlockBody): IrBlockBody = body.also(::visitStatements)
 
     override fun visitBlock(expression: IrBlock): IrExpression {
-        if (expression.origin == IrStatementOrigin.SAFE_CALL) plainBranches += expression.statements.filterIsInstance<IrWhen>()
+        if (expression.origin == IrStatementOrigin.SAFE_CALL) safeCalls += expression.statements.filterIsInstance<IrWhen>()
         return expression.also(::visitStatements)
     }
 
     /** The null checks that the compiler generates for `?.`. They are not branches of the program. */
-    private val plainBranches = HashSet<IrWhen>()
+    private val safeCalls = HashSet<IrWhen>()
 
     private fun visitStatements(container: IrStatementContainer) {
         val outer = region
@@ -165,7 +165,7 @@ internal class AlignmentTransformer(
     }
 
     override fun visitWhen(expression: IrWhen): IrExpression {
-        if (source == null || expression in plainBranches) return super.visitWhen(expression)
+        if (source == null || expression in safeCalls) return super.visitWhen(expression)
         val outerRegion = region
         val outerDepends = dependsOnPath
         var depends = outerDepends
@@ -286,14 +286,14 @@ internal class AlignmentTransformer(
             Name.identifier("failure"),
             plugin.irBuiltIns.throwableType,
         )
-        val note = irCall(dsl.recordFailure).apply {
+        val recordCall = irCall(dsl.recordFailure).apply {
             arguments[0] = aggregate()
             arguments[1] = irGet(failure)
         }
         return irCatch(
             failure,
             irBlock(resultType = plugin.irBuiltIns.nothingType) {
-                +note
+                +recordCall
                 +irThrow(irGet(failure))
             },
         )

@@ -45,8 +45,8 @@ internal class DslSymbols private constructor(
     fun isField(type: IrType) = type.isSubtypeOfClass(field)
 
     /** Whether a value of [type] is or may contain an Aggregate or a Field. */
-    fun mentions(type: IrType): Boolean = isAggregate(type) || isField(type) ||
-        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mentions) == true } ||
+    fun containsDslType(type: IrType): Boolean = isAggregate(type) || isField(type) ||
+        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::containsDslType) == true } ||
         type.getClass()?.let(::storesAggregate) == true
 
     private val storesAggregateByClass = HashMap<IrClass, Boolean>()

@@ -28,7 +28,8 @@ internal fun isAggregateCode(): Boolean {
 /** Whether an object of [type] stores the Aggregate of its program in a property. Excludes implementations of Aggregate. */
 context(context: CheckerContext)
 private fun storesAggregate(type: FirClassSymbol<*>): Boolean = with(context.session) {
-    type.resolvedSuperTypes.none { it.isAggregate() } && (keptIn(type) || inherited(type).any { keptIn(it, isInherited = true) })
+    type.resolvedSuperTypes.none { it.isAggregate() } &&
+        (declaresAggregate(type) || inherited(type).any { declaresAggregate(it, isInherited = true) })
 }
 
 context(session: FirSession)
@@ -36,7 +37,7 @@ private fun inherited(type: FirClassSymbol<*>): Sequence<FirClassSymbol<*>> = ty
     .mapNotNull { it.toRegularClassSymbol(session) }.flatMap { sequenceOf(it) + inherited(it) }
 
 context(session: FirSession)
-private fun keptIn(type: FirClassSymbol<*>, isInherited: Boolean = false): Boolean = type.declaredProperties(session).any {
+private fun declaresAggregate(type: FirClassSymbol<*>, isInherited: Boolean = false): Boolean = type.declaredProperties(session).any {
     !it.isVar && !it.hasDelegate && (it.hasBackingField || it.isAbstract) && !(isInherited && it.visibility == Visibilities.Private) &&
         it.resolvedReturnType.isAggregate()
 }

@@ -30,7 +30,7 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirLocalPropertySymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirValueParameterSymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** Reports fields that are the value of an `if` or `when`: they lack the neighbours that took other arms, which are aligned again outside. */
+/** Reports fields that are the value of an `if` or `when`: they lack the neighbours that took other arms but are aligned outside. */
 internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirWhenExpression) {
@@ -67,7 +67,7 @@ internal object FieldAssignedInBranch : FirExpressionChecker<FirVariableAssignme
         if (isInArm(expression, isOutside)) reportField(expression.rValue, AggregateDiagnostics.FIELD_LEAVES_BRANCH)
     }
 
-    /** Returns a predicate for the elements that declare the variable or object at the start of [read], or `null` if [read] starts with a call. */
+    /** Returns a predicate for elements that declare the variable or object at the start of [read]; `null` if that is a call. */
     private fun declares(read: FirExpression): ((FirElement) -> Boolean)? {
         val start = read.unwrapSmartcastExpression()
         if (start is FirThisReceiverExpression) {

@@ -24,12 +24,12 @@ internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppChec
         val isSame = returned is FirThisReceiverExpression &&
             returned.calleeReference.boundSymbol == lambda.receiverParameter?.symbol ||
             kept != null && returned.readVariable == kept ||
-            returned.isWrittenLike(expression.extensionReceiver)
+            returned.hasSameText(expression.extensionReceiver)
         if (isSame && isAggregateCode()) reporter.reportOn(expression.source, AggregateDiagnostics.NEEDLESS_YIELDING)
     }
 
     /** Whether both expressions have the same text, so that `f(x).yielding { f(x) }` returns the value that it stores. */
-    private fun FirExpression.isWrittenLike(other: FirExpression?): Boolean {
+    private fun FirExpression.hasSameText(other: FirExpression?): Boolean {
         val text = source?.text?.toString() ?: return false
         return text.filterNot(Char::isWhitespace).trim('(', ')') ==
             other?.source?.text?.toString()?.filterNot(Char::isWhitespace)?.trim('(', ')')

@@ -26,8 +26,8 @@ import java.io.File
 /**
  * Lists the programs of a module below [output], so that tools can read them from a jar without a JVM.
  *
- * There is one UTF-8 file for each class that declares programs, `META-INF/collektive/programs/CLASS`: an incremental
- * compilation rewrites only the files of the changed classes. An index is valid only with its class. Each line is one record; its columns are
+ * There is one UTF-8 file for each class that declares programs, `META-INF/collektive/programs/CLASS`, so an incremental compilation
+ * rewrites only the files of the changed classes. An index is valid only with its class. Each line is one record; its columns are
  * separated by tabs, and `\\`, `\t`, `\n`, `\r` stand for these characters in a column:
  *
  * - `program`, the name, the full name of the type of the sensor data;

@@ -22,7 +22,7 @@ import kotlin.metadata.kind
 import kotlin.metadata.visibility
 
 /**
- * The public declarations of compiled Kotlin, one per line with tab-separated columns: kind, owner, name, signature, and `operator` or `var`.
+ * The public declarations of compiled Kotlin, one per line in tab-separated columns: kind, owner, name, signature, `operator` or `var`.
  *
  * This is the format of `core.tsv` without details that do not affect a user's sources, such as `inline`, `data` and `value`. Type
  * parameters are numbered, with the prefix C for classes, T for functions and A for aliases.

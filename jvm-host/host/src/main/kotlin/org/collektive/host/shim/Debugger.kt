@@ -3,7 +3,7 @@ package org.collektive.host.shim
 import java.util.Properties
 import java.util.function.LongSupplier
 
-/** A clock like `System.nanoTime()` that stops while a debugger is attached to this JVM, so breakpoints do not count towards time limits. */
+/** A clock like `System.nanoTime()` that stops while a debugger is attached to this JVM, so time limits exclude breakpoints. */
 internal object Debugger : LongSupplier {
     // The debugger agent sets this property to its address while it listens, and clears it when a debugger attaches.
     private const val LISTENER = "sun.jdwp.listenerAddress"

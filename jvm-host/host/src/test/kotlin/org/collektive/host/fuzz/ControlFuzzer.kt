@@ -43,7 +43,7 @@ internal object ControlFuzzer : Fuzzer {
         check(state.recordingPath() == null && state.recordingsWritten() == 0) { "a rejected control request started a recording" }
     }
 
-    /** Skips requests that could write a recording to any path, or run a garbage collection, which is a thousand times as slow as the rest. */
+    /** Whether a request is skipped, because it could record to any path, or run a garbage collection, which is a thousand times slower. */
     private fun isSkipped(bytes: ByteArray): Boolean = try {
         val request = controlRequest(frameIn(direct(bytes), 0, bytes.size))
         request.collect() || request.recording() in RecordingAction.Start..RecordingAction.Stop

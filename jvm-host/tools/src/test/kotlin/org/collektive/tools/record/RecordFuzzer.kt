@@ -10,8 +10,8 @@ import java.util.zip.CRC32
 import kotlin.io.path.writeBytes
 
 /**
- * Reads arbitrary bytes as a record, to the end or up to a [RecordException]. Corrects checksums first, because fuzzed bytes would not get past
- * them. Does not run the programs of the record.
+ * Reads arbitrary bytes as a record, to the end or up to a [RecordException]. Corrects checksums first, because fuzzed bytes would not
+ * pass them. Does not run the programs of the record.
  */
 internal object RecordFuzzer {
     private val file: Path by lazy { Files.createTempFile("fuzzed", ".clkrec").also { it.toFile().deleteOnExit() } }

@@ -21,9 +21,9 @@ public typealias ReplicaID = ULong
  * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).
  * A device takes part in the youngest replica that a neighbour knows. It starts the next one in the round after [sharedTimeLeftTo] of
  * [timeToSpawn] was over, unless it has just started or adopted a replica, or receives a younger one. Replicas therefore start at least
- * two rounds apart. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer depends on
- * earlier ones after [timeToSpawn] * [maxReplicas] plus the time that a number takes to cross the connected component. [process] must
- * settle within [timeToSpawn] * ([maxReplicas] - 1).
+ * two rounds apart. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer
+ * depends on earlier ones after [timeToSpawn] * [maxReplicas] plus the time that a number takes to cross the connected component.
+ * [process] must settle within [timeToSpawn] * ([maxReplicas] - 1).
  *
  * @param currentTime this device's clock; only differences matter.
  * @param maxReplicas the number of replicas that run at the same time, 1 or greater.

@@ -30,8 +30,8 @@ import kotlinx.serialization.Serializable
  * @param local this device's value.
  * @param maxDiameter the greatest number of hops of a value, counted at the neighbour: it travels one hop farther. With a limit, a device
  *   may miss a value within reach, where a better value displaces it on the way but does not reach the device itself.
- * @param reducer returns the better of its arguments, as a maximum does, or either of equally good ones. By default it returns the first, so
- *   every device keeps its own value.
+ * @param reducer returns the better of its arguments, as a maximum does, or either of equally good ones. By default it returns the first,
+ *   so every device keeps its own value.
  */
 public inline fun <reified ID : Comparable<ID>, reified V> Aggregate<ID>.gossip(
     local: V,

@@ -18,7 +18,8 @@ import it.unibo.collektive.stdlib.util.aligned
  * value remains, even when its origin changes its value or leaves. Use [gossip] where values must be forgotten.
  *
  * @param value this device's value in the first round; later ones are ignored.
- * @param reducer merges two values. Must be associative, commutative and idempotent, as a maximum or a union is, because a value can arrive more than once.
+ * @param reducer merges two values. Must be associative, commutative and idempotent, as a maximum or a union is, because a value can
+ *   arrive more than once.
  */
 public inline fun <ID : Any, reified V> Aggregate<ID>.nonStabilizingGossip(value: V, noinline reducer: Reducer<V>): V =
     nonStabilizingGossip(value, dataSharingMethod<V>(), reducer)
