@@ -11,7 +11,7 @@ import kotlin.math.sqrt
  * A surface around the origin. Shapes of one radius have about the same area.
  *
  * @property isRound whether drones can turn around the vertical axis and stay on the surface.
- * @property vectorToSurface from a place to the nearest point of the surface of a radius, or to one near it.
+ * @property vectorToSurface returns the vector from a place to the nearest point of the surface with a radius, or to one near it.
  */
 internal class Shape(val isRound: Boolean, val vectorToSurface: (place: Point3D, radius: Double) -> Point3D)
 

@@ -29,7 +29,7 @@ internal class TickValidator(private val nodes: NodeList) {
         checkTime(tick, expectedNumber)
         checkNodesRemoved(tick)
         checkNodesAdded(tick)
-        for (change in tick.nodesChanged) remaining(change.id) ?: refuse(tick, "node ${change.id} cannot be changed: unknown node")
+        for (change in tick.nodesChanged) remaining(change.id) ?: reject(tick, "node ${change.id} cannot be changed: unknown node")
         checkLinksRemoved(tick)
         checkLinks(tick)
         checkDue(tick)
@@ -39,18 +39,18 @@ internal class TickValidator(private val nodes: NodeList) {
     fun removes(node: Node): Boolean = node.mark == removed
 
     private fun checkTime(tick: Tick, expectedNumber: Long) {
-        if (tick.number != expectedNumber) refuse(tick, "expected tick $expectedNumber")
-        if (!tick.time.isFinite()) refuse(tick, "the time is ${tick.time}; it must be finite")
+        if (tick.number != expectedNumber) reject(tick, "expected tick $expectedNumber")
+        if (!tick.time.isFinite()) reject(tick, "the time is ${tick.time}; it must be finite")
         if (!(tick.deltaTime >= 0.0) || tick.deltaTime.isInfinite()) {
-            refuse(tick, "the delta time is ${tick.deltaTime}; it must be finite and 0 or greater")
+            reject(tick, "the delta time is ${tick.deltaTime}; it must be finite and 0 or greater")
         }
     }
 
     private fun checkNodesRemoved(tick: Tick) {
         for (index in 0 until tick.nodesRemoved.size) {
             val id = tick.nodesRemoved[index]
-            val node = nodes.find(id) ?: refuse(tick, "node $id cannot be removed: unknown node")
-            if (removes(node)) refuse(tick, "node $id is removed twice")
+            val node = nodes.find(id) ?: reject(tick, "node $id cannot be removed: unknown node")
+            if (removes(node)) reject(tick, "node $id is removed twice")
             node.mark = removed
         }
     }
@@ -60,14 +60,14 @@ internal class TickValidator(private val nodes: NodeList) {
         if (addedIds.size < addedCount) addedIds = IntArray(2 * addedCount)
         for (index in 0 until addedCount) {
             val id = tick.nodesAdded[index].id
-            if (id < 0) refuse(tick, "node $id cannot be added: the id must be 0 or greater")
+            if (id < 0) reject(tick, "node $id cannot be added: the id must be 0 or greater")
             val existing = nodes.find(id)
-            if (existing != null && !removes(existing)) refuse(tick, "node $id cannot be added: the id is already in use")
+            if (existing != null && !removes(existing)) reject(tick, "node $id cannot be added: the id is already in use")
             addedIds[index] = id
         }
         addedIds.sort(0, addedCount)
         for (index in 1 until addedCount) {
-            if (addedIds[index - 1] == addedIds[index]) refuse(tick, "node ${addedIds[index]} is added twice")
+            if (addedIds[index - 1] == addedIds[index]) reject(tick, "node ${addedIds[index]} is added twice")
         }
     }
 
@@ -78,8 +78,8 @@ internal class TickValidator(private val nodes: NodeList) {
             val to = list[2 * index + 1]
             val links = remaining(to)?.incoming
             val link = if (links == null || remaining(from) == null) -1 else links.indexOf(from)
-            if (links == null || link < 0) refuse(tick, "link $from -> $to cannot be removed: unknown link")
-            if (links.mark(link) == removed) refuse(tick, "link $from -> $to is removed twice")
+            if (links == null || link < 0) reject(tick, "link $from -> $to cannot be removed: unknown link")
+            if (links.mark(link) == removed) reject(tick, "link $from -> $to is removed twice")
             links.setMark(link, removed)
         }
     }
@@ -97,28 +97,28 @@ internal class TickValidator(private val nodes: NodeList) {
         newLinks.sort(0, newLinkCount)
         for (index in 1 until newLinkCount) {
             val key = newLinks[index]
-            if (newLinks[index - 1] == key) refuse(tick, "link ${(key ushr 32).toInt()} -> ${key.toInt()} is added twice")
+            if (newLinks[index - 1] == key) reject(tick, "link ${(key ushr 32).toInt()} -> ${key.toInt()} is added twice")
         }
     }
 
     private fun checkLink(tick: Tick, from: Int, to: Int, length: Float, attenuation: Float): Int {
-        if (from == to) refuse(tick, "node $from cannot be linked to itself")
+        if (from == to) reject(tick, "node $from cannot be linked to itself")
         val sender = remaining(from)
         val receiver = remaining(to)
-        if (sender == null && !isAdded(from)) refuse(tick, "link $from -> $to: unknown node $from")
-        if (receiver == null && !isAdded(to)) refuse(tick, "link $from -> $to: unknown node $to")
+        if (sender == null && !isAdded(from)) reject(tick, "link $from -> $to: unknown node $from")
+        if (receiver == null && !isAdded(to)) reject(tick, "link $from -> $to: unknown node $to")
         if (!(length >= 0f) || length.isInfinite()) {
-            refuse(tick, "link $from -> $to has length $length; it must be finite and 0 or greater")
+            reject(tick, "link $from -> $to has length $length; it must be finite and 0 or greater")
         }
         if (!(attenuation >= 0f) || attenuation.isInfinite()) {
-            refuse(tick, "link $from -> $to has attenuation $attenuation; it must be finite and 0 or greater")
+            reject(tick, "link $from -> $to has attenuation $attenuation; it must be finite and 0 or greater")
         }
         val links = if (sender == null) null else receiver?.incoming
         val existing = links?.indexOf(from) ?: -1
         if (links == null || existing < 0 || links.mark(existing) == removed) {
             newLinks[newLinkCount++] = from.toLong() shl 32 or to.toLong()
         } else {
-            if (links.mark(existing) == updated) refuse(tick, "link $from -> $to is updated twice")
+            if (links.mark(existing) == updated) reject(tick, "link $from -> $to is updated twice")
             links.setMark(existing, updated)
         }
         return existing
@@ -130,12 +130,12 @@ internal class TickValidator(private val nodes: NodeList) {
         var at = 0
         for (index in 0 until tick.due.size) {
             val id = tick.due[index]
-            if (id <= last) refuse(tick, "due node $id comes after $last; due ids must be in ascending order without duplicates")
+            if (id <= last) reject(tick, "due node $id comes after $last; due ids must be in ascending order without duplicates")
             last = id
             // Both lists are ascending, so one pass over the keys finds all due nodes without a cache miss per node.
             while (at < nodes.size && nodes.keys[at] < id) at++
             val isPresent = at < nodes.size && nodes.keys[at] == id && !(anyRemoved && removes(nodes.node(at)))
-            if (!isPresent && !isAdded(id)) refuse(tick, "due node $id: unknown node")
+            if (!isPresent && !isAdded(id)) reject(tick, "due node $id: unknown node")
         }
     }
 
@@ -143,5 +143,5 @@ internal class TickValidator(private val nodes: NodeList) {
 
     private fun isAdded(id: Int) = addedIds.binarySearch(id, 0, addedCount) >= 0
 
-    private fun refuse(tick: Tick, message: String): Nothing = throw InvalidTickException(tick.number, message)
+    private fun reject(tick: Tick, message: String): Nothing = throw InvalidTickException(tick.number, message)
 }

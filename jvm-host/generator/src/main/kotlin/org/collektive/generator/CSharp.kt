@@ -274,7 +274,7 @@ internal class CSharp(private val schema: UserSchema) {
 
     private fun draft(type: TableType) = "global::${written(type)}"
 
-    /** The name under which C# writes [type]; under its plain name flatc reads it in place, unless it is a root. */
+    /** The name of the class that writes [type]. Only roots have their plain name here; for other types, flatc's reader has it. */
     private fun written(type: Composite) = if (type in schema.roots) type.name else type.name.copy(simple = "${type.name.simple}Value")
 
     /** The C# name of a field, with an underscore appended if generated code has a member of that name. */

@@ -29,7 +29,7 @@ internal class Kotlin(private val schema: UserSchema) {
         )
     }
 
-    /** The models of the classes of which results consist, by name. The types of `types.fbs` are part of the product. */
+    /** The models of the result classes, by name. The types of `types.fbs` are part of the product. */
     fun values(): Map<TypeName, Map<String, Any?>> = results.filter { it !is StructType || !it.core }.associate {
         TypeName(it.name.namespace, value(it).substringAfterLast('.')) to
             model(it)
@@ -134,7 +134,7 @@ internal class Kotlin(private val schema: UserSchema) {
         "type" to value(table),
         "slots" to table.slots,
         "children" to table.fields.mapNotNull { child(it) },
-        // By descending size, so that there is little padding.
+        // By descending size, to minimise padding.
         "adds" to table.fields.sortedWith(compareBy({ -RowPlaces.alignment(it.type) }, { -it.id })).map { add(it) },
         "checks" to table.fields.mapNotNull { check(it) },
     )

@@ -9,12 +9,12 @@ import com.google.flatbuffers.reflection.Object as BinaryObject
  * Rejects names that would break the code of flatc or of this generator, or change its meaning.
  *
  * @property isOwn whether code is generated for the file with this path, as flatc writes it.
- * @property refuse throws the error about a type, or about a field of a type (`a.b.Type.field`).
+ * @property reject throws the error about a type, or about a field of a type (`a.b.Type.field`).
  */
 internal class NameRules(
     private val schema: Schema,
     private val isOwn: (String) -> Boolean,
-    private val refuse: (String, String) -> Nothing,
+    private val reject: (String, String) -> Nothing,
 ) {
     private val objects = (0 until schema.objectsLength()).map(schema::objects).filter { isOwn(it.declarationFile()) }
     private val enums = (0 until schema.enumsLength()).map(schema::enums).filter { isOwn(it.declarationFile()) }
@@ -33,9 +33,9 @@ internal class NameRules(
             val values = (0 until enum.valuesLength()).map { enum.values(it).name() }
             for (value in values) {
                 checkWord("${enum.name()}.$value", value)
-                if (value in ENUM_MEMBERS) refuse("${enum.name()}.$value", "generated code has a member of this name; rename the value")
+                if (value in ENUM_MEMBERS) reject("${enum.name()}.$value", "generated code has a member of this name; rename the value")
                 if ("${value}_" in values && value in ReservedNames.reserved) {
-                    refuse("${enum.name()}.$value", "generated code renames it to ${value}_, the name of another value; rename one of them")
+                    reject("${enum.name()}.$value", "generated code renames it to ${value}_, the name of another value; rename one of them")
                 }
             }
         }
@@ -47,28 +47,28 @@ internal class NameRules(
         val simple = parts.last()
         val namespace = parts.dropLast(1)
         if (simple in ReservedNames.reserved || simple in ReservedNames.types) {
-            refuse(name, "generated code uses a type of this name; rename the type")
+            reject(name, "generated code uses a type of this name; rename the type")
         }
-        namespace.find { it in ReservedNames.reserved }?.let { refuse(name, "the namespace has the keyword '$it'; rename the namespace") }
-        namespace.find { it in ReservedNames.types }?.let { refuse(name, "generated code uses a type named $it; rename the namespace") }
+        namespace.find { it in ReservedNames.reserved }?.let { reject(name, "the namespace has the keyword '$it'; rename the namespace") }
+        namespace.find { it in ReservedNames.types }?.let { reject(name, "generated code uses a type named $it; rename the namespace") }
         if (namespace.firstOrNull() in ReservedNames.roots || namespace.joinToString(".") in ReservedNames.packages) {
-            refuse(
+            reject(
                 name,
                 "the namespace ${namespace.joinToString(".")} is used by a library or by generated code; rename the namespace",
             )
         }
-        if (simple in roots) refuse(name, "in generated code it hides the namespace $simple; rename one of them")
+        if (simple in roots) reject(name, "in generated code it hides the namespace $simple; rename one of them")
         namespace.drop(1).find { it in roots }?.let {
-            refuse(name, "in C# the $it inside its namespace hides the namespace $it; rename one of them")
+            reject(name, "in C# the $it inside its namespace hides the namespace $it; rename one of them")
         }
         if (name.length > MAX_NAME) {
-            refuse(name.take(MAX_NAME), "the name has more than $MAX_NAME characters with its namespace; shorten it")
+            reject(name.take(MAX_NAME), "the name has more than $MAX_NAME characters with its namespace; shorten it")
         }
     }
 
     private fun checkWord(place: String, word: String) {
-        if (word.all { it == '_' }) refuse(place, "a name must contain a letter; rename it")
-        if (word.length > MAX_WORD) refuse(place, "the name has more than $MAX_WORD characters; shorten it")
+        if (word.all { it == '_' }) reject(place, "a name must contain a letter; rename it")
+        if (word.length > MAX_WORD) reject(place, "the name has more than $MAX_WORD characters; shorten it")
     }
 
     /** Each type becomes a file, also on case-insensitive file systems, and a constant in upper case. */
@@ -77,14 +77,14 @@ internal class NameRules(
         for (name in objects.map { it.name() } + enums.map { it.name() } + generatedTypes) {
             val other = seen.put(name.replace('.', '_').uppercase(), name) ?: continue
             val place = if (name in generatedTypes) other else name
-            refuse(place, if (name == other) "$TAKEN; rename the type" else "its name is too similar to that of $other; rename one of them")
+            reject(place, if (name == other) "$TAKEN; rename the type" else "its name is too similar to that of $other; rename one of them")
         }
         for (name in objects.map { it.name() }) {
             val verifier = seen["${name}Verify".replace('.', '_').uppercase()] ?: continue
-            refuse(verifier, "generated code of $name has a class of this name; rename one of them")
+            reject(verifier, "generated code of $name has a class of this name; rename one of them")
         }
         val namespaces = seen.values.flatMap { name -> prefixes(name) }.toSet()
-        seen.values.find { it in namespaces }?.let { refuse(it, "a namespace has the same name; rename one of them") }
+        seen.values.find { it in namespaces }?.let { reject(it, "a namespace has the same name; rename one of them") }
     }
 
     private fun prefixes(name: String): List<String> = name.indices.filter { name[it] == '.' }.map { name.substring(0, it) }
@@ -101,14 +101,14 @@ internal class NameRules(
             val place = "${type.name()}.${field.name()}"
             val member = upperCamel(field.name())
             checkWord(place, field.name())
-            if (member in RESERVED_MEMBERS) refuse(place, "C# or Java has a member of this name in every class; rename the field")
-            if (member in roots) refuse(place, "in C# it hides the namespace $member; rename one of them")
+            if (member in RESERVED_MEMBERS) reject(place, "C# or Java has a member of this name in every class; rename the field")
+            if (member in roots) reject(place, "in C# it hides the namespace $member; rename one of them")
             if (type.isStruct) checkInner(field)
-            if (!field.name().first().isLetter()) refuse(place, "a name must begin with a letter; rename the field")
+            if (!field.name().first().isLetter()) reject(place, "a name must begin with a letter; rename the field")
             seen.put(member, field.name())?.let {
-                refuse(place, "this field and $it are both named $member in generated code; rename one of them")
+                reject(place, "this field and $it are both named $member in generated code; rename one of them")
             }
-            taken[member]?.let { refuse(place, "generated code of $it has a member of this name; rename one of them") }
+            taken[member]?.let { reject(place, "generated code of $it has a member of this name; rename one of them") }
         }
     }
 
@@ -119,7 +119,7 @@ internal class NameRules(
         for (index in 0 until inner.fieldsLength()) {
             val part = inner.fields(index)
             if (part.type().baseType() != BaseType.Obj || part.name() !in ReservedNames.reserved) continue
-            refuse("${inner.name()}.${part.name()}", "C# cannot use this name where the struct is nested; rename the field")
+            reject("${inner.name()}.${part.name()}", "C# cannot use this name where the struct is nested; rename the field")
         }
     }
 

@@ -38,10 +38,10 @@ internal class PathStack(private val tree: PathTree) {
         while (entryCount > 0 && entries[entryCount - 1] > depth) entryCount--
     }
 
-    /** A copy of the tokens on the stack. */
+    /** Returns a copy of the tokens on the stack. */
     fun tokens(): List<Any?> = tokens.copyOf(depth).asList()
 
-    /** The tokens whose paths have been looked up. */
+    /** Returns the tokens whose paths have been looked up. */
     fun resolvedTokens(): List<Any?> = tokens().subList(0, resolved)
 
     /** Returns the path of the whole stack, which [device] creates if it is new. */
@@ -54,7 +54,7 @@ internal class PathStack(private val tree: PathTree) {
         return node
     }
 
-    /** The path of the stack without ids of entries. */
+    /** Returns the path of the stack without ids of entries. */
     fun projectionPath(device: AggregateDevice<*>): PathNode {
         if (entryCount == 0) return path(device)
         var node = tree.root

@@ -67,7 +67,7 @@ public class OutboxStress {
     }
   }
 
-  /** Both rounds of a node run on a pool, the second often on another thread than the first. */
+  /** Both rounds of a node run on a pool, the second often on a different thread. */
   @JCStressTest
   @Outcome(id = "0", expect = Expect.ACCEPTABLE, desc = "every node reads its neighbour's complete export")
   @Outcome(expect = Expect.FORBIDDEN, desc = "an export was not visible in the next tick, or (-1) the work never ended")

@@ -46,7 +46,7 @@ public open class ReferenceDevice internal constructor(override val localId: Int
     /** Paths of the primitives of the last round, in order. */
     public val paths: Set<List<Any?>> get() = running.paths
 
-    /** The readable form of these paths. */
+    /** These paths as readable text. */
     public val visited: List<String> get() = paths.map(::describe)
 
     /** The values that the last successful round stored, by path. */

@@ -11,7 +11,7 @@ internal data class Heading(val x: Double, val y: Double)
 /** The result of program c: whether the device leads, and how many devices its leader counted. */
 internal data class Region(val isLeader: Boolean, val devices: Int)
 
-/** Sensor data of all devices: every fourth has an obstacle beside it; the source is in a corner, and intensity falls with distance. */
+/** Sensor data of all devices: every fourth has an obstacle next to it; the source is in a corner, and intensity falls with distance. */
 internal fun sensorData(topology: Topology): List<SensorData> {
     val source = (0 until topology.size).minBy { topology.x[it] + topology.y[it] }
     return List(topology.size) {

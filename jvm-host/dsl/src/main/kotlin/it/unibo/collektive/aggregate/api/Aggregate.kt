@@ -63,7 +63,7 @@ public interface Aggregate<ID : Any> {
     @DelicateCollektiveApi
     public fun dealign()
 
-    /** Implements the extension `exchanging`, which finds [dataSharingMethod] from the type; programs call that one. */
+    /** Implements the extension `exchanging`. Programs call the extension, which derives [dataSharingMethod] from the type. */
     @DelicateCollektiveApi
     public fun <Shared, Return> exchanging(
         initial: Shared,
@@ -71,7 +71,7 @@ public interface Aggregate<ID : Any> {
         body: YieldingScope<Field<ID, Shared>, Return>,
     ): Return
 
-    /** Implements the extension `neighboring`, which finds [dataSharingMethod] from the type; programs call that one. */
+    /** Implements the extension `neighboring`. Programs call the extension, which derives [dataSharingMethod] from the type. */
     @DelicateCollektiveApi
     public fun <Shared> neighboring(local: Shared, dataSharingMethod: DataSharingMethod<Shared>): Field<ID, Shared>
 

@@ -81,7 +81,7 @@ internal class HopPath<ID : Any> private constructor(
     companion object {
         private val EMPTY = HopPath<Nothing>(null, null, 0, 0)
 
-        /** The path of a value on the device that made it. */
+        /** The path of a value on the device where it originates. */
         @Suppress("UNCHECKED_CAST")
         fun <ID : Any> empty(): HopPath<ID> = EMPTY as HopPath<ID>
 
