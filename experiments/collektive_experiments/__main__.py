@@ -25,7 +25,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(words: list[str]) -> int:
-    """Runs a command; returns the exit code."""
+    """Runs a command and returns the exit code."""
     parser = Parser(prog="./collektive")
     commands = parser.add_subparsers(dest="command", required=True)
     sweeping = commands.add_parser("sweep")

@@ -96,8 +96,8 @@ class RayPool:
             while (self._tasks or running) and not self._stopped:
                 # Nodes may join and leave.
                 processors = int(ray.cluster_resources().get("CPU", 1))  # type: ignore[no-untyped-call]
-                wanted = min(processors, len(self._tasks) + len(running))
-                while len(running) + len(idle) < wanted:
+                needed = min(processors, len(self._tasks) + len(running))
+                while len(running) + len(idle) < needed:
                     idle.append(RemoteWorker.remote(self._trust))
                 while idle and self._tasks:
                     worker, task = idle.pop(), self._tasks.popleft()

@@ -107,7 +107,7 @@ def name_of(values: Values, settings: Values) -> str:
 
 
 def identity(value: Any) -> str:
-    """Returns a canonical text. Values that are equal for a run, such as 1 and 1.0, have the same text."""
+    """Returns a canonical string, which is the same for values that are equal for a run, such as 1 and 1.0."""
     def normalize(part: Any) -> Any:
         if isinstance(part, dict):
             return {key: normalize(item) for key, item in part.items()}
@@ -228,7 +228,7 @@ def _read_labels(located: Located) -> dict[str, str]:
         raise located.error("'labels' must be an object with the text of each metric, key or value", "labels")
     for name, label in labels.items():
         if not isinstance(label, str) or not label.strip() or not label.isprintable():
-            raise located.error(f"'labels.{name}' is {json.dumps(label)}; it must be a text of one line", "labels", name)
+            raise located.error(f"'labels.{name}' is {json.dumps(label)}; it must be a non-empty string of one line", "labels", name)
     return dict(labels)
 
 

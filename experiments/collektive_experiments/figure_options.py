@@ -16,7 +16,7 @@ TIME = "time"
 CONVERGED = "converged."
 """Prefix of the columns of convergence times."""
 CENSORED = "censored."
-"""Prefix of the columns of the last time at which a metric could have converged, in runs in which it did not."""
+"""Prefix of the columns with the last possible convergence time, for runs that did not converge."""
 MAX_GROUPS = 10
 """More lines in one figure are not distinct."""
 MIN_INCHES, MAX_INCHES = 1, 20
@@ -35,7 +35,7 @@ class FigureOptions:
     kind: str
     log: str
     range: tuple[float | None, float | None]
-    """Limits of the metric's axis. None for those of the data."""
+    """Limits of the metric's axis, or None for the limits of the data."""
     size: tuple[float, float]
     """Width and height in inches."""
     style: str

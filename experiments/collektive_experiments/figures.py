@@ -267,11 +267,11 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
         if table.empty:
             continue
         bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
-        look = _look(index)
+        line_style = _line_style(index)
         # Markers of different lines are at different times.
         step = max(1, len(table.columns) // 6)
-        axes.plot(table.columns, table.mean(), label=name, markevery=(index * step // (parts[-1][0] + 1), step), **look)
-        axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=look["color"], alpha=0.2, linewidth=0)
+        axes.plot(table.columns, table.mean(), label=name, markevery=(index * step // (parts[-1][0] + 1), step), **line_style)
+        axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=line_style["color"], alpha=0.2, linewidth=0)
     return counts
 
 
@@ -288,9 +288,9 @@ def _line(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str,
         if not rows:
             continue
         places, means, low, high, is_bound = (np.array(column) for column in zip(*rows))
-        look = _look(index)
-        axes.errorbar(places, means, [np.nan_to_num(means - low), np.nan_to_num(high - means)], label=name, capsize=2, **look)
-        axes.plot(places[is_bound], means[is_bound], linestyle="", marker=look["marker"], color=look["color"], markerfacecolor="white", zorder=3)
+        line_style = _line_style(index)
+        axes.errorbar(places, means, [np.nan_to_num(means - low), np.nan_to_num(high - means)], label=name, capsize=2, **line_style)
+        axes.plot(places[is_bound], means[is_bound], linestyle="", marker=line_style["marker"], color=line_style["color"], markerfacecolor="white", zorder=3)
     return counts
 
 
@@ -343,11 +343,11 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
         times, *curves = kaplan_meier(sample.to_numpy(float), ~is_censored)
         places = np.array([start, *times, end])
         shares, low, high = (np.array([0, *curve, curve[-1] if len(curve) else 0]) for curve in curves)
-        look = _look(index)
-        axes.step(places, shares, where="post", label=name, markevery=[*range(1, len(places) - 1, max(1, len(places) // 5))], **look)
-        axes.fill_between(places, low, high, step="post", color=look["color"], alpha=0.15, linewidth=0)
+        line_style = _line_style(index)
+        axes.step(places, shares, where="post", label=name, markevery=[*range(1, len(places) - 1, max(1, len(places) // 5))], **line_style)
+        axes.fill_between(places, low, high, step="post", color=line_style["color"], alpha=0.15, linewidth=0)
         ends = np.unique(sample[is_censored])
-        axes.plot(ends, shares[np.searchsorted(places, ends, side="right") - 1], linestyle="", marker="|", markersize=8, color=look["color"], zorder=3)
+        axes.plot(ends, shares[np.searchsorted(places, ends, side="right") - 1], linestyle="", marker="|", markersize=8, color=line_style["color"], zorder=3)
     return counts
 
 
@@ -396,8 +396,8 @@ def _caption(results: Results, data: pd.DataFrame, metric: str, kind: str, x: st
     return caption + (f" {missing} runs without a value are omitted." if missing else "")
 
 
-def _look(index: int) -> dict[str, Any]:
-    """Returns how a line differs from others, in colour and without."""
+def _line_style(index: int) -> dict[str, Any]:
+    """Returns the colour, dashes and marker of a line."""
     return {"color": COLOURS[index % len(COLOURS)], "linestyle": LINES[index % len(LINES)], "marker": MARKERS[index % len(MARKERS)]}
 
 

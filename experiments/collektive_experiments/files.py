@@ -5,7 +5,7 @@ import stat
 from typing import BinaryIO
 
 MARKER = ".collektive-sweep"
-"""The file that marks a folder that a sweep created and may delete."""
+"""Marks a folder that a sweep created and may delete."""
 PART = ".part"
 """Suffix of unfinished files and folders."""
 

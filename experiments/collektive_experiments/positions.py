@@ -1,4 +1,4 @@
-"""Parses JSON like the player, and records the line of each value."""
+"""Parses JSON with the player's extensions, and records the line of each value."""
 import bisect
 import json
 import math
@@ -60,7 +60,7 @@ class Located:
         raise ExperimentError(f"{self.path}:{self._line(at)}: not valid JSON: {problem}")
 
     def _skip(self, at: int) -> int:
-        """Returns where the next token begins."""
+        """Returns the index of the next token."""
         match = SPACE.match(self.text, at)
         assert match
         return match.end()

@@ -24,7 +24,7 @@ class Results:
     series: pd.DataFrame
     """A row for each complete run and interval of metrics (by default a simulated second)."""
     nodes: pd.DataFrame | None
-    """A row for each complete run, time and node; None if the scenario does not ask for `outputs.nodes`."""
+    """A row for each complete run, time and node; None if the scenario does not request `outputs.nodes`."""
     keys: list[str]
     """The keys that vary."""
     units: dict[str, str]
@@ -80,7 +80,7 @@ def _read(folder: str, name: str) -> pd.DataFrame:
     try:
         return pd.read_parquet(os.path.join(folder, f"{name}.parquet"))
     except (OSError, ValueError) as error:
-        raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): make the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
+        raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): write the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
                               "--resume") from error
 
 

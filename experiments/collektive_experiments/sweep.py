@@ -112,7 +112,7 @@ def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> li
 
 
 def _spread(count: int) -> Iterable[int]:
-    """Returns the indices of the runs that are repeated: the last one of each interval, which has the most runs before it."""
+    """Returns the indices of the runs that are repeated, the last one of each interval."""
     size = min(count, max(MIN_REPEATED_RUNS, math.ceil(count * REPEATED_SHARE)))
     return ((index + 1) * count // size - 1 for index in range(size))
 
@@ -249,7 +249,7 @@ def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
 
 
 def _place(experiment: Experiment, worker: Worker, problem: str) -> tuple[str | int, ...]:
-    """Returns the key with which a problem of the first values of all keys begins, for its message."""
+    """Returns the first key whose value causes a problem, for its message."""
     given = [*(("set", key, value) for key, value in experiment.fixed.items()),
              *((part, key, values[0]) for part, varied in (("vary", experiment.product), ("zip", experiment.together)) for key, values in varied)]
     settings: dict[str, object] = {}

@@ -1,4 +1,4 @@
-"""Searches values of keys for the best value of a metric. Optuna proposes them, and the workers of sweeps execute the runs."""
+"""Searches for the parameter values with the best metric. Optuna proposes them, and the workers of sweeps execute the runs."""
 import argparse
 import csv
 import json
@@ -34,7 +34,7 @@ class Search:
 
     @property
     def identity(self) -> str:
-        """Returns what a resumed search must share."""
+        """Returns the settings that must stay the same when a search is resumed."""
         return json.dumps([self.metric, self.direction, {key: repr(value) for key, value in self.parameters.items()}])
 
 
@@ -51,10 +51,10 @@ def read_search(experiment: Experiment) -> Search:
         raise located.error("'tune.metric' must name a metric", "tune")
     direction = tune.get("direction", DIRECTIONS[0])
     if direction not in DIRECTIONS:
-        raise located.error(f"'tune.direction' is {json.dumps(direction)}, it must be one of: {', '.join(DIRECTIONS)}", "tune", "direction")
+        raise located.error(f"'tune.direction' is {json.dumps(direction)}; it must be one of: {', '.join(DIRECTIONS)}", "tune", "direction")
     trials = tune.get("trials", TRIALS)
     if not _is_int(trials) or trials < 1:
-        raise located.error(f"'tune.trials' is {json.dumps(trials)}, it must be a whole number above 0", "tune", "trials")
+        raise located.error(f"'tune.trials' is {json.dumps(trials)}; it must be a whole number above 0", "tune", "trials")
     parameters = tune.get("parameters")
     if not isinstance(parameters, dict) or not parameters:
         raise located.error("'tune.parameters' must be an object with the values of each key", "tune")
@@ -89,9 +89,9 @@ def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[]
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     _check(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
-    wanted = options.trials or search.trials
+    total = options.trials or search.trials
     code = 0
-    while code == 0 and (left := wanted - len(_finished(study))) > 0:
+    while code == 0 and (left := total - len(_finished(study))) > 0:
         trials = [study.ask(search.parameters) for _ in range(min(left, options.jobs))]
         runs = {trial.number: [_run(experiment, run, trial.params) for run in experiment.runs()] for trial in trials}
         # Different trials may propose the same values.

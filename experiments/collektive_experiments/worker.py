@@ -94,7 +94,7 @@ class _Process:
         self._process.wait()
 
     def _send(self, request: dict[str, Any]) -> str:
-        """Sends a request; returns its id, which a script cannot guess."""
+        """Sends a request. Returns its id, which a script cannot guess."""
         identity = secrets.token_hex(8)
         try:
             self._channel.sendall(json.dumps({"id": identity, **request}).encode() + b"\n")
@@ -245,7 +245,7 @@ def _manifest(folder: str) -> dict[str, Any]:
 
 
 def _difference(first: dict[str, Any], second: dict[str, Any]) -> str:
-    """Returns how the results of a run and its repetition differ, or an empty text."""
+    """Describes the first difference between the results of a run and its repetition. Returns an empty string if they are equal."""
     if first.get("digest") != second.get("digest"):
         return f"the digest was {first.get('digest')}, but {second.get('digest')} when repeated in a fresh process"
     for key in ("ticks", "nodes", "errors", "end", "converged"):

@@ -139,7 +139,7 @@ def test_options_of_a_figure_need_a_metric(sweep: str, capsys: pytest.CaptureFix
     (6, '"figures": [{"metric": "error", "x": "loss",\n"log": "x"}]', "'figures[0].log' is 'x', but 'loss' has the value 0"),
     (6, '"figures": [{"metric": "error",\n"by": "program"}]', "'figures[0].by' is 'program', which has more than 10 values"),
     (5, '"labels": []', "'labels' must be an object"),
-    (6, '"labels": {\n"error": ""}', "'labels.error' is \"\"; it must be a text of one line"),
+    (6, '"labels": {\n"error": ""}', "'labels.error' is \"\"; it must be a non-empty string of one line"),
 ])
 def test_errors_in_figures_of_an_experiment_have_a_line(tmp_path: Path, line: int, keys: str, message: str) -> None:
     (tmp_path / "scenario.json").write_text("{}")

@@ -50,8 +50,8 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
     ({"parameters": {"fields.lamps": {"from": 3, "too": 5}}}, "must be a list, or an object with the numbers 'from' and 'to'"),
     ({"parameters": {"fields.lmps": [3, 4]}}, "no public field 'lmps'"),
     ({"parameters": {"programs": ["a", "b"]}}, "'programs' cannot vary"),
-    ({"direction": "up"}, "'tune.direction' is \"up\", it must be one of: minimize, maximize"),
-    ({"trials": 0}, "'tune.trials' is 0, it must be a whole number above 0"),
+    ({"direction": "up"}, "'tune.direction' is \"up\"; it must be one of: minimize, maximize"),
+    ({"trials": 0}, "'tune.trials' is 0; it must be a whole number above 0"),
     ({"sampler": "x"}, "unknown key 'tune.sampler'"),
 ])
 def test_an_invalid_search_is_refused_with_its_line(project: Project, changes: dict[str, Any], message: str) -> None:

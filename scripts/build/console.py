@@ -46,4 +46,4 @@ def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None
     # Compilers print the cause first, other tools last.
     shown = lines if len(lines) <= 60 else [*lines[:30], "...", *lines[-30:]]
     print("\n".join(shown), file=sys.stderr)
-    raise Failure(f"{name} failed; the whole log is {path}")
+    raise Failure(f"{name} failed; the full log is {path}")

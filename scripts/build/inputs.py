@@ -57,7 +57,7 @@ class Part:
 
 def scripts(folder: Path) -> Part:
     """Reads a folder of C#, except generated code, which each run generates."""
-    return Part(folder, partial(_below, suffixes=(".cs",), left_out=("Generated", "obj")))
+    return Part(folder, partial(_below, suffixes=(".cs",), excluded=("Generated", "obj")))
 
 
 def programs(path: Path) -> Part:
@@ -92,7 +92,7 @@ def _digest(files: Mapping[str, Path]) -> str:
     return total.hexdigest()
 
 
-def _below(folder: Path, suffixes: tuple[str, ...], left_out: tuple[str, ...] = ()) -> dict[str, Path]:
+def _below(folder: Path, suffixes: tuple[str, ...], excluded: tuple[str, ...] = ()) -> dict[str, Path]:
     """Returns the files below a folder in order of their names. Links are followed, except to a folder that contains them."""
     found: dict[str, Path] = {}
     count = 0
@@ -106,7 +106,7 @@ def _below(folder: Path, suffixes: tuple[str, ...], left_out: tuple[str, ...] = 
                 raise Failure(f"the folder '{folder}' has more than {MAX_FILES:,} files: name a folder that contains only the sources of this scenario")
             real = os.path.realpath(entry.path)
             if os.path.isdir(real):
-                if entry.name not in left_out and real not in above:
+                if entry.name not in excluded and real not in above:
                     pending.append((f"{prefix}{entry.name}/", entry.path, above | {real}))
             elif entry.name.endswith(suffixes) and os.path.isfile(real):
                 found[prefix + entry.name] = Path(entry.path)

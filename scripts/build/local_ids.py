@@ -1,4 +1,4 @@
-"""Ids by which Unity's scenes and prefabs refer to objects that a scripted importer makes.
+"""Ids by which Unity's scenes and prefabs refer to objects that a scripted importer creates.
 
 Unity hashes the native type and the identifier with the 64-bit xxHash. Verified with `.inputactions` and `.shadergraph` assets of public projects.
 """

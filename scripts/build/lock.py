@@ -48,7 +48,7 @@ def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
 
 
 def release() -> None:
-    """Releases the lock. For commands that only start other commands, which take the lock themselves."""
+    """Releases the lock, for commands whose child processes lock the outputs themselves."""
     global _descriptor
     if _descriptor is not None:
         os.close(_descriptor)

@@ -32,7 +32,7 @@ NAMESPACE = {"m": "http://maven.apache.org/POM/4.0.0"}
 MAIN_MARK, PACKAGE_MARK, TESTS_MARK = "main-unchanged", "package-unchanged", "tests-unchanged"
 STARTED = BUILD / "maven-started"
 WITHOUT_TESTS = "-Dmaven.test.skip=true"
-# Twice as fast for a few modules; many modules repay the second compiler.
+# Twice as fast for a few modules. With many modules, the second JIT compiler is worth its time.
 SHORT_CALL = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
 FEW_MODULES = 3
 
@@ -82,7 +82,7 @@ class Module:
         return _hash([*sources, *fixtures, *self._named], self._seen(self.upstream_of_tests))
 
     def stored(self, name: str) -> str:
-        """Returns what the last build stored as target/NAME, or an empty text."""
+        """Returns the text that the last build stored as target/NAME, or an empty string."""
         file = self.target / name
         return file.read_text() if file.exists() else ""
 
@@ -219,7 +219,7 @@ def read_modules() -> dict[str, Module]:
 
 
 def closure(names: list[str], modules: dict[str, Module]) -> list[Module]:
-    """Returns the named modules with the dependencies of them and their tests, which Maven needs. Without names, returns all modules."""
+    """Returns the named modules, with their dependencies and those of their tests. Without names, returns all modules."""
     found: dict[str, Module] = {}
 
     def add(module: Module) -> None:

@@ -1,4 +1,4 @@
-"""Maven's local repository, which Maven itself trusts."""
+"""Repairs Maven's local repository, whose files Maven does not verify again."""
 import hashlib
 import os
 import re
@@ -8,10 +8,10 @@ from build.console import print_progress
 
 
 def repair() -> bool:
-    """Removes jars that differ from the checksum that Maven stored with their download, so that it fetches them again; returns whether there were any."""
+    """Removes jars that differ from the checksum of their download, so that Maven fetches them again. Returns whether it removed any."""
     damaged = [jar for jar in _location().rglob("*.jar") if _differs(jar, jar.with_name(f"{jar.name}.sha1"))]
     for jar in damaged:
-        print_progress(f"removing {jar}, which is damaged; Maven fetches it again")
+        print_progress(f"removing {jar}, which is damaged; Maven will fetch it again")
         jar.unlink()
     return bool(damaged)
 

@@ -1,4 +1,4 @@
-"""Unity .meta files: `python3 scripts/build/metas.py ROOT` makes the missing ones.
+"""Unity .meta files: `python3 scripts/build/metas.py ROOT` creates the missing ones.
 
 Unity identifies an asset by the GUID in its meta, so a meta is never changed once it exists. A new one gets a GUID from
 the asset's path. Names that end in `~` or begin with `.` are not assets.

@@ -46,12 +46,12 @@ class Plan:
         return {key: part.digest for key, part in self.parts.items()}
 
 
-def plan(scenario: str, reading: Sequence[str]) -> Plan:
+def plan(scenario: str, options: Sequence[str]) -> Plan:
     """Reads a scenario with the player, which prints errors itself.
 
     Raises `Failure` without a message if the scenario is invalid.
     """
-    command = managed.command("mono-sgen", PLAYER, "plan", scenario, *reading)
+    command = managed.command("mono-sgen", PLAYER, "plan", scenario, *options)
     result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE)
     if result.returncode < 0:
         raise Failure(f"the player was ended by {signal.Signals(-result.returncode).name}", 128 - result.returncode)

@@ -177,7 +177,7 @@ def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Cal
             kept.parent.mkdir(parents=True, exist_ok=True)
             kept.write_text(messages, encoding="utf-8")
             shutil.rmtree(work)
-            raise error if isinstance(error, Failure) else CompileError(f"{name} failed; the whole log is {kept}") from error
+            raise error if isinstance(error, Failure) else CompileError(f"{name} failed; the full log is {kept}") from error
         for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
             if ": warning: " in line:
                 print(line, file=sys.stderr)

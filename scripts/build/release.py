@@ -55,7 +55,7 @@ def openupm(url: str) -> Json:
 
 
 def fetched_components(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
-    """Returns the components of the package that Maven does not know."""
+    """Returns the components of the package that are not from Maven."""
     return [
         {"type": "library", "name": "flatbuffers", "version": flatbuffers, "licenses": APACHE, "purl": f"pkg:cargo/flatc-fork@{crate}",
          "description": "Runtimes for C# and Java, and the compiler flatc"},

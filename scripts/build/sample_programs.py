@@ -1,4 +1,4 @@
-"""Divides the jar of all samples' programs into a library for each sample: `sample_programs.py OUT`.
+"""Splits the jar of all samples' programs into a library for each sample: `sample_programs.py OUT`.
 
 OUT/NAME.clkprograms has the name of the sample's schema and contains the classes of its namespace. Equal inputs give equal files.
 """

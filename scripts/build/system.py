@@ -41,7 +41,7 @@ TOOLS = (
 MONO_POSIX = Path("/usr/lib/mono/4.5/Mono.Posix.dll")
 # Libraries without a command, and their Debian packages.
 FILES = {MONO_POSIX: "libmono-posix4.0-cil"}
-# Only the C# tests need it. Debian 13 has no package of it.
+# Only the C# tests need it. Debian 13 has no package for it.
 NUNIT = Path("/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll")
 
 
@@ -99,7 +99,7 @@ def find_tool(name: str) -> str | None:
 
 
 def version_of(command: str) -> str:
-    """Returns the version that a command prints, or an empty text."""
+    """Returns the version that a command prints, or an empty string."""
     match = re.search(r"\d+(\.\d+)*", re.sub(r"\x1b\[[0-9;]*m", "", _version_output(command).stdout))
     return match[0] if match else ""
 
@@ -111,7 +111,7 @@ def _version_output(command: str) -> subprocess.CompletedProcess[str]:
 
 
 def _describe(name: str) -> str:
-    """Returns why a command cannot be used."""
+    """Returns the reason why a command cannot be used."""
     command = shutil.which(name)
     if not command:
         return f"{name} is missing"
@@ -134,7 +134,7 @@ def install(packages: list[str], log: str) -> None:
 
 
 def setup_nunit() -> None:
-    """Installs NUnit, if the system has a package of it."""
+    """Installs NUnit if the system has a package for it."""
     if NUNIT.exists():
         return
     if not can_install():
@@ -143,11 +143,11 @@ def setup_nunit() -> None:
     if candidate_version("libnunit-cil-dev"):
         install(["libnunit-cil-dev"], "nunit")
     else:
-        print_progress("skipping the C# tests: this system has no package of NUnit 2.6")
+        print_progress("skipping the C# tests: this system has no package for NUnit 2.6")
 
 
 def candidate_version(package: str) -> str:
-    """Returns the version of a package that apt would install, or an empty text."""
+    """Returns the version of a package that apt would install, or an empty string."""
     if not shutil.which("apt-cache"):
         return ""
     output = subprocess.run(["apt-cache", "policy", package], capture_output=True, text=True).stdout
@@ -178,7 +178,7 @@ def _reasons(missing: list[Missing]) -> str:
 
 
 def _state() -> str:
-    """Returns a text that changes when a tool changes, without starting tools."""
+    """Returns a string that changes when a tool changes, without starting tools."""
     lines = [repr((TOOLS, FILES)), sys.version]
     for path in [shutil.which(command) for tool in TOOLS for command in tool.commands] + [str(file) for file in FILES]:
         try:

@@ -87,7 +87,7 @@ def test_pages_have_no_grammar_errors() -> None:
 
 
 def habits(place: str, prose: str, line: int = 1) -> list[str]:
-    """Returns a line for each match of a pattern of english.txt in a text that begins at a line of a file."""
+    """Returns a line for each match of a pattern of english.txt in `prose`, which begins at `line` of the file `place`."""
     return [f"{place}:{line + prose[:match.start()].count(chr(10))}: {match[0]!r}: {advice}"
             for pattern, advice in HABITS for match in re.finditer(pattern, prose, re.IGNORECASE)]
 

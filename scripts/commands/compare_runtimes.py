@@ -89,7 +89,7 @@ class RuntimeProcess:
         lines = []
         while (line := self._process.stdout.readline()) != "\n":
             if not line:
-                raise Failure("compare-runtimes: the JVM of a runtime has ended; its message is above")
+                raise Failure("compare-runtimes: a JVM has ended; its messages are above")
             lines.append(line[:-1])
         return lines
 

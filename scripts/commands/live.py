@@ -2,8 +2,8 @@
 the scene while the simulation runs. Documentation~/live.md describes the page.
 
 SCENARIO is a scenario file, or the name of a sample or of a lesson: gradient, channel, leader, collection, gossip, healing, sparse, flocking. By default
-it is the case study, GradientAscent. Samples and lessons are copied to out/live/NAME once, so that their programs can be changed; delete the folder to
-start again with the original.
+it is the case study, GradientAscent. Samples and lessons are copied to out/live/NAME once. To start again with the original, delete that
+folder.
 
 Ctrl-C ends the simulation. Exit code: 0 the simulation was started; 1 it was not."""
 import argparse

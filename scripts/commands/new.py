@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.name)
     if folder.exists():
         raise Failure(f"new: '{folder}' already exists; choose another name")
-    # The project appears complete or not at all.
+    # Creates the project atomically.
     with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=".") as work:
         project = Path(work) / folder.name
         _copy(project, folder.name)

@@ -20,9 +20,9 @@ def run(arguments: argparse.Namespace) -> int:
     out = arguments.out or f"out/{os.path.basename(arguments.scenario).removesuffix('.json')}-profile"
     recording = Path(out, "profile.jfr")
     before = _modified(recording)
-    # A run whose rounds failed has a recording, too: the one that is needed most.
+    # A run whose rounds failed has a recording, too.
     code = run_command.run_scenario(**{**vars(arguments), "out": out, "overwrite": arguments.overwrite or not arguments.out, "recording": str(recording)})
-    # A run that could not begin leaves an earlier recording.
+    # If a run cannot begin, an earlier recording remains.
     if _modified(recording) not in (0, before):
         processes.call([find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", f"{TOOLS_JAR}:{HOST_JAR}", "org.collektive.tools.profile.ProfileReport",
                         recording])

@@ -50,15 +50,15 @@ def run_scenario(scenario: str, **options: object) -> int:
 
 def run(arguments: argparse.Namespace) -> int:
     graph.build("runtime")
-    reading = [word for value in arguments.values for word in ("--set", value)]
+    scenario_options = [word for value in arguments.values for word in ("--set", value)]
     if arguments.folder is not None:
-        reading += ["--folder", arguments.folder]
+        scenario_options += ["--folder", arguments.folder]
     for option in ("seed", "seconds"):
         if getattr(arguments, option) is not None:
-            reading += [f"--{option}", getattr(arguments, option)]
+            scenario_options += [f"--{option}", getattr(arguments, option)]
     if arguments.trust_jvm:
-        reading.append("--trust-jvm")
-    plan = player.plan(arguments.scenario, reading)
+        scenario_options.append("--trust-jvm")
+    plan = player.plan(arguments.scenario, scenario_options)
     jar, dll = plan.programs_jar(), plan.scripts_dll()
     words: list[str] = []
     if plan["replay"]:
@@ -77,7 +77,7 @@ def run(arguments: argparse.Namespace) -> int:
     print_progress(f"running {arguments.scenario}")
     with outputs.open_folder(Path(out), arguments.overwrite):
         # Scripts may change the current folder.
-        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), *words, *reading])
+        code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), *words, *scenario_options])
         outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
     if code != 0:
         return code

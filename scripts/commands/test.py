@@ -105,7 +105,7 @@ def run_long(long_run: LongRun, values: Sequence[str]) -> int:
     """Runs the script of an option."""
     prepare()
     graph.build(*long_run.targets)
-    # These lock the outputs by themselves, and would wait for this lock.
+    # These lock the outputs themselves, and would wait for this lock.
     if long_run.file in ("chaos/chaos.py", "fuzz.py"):
         lock.release()
     return processes.call([TEST_PYTHON, "-I", "-B", ROOT / "scripts/tests" / long_run.file, *long_run.words, *values])
@@ -203,7 +203,7 @@ def select_suites(suites: Sequence[Suite], words: Sequence[str]) -> list[Suite]:
         chosen |= set(found)
     disabled = [suite.name for suite in suites if suite in chosen and suite.is_disabled]
     if disabled:
-        text = f"{', '.join(disabled)}: this system has no package of NUnit 2.6"
+        text = f"{', '.join(disabled)}: this system has no package for NUnit 2.6"
         if len(disabled) == len(chosen):
             raise Failure(f"test: {text}")
         print_progress(f"skipped {text}")
@@ -211,7 +211,7 @@ def select_suites(suites: Sequence[Suite], words: Sequence[str]) -> list[Suite]:
 
 
 def run_suites(names: Sequence[str]) -> dict[str, str]:
-    """Runs suites with CTest. Returns the failure that CTest reports for each suite, or an empty text."""
+    """Runs suites with CTest. Returns the failure that CTest reports for each suite, or an empty string."""
     report = RESULTS / "ctest.xml"
     report.unlink(missing_ok=True)
     pattern = "|".join(re.sub(r"[.+]", r"\\\g<0>", name) for name in names)

@@ -1,4 +1,4 @@
-"""Searches values of a scenario's keys for the best mean of a metric, with Optuna. The key "tune" of the experiment file describes the search:
+"""Searches for values of scenario keys with the best mean of a metric, with Optuna. The key "tune" of the experiment file describes the search:
 {"metric": "error", "parameters": {"parameters.PROGRAM.gain": {"from": 0.1, "to": 10, "log": true}, "program": ["a", "b"]}}. Each trial executes all
 runs of the experiment, for example one per seed. Documentation~/experiments.md describes the key. Writes the runs, study.db (Optuna's storage) and
 trials.csv to --out, and prints the best values.

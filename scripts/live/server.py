@@ -32,9 +32,9 @@ from build.places import BUILD
 from live import session
 
 HOST = "127.0.0.1"
-# Commands of a page in a second. More are an error of the page.
+# A page that sends more commands per second is disconnected.
 MAX_COMMANDS = 200
-# Events that wait for a slow page, frames not counted.
+# A page with more unsent events is disconnected. Frames do not count.
 MAX_WAITING = 500
 WATCH_SECONDS = 0.25
 PAGES = {"": "live.html", "view": "live-view.html"}
@@ -43,7 +43,7 @@ PLAYER_COMMANDS = {"run", "step", "speed", "add", "remove", "select", "parameter
 
 
 class Page:
-    """A connected page. Events are sent in order; a frame replaces one that was not sent."""
+    """A connected page. Events are sent in order. A new frame replaces an unsent one."""
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
@@ -76,7 +76,7 @@ class Page:
 
 
 class Live:
-    """A scenario that runs, its sources, and the pages that show it. The first page controls it, and then the next one."""
+    """A running scenario, its sources, and the pages that show it. The first connected page controls it."""
 
     def __init__(self, options: dict[str, Any], work: Path) -> None:
         self.scenario: str = options["scenario"]
@@ -96,20 +96,20 @@ class Live:
         self._sources: dict[str, str] = {}
         self._changing = asyncio.Lock()
 
-    def words(self) -> list[str]:
+    def player_options(self) -> list[str]:
         """Returns the options with which the player reads the scenario."""
         seed = [] if self.seed is None else ["--seed", self.seed]
         return [*seed, *(word for key, value in self.values.items() for word in ("--set", f"{key}={value}")), *(["--trust-jvm"] if self.trust else [])]
 
     async def start(self) -> None:
-        """Reads the scenario, compiles what changed, and starts the player."""
-        self.plan = await asyncio.to_thread(player.plan, self.scenario, self.words())
+        """Reads the scenario, compiles changed code, and starts the player."""
+        self.plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options())
         jar, dll = await asyncio.gather(asyncio.to_thread(self.plan.programs_jar), asyncio.to_thread(self.plan.scripts_dll))
         self._sources = session.sources(self.plan)
         session.replace(self.jar, jar)
         projects.record_own_program(self.jar)
         self.header = self.last_frame = self.stopped = self.compiled = None
-        await self.player.start(self.scenario, self.plan, self.jar, dll, self.work / "out", self.words())
+        await self.player.start(self.scenario, self.plan, self.jar, dll, self.work / "out", self.player_options())
 
     async def restart(self, seed: str, changes: dict[str, Any]) -> None:
         """Starts the scenario again with other values. If that fails, the earlier values are kept."""
@@ -123,22 +123,22 @@ class Live:
             self.seed, self.values = before
             # The player has printed the error of an invalid scenario.
             self.stopped = {"event": "stopped", "message": str(failure) or "the scenario is invalid; the reason is in the terminal"}
-            self.tell(self.stopped)
+            self.broadcast(self.stopped)
             return
-        self.tell({"event": "started", **self.identity()})
-        self.tell({"event": "files", "files": self._sources})
+        self.broadcast({"event": "started", **self.identity()})
+        self.broadcast({"event": "files", "files": self._sources})
 
     def identity(self) -> dict[str, str]:
         """Returns the seed, and the command that repeats the run from its start."""
-        words = ["./collektive", "live", os.path.relpath(self.scenario), *self.words()]
+        words = ["./collektive", "live", os.path.relpath(self.scenario), *self.player_options()]
         return {"seed": self.seed or str(self.plan["seed"]), "command": shlex.join(words)}
 
     @property
     def is_editable(self) -> bool:
-        """Whether the programs are sources."""
+        """Whether the programs are sources, not a jar."""
         return self.plan.parts["programs"].path.is_dir()
 
-    def tell(self, event: dict[str, Any]) -> None:
+    def broadcast(self, event: dict[str, Any]) -> None:
         for page in self.pages:
             page.event(event)
 
@@ -152,13 +152,13 @@ class Live:
             self.header = event
         if event["event"] == "stopped":
             self.stopped = event
-        self.tell(event)
+        self.broadcast(event)
 
     async def connect(self, connection: ServerConnection) -> None:
         """Serves a page until it is closed."""
         page = Page(connection)
         self.pages.append(page)
-        self.welcome(page)
+        self.send_welcome(page)
         for event in (self.header, self.compiled, self.stopped):
             if event is not None:
                 page.event(event)
@@ -176,9 +176,9 @@ class Live:
             controlled = self.pages[0] is page
             self.pages.remove(page)
             if controlled and self.pages:
-                self.welcome(self.pages[0])
+                self.send_welcome(self.pages[0])
 
-    def welcome(self, page: Page) -> None:
+    def send_welcome(self, page: Page) -> None:
         page.event({"event": "welcome", "controls": self.pages[0] is page, "title": Path(self.scenario).parent.name, "files": self._sources,
                     "editable": self.is_editable, **self.identity()})
 
@@ -217,7 +217,7 @@ class Live:
     async def save(self, page: Page, name: str, text: str) -> None:
         """Writes a source of the programs and reloads them."""
         if name not in self._sources:
-            page.event({"event": "warning", "message": f"'{name}' is not a file of the programs"})
+            page.event({"event": "warning", "message": f"'{name}' is not a file in the folder of the programs"})
             return
         file = self.plan.parts["programs"].path / name
         part = file.with_name(f".{file.name}.part")
@@ -229,7 +229,7 @@ class Live:
             page.event({"event": "warning", "message": f"cannot write '{file}': {error.strerror}"})
             return
         self._sources[name] = text
-        self.tell({"event": "files", "files": self._sources})
+        self.broadcast({"event": "files", "files": self._sources})
         await self.reload()
 
     async def reload(self) -> None:
@@ -237,7 +237,7 @@ class Live:
         async with self._changing:
             compiled = await self.compiler.compile(self.plan)
             self.compiled = {"event": "compiled", "problems": compiled.problems, "messages": compiled.messages, "milliseconds": compiled.milliseconds}
-            self.tell(self.compiled)
+            self.broadcast(self.compiled)
             if compiled.jar is None:
                 return
             session.replace(self.jar, compiled.jar)
@@ -254,7 +254,7 @@ class Live:
                 continue  # an editor replaces a file
             if current != self._sources:
                 self._sources = current
-                self.tell({"event": "files", "files": current})
+                self.broadcast({"event": "files", "files": current})
                 await self.reload()
 
     def save_scenario(self, name: str, changes: dict[str, Any]) -> str:
@@ -299,7 +299,7 @@ def _value(text: Any) -> Any:
 
 
 class Gate:
-    """Answers requests of the page's files, and refuses those that do not come from the page."""
+    """Serves the page's files, and refuses requests from other pages."""
 
     def __init__(self, token: str) -> None:
         self.token = token

@@ -95,7 +95,7 @@ class Player:
         self._reading: asyncio.Task[None] | None = None
 
     async def start(self, scenario: str, plan: player.Plan, jar: Path, dll: Path, folder: Path, words: Sequence[str]) -> None:
-        """Starts the process; its outputs go to an empty folder."""
+        """Starts the process, which writes its outputs to an empty folder."""
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         ours, theirs = socket.socketpair()
@@ -141,7 +141,7 @@ class Player:
 
 
 def sources(plan: player.Plan) -> dict[str, str]:
-    """Returns the text of each source of the programs, by its path in their folder; nothing for a jar."""
+    """Returns the text of each Kotlin source by its path in the folder of the programs. Returns nothing for a jar."""
     if plan.parts["programs"].path.is_file():
         return {}
     programs = inputs.programs(plan.parts["programs"].path)

@@ -55,7 +55,7 @@ class RootError(Exception):
 
 
 def test(names: Sequence[str], results: Path) -> tuple[str, int]:
-    """Tests the last commit in roots. Returns the failure or an empty text, and the number of skipped roots."""
+    """Tests the last commit in roots. Returns the failure or an empty string, and the number of skipped roots."""
     shutil.rmtree(results, ignore_errors=True)
     results.mkdir(parents=True)
     if not _is_possible():
@@ -70,7 +70,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
                 if code := _test_root(name, work, results):
                     failures.append(f"{name} ended with code {code}")
             except RootError as error:
-                print_progress(f"{name}: skipped, its root cannot be made: {error}; the whole log is {_log(name)}")
+                print_progress(f"{name}: skipped, because its root cannot be created: {error}; the full log is {_log(name)}")
                 skipped += 1
             finally:
                 _remove(work / name)
@@ -113,7 +113,7 @@ def _log(name: str) -> Path:
 def _test_root(name: str, work: Path, results: Path) -> int:
     """Creates a root, and runs the demo and the tests in it. Returns the last exit code that is not 0."""
     began, root = time.monotonic(), work / name
-    print_progress(f"{name}: making the root")
+    print_progress(f"{name}: creating the root")
     _log(name).unlink(missing_ok=True)
     _make(name, work, root)
     code = _test_container(root, results) if name == CONTAINER else _test_distribution(name, root, results)
@@ -175,7 +175,7 @@ def _make(name: str, work: Path, root: Path) -> None:
 
 
 def _mirror(label: str) -> str:
-    """Returns the package mirror of this machine, or an empty text for debootstrap's default."""
+    """Returns the package mirror of this machine, or an empty string for debootstrap's default."""
     command = ["apt-get", "indextargets", "--format", "$(LABEL) $(REPO_URI)"]
     lines = subprocess.run(command, stdout=subprocess.PIPE, text=True).stdout.splitlines()
     return next((line.removeprefix(f"{label} ") for line in lines if line.startswith(f"{label} ")), "")

@@ -79,7 +79,7 @@ for (const page of PICTURED) {
 for (const page of pages.filter((name) => readFileSync(join(site, name), 'utf8').includes('<pre class="mermaid">'))) {
   suite.test(`${page} has its diagrams drawn`, async () => {
     const { tab, close } = await open(page);
-    // Material draws them into a closed shadow tree and takes the source away. An error would be drawn small.
+    // Material replaces the source by a closed shadow tree. An error would be drawn small.
     await tab.waitForFunction(() => [...document.querySelectorAll('.mermaid')]
       .every((diagram) => diagram.tagName === 'DIV' && diagram.getBoundingClientRect().height > 100));
     await close();

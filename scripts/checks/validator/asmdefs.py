@@ -80,4 +80,4 @@ def unassigned(assets: Assets, definitions: Definitions) -> Iterator[str]:
     folders = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
     for path in assets.with_ending(".cs"):
         if not any(path.startswith(folder) for folder in folders):
-            yield f"{path}: belongs to no assembly definition"
+            yield f"{path}: does not belong to an assembly definition"

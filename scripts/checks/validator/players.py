@@ -1,4 +1,4 @@
-"""Checks shaders, and that players contain what scripts of samples create: Unity strips engine components and shader variants that no scene or prefab has."""
+"""Checks the passes of shaders, and that Unity does not strip the components and shader variants that scripts of samples use."""
 import os
 import re
 from collections.abc import Iterator

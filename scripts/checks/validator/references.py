@@ -19,7 +19,7 @@ CLASSES = {
     157: "LightmapSettings", 196: "NavMeshSettings", 1001: "PrefabInstance", 1660057539: "SceneRoots",
 }
 YAML_ENDINGS = (".prefab", ".unity", ".mat", ".asset")
-# The file id of an imported asset's main object, and the kind of asset that goes with it.
+# File id and reference type of an imported asset's main object.
 IMPORTED = {".cs": ("11500000", "3"), ".shader": ("4800000", "3")}
 # The identifier of a library of programs in ProgramLibraryImporter.cs; the one of a program is its name.
 LIBRARY = "<root>"

@@ -29,7 +29,7 @@ class Block:
 
     @property
     def kind(self):
-        """The kind of test, or an empty text."""
+        """The kind of test, or an empty string."""
         kinds = {
             "story": self.page in STORIES and (self.title or self.language in ("sh", "text")),  # test_stories.py
             "project": self.page in PROJECTS and self.language in ("fbs", "kotlin", "csharp"),  # test_readme.py and test_pages.py

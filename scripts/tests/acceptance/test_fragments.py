@@ -58,24 +58,24 @@ class Fragments(Folder):
     def test_a_page_has_the_schema_of_the_fragments(self) -> None:
         self.assertEqual(len(fragments("fbs")), 1)
 
-    def written(self, kind, made):
-        """A folder with the fragments, one a file."""
+    def write_fragments(self, kind, wrap):
+        """Writes each fragment into its own file, and returns their folder."""
         os.makedirs(self.path(kind))
         for number, (place, code) in enumerate(fragments(kind)):
             # Tests of programs are quoted from the tests of the module testing.
             if "@Test" not in code:
                 with open(self.path(kind, f"Fragment{number}.{'cs' if kind == 'csharp' else 'kt'}"), "w") as file:
-                    file.write(made(number, place, code))
+                    file.write(wrap(number, place, code))
         with open(self.path("swarm.fbs"), "w") as file:
             file.write(fragments("fbs")[0][1])
         return self.path(kind)
 
     def test_csharp_compiles(self) -> None:
-        folder = Path(self.written("csharp", csharp))
+        folder = Path(self.write_fragments("csharp", csharp))
         compiled(projects.scripts_dll, inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(folder))
 
     def test_kotlin_compiles(self) -> None:
-        folder = Path(self.written("kotlin", kotlin))
+        folder = Path(self.write_fragments("kotlin", kotlin))
         compiled(projects.programs_jar, inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))
 
     def test_json_is_valid(self) -> None:

@@ -47,9 +47,9 @@ class Messages(Project):
         self.assertIn("stopped at tick 1: all rounds failed; the errors are above. To continue anyway, use --keep-going", last_error(result))
         self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
         # The message about a full heap contains the setting, and errors in inlined code the line of the call.
-        told = result.stderr + result.stdout
-        self.assertRegex(told, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
-        self.assertRegex(told, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")
+        output = result.stderr + result.stdout
+        self.assertRegex(output, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
+        self.assertRegex(output, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")
         result = self.run_it("--keep-going")
         self.assertEqual(result.returncode, 1)
         self.assertEqual((self.manifest(self.path("out"))["ticks"], self.manifest(self.path("out"))["errors"]), (10, 100))

@@ -74,24 +74,24 @@ class PackageTest(Packaged):
 
     def test_the_package_contains_only_the_files_that_unity_needs(self) -> None:
         # Scenarios are for runs from the clone, the manifest in unity/ is for git URLs.
-        left_out = re.compile(r"unity/package\.json|unity/Samples~/[^/]*/scenario\.json")
-        wanted = {path for path in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, path)) and not left_out.fullmatch(path)}
+        excluded = re.compile(r"unity/package\.json|unity/Samples~/[^/]*/scenario\.json")
+        expected = {path for path in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, path)) and not excluded.fullmatch(path)}
         built = ["Jvm~/collektive-adapter.jar", "Jvm~/collektive-host.jar", "Jvm~/collektive-library.jar",
                  "Runtime/Plugins/Collektive.FlatBuffers.dll",
                  "Runtime/Plugins/linux-x64/libcollektive_shim.so", "Samples~/GradientAscent/Programs/GradientAscent.kt",
                  "Tools~/Links.kt", "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar",
                  "Tools~/collektive-testing.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
-        wanted |= {"unity/" + path for path in built}
-        wanted |= {str(path.relative_to(ROOT).with_suffix(".clkprograms")) for path in (ROOT / "unity/Samples~").glob("*/*.fbs")}
+        expected |= {"unity/" + path for path in built}
+        expected |= {str(path.relative_to(ROOT).with_suffix(".clkprograms")) for path in (ROOT / "unity/Samples~").glob("*/*.fbs")}
         for code in (BUILD / "generated/bridge").rglob("*.cs"):
-            wanted.add(f"unity/Runtime/Bridge/Generated/{code.relative_to(BUILD / 'generated/bridge')}")
+            expected.add(f"unity/Runtime/Bridge/Generated/{code.relative_to(BUILD / 'generated/bridge')}")
         for code in (BUILD / "generated/samples").rglob("*.cs"):
             sample, *parts = code.relative_to(BUILD / "generated/samples").parts
-            wanted.add("/".join(["unity/Samples~", sample, "Generated", *parts]))
-        wanted |= {path + ".meta" for path in metas.assets(self.root)}
-        extra = [path for path in self.packed() - wanted if not re.match(r"Documentation~/|unity/Samples~/[^/]*/Programs/", path)]
+            expected.add("/".join(["unity/Samples~", sample, "Generated", *parts]))
+        expected |= {path + ".meta" for path in metas.assets(self.root)}
+        extra = [path for path in self.packed() - expected if not re.match(r"Documentation~/|unity/Samples~/[^/]*/Programs/", path)]
         self.assertEqual(extra, [])
-        self.assertEqual(sorted(wanted - self.packed()), [])
+        self.assertEqual(sorted(expected - self.packed()), [])
 
     def test_every_asset_has_its_meta(self) -> None:
         self.assertEqual(list(metas.problems(self.root)), [])

@@ -13,7 +13,7 @@ from build.places import BUILD
 RUNNER = os.path.join(BUILD, "csharp/Collektive.TestRunner.exe")
 
 
-@unittest.skipUnless(os.path.exists(RUNNER), "this system has no package of NUnit")
+@unittest.skipUnless(os.path.exists(RUNNER), "this system has no package for NUnit")
 class TestRunnerTest(Folder):
     def run_fixture(self, test, *options):
         """Runs a fixture with one test. Returns exit code and output."""

@@ -21,10 +21,10 @@ STDLIB = "it/unibo/collektive/stdlib/"
 SETTINGS = '"runtime": "collektive", "runtimeJars": "collektive", "runtimePlugin": "plugin.jar"'
 
 
-def repack(source, target, wanted=lambda name: True, change=lambda name, data: data) -> None:
+def repack(source, target, keeps=lambda name: True, change=lambda name, data: data) -> None:
     with zipfile.ZipFile(source) as old, zipfile.ZipFile(target, "w") as new:
         for name in old.namelist():
-            if wanted(name) and not name.endswith("/"):
+            if keeps(name) and not name.endswith("/"):
                 new.writestr(name, change(name, old.read(name)))
 
 

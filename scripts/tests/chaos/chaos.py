@@ -291,7 +291,7 @@ def failing(at: int, folder: str) -> dict[str, str]:
 
 
 def clock_library() -> str:
-    """Returns the path of libfaketime, or an empty text if it is not installed."""
+    """Returns the path of libfaketime, or an empty string if it is not installed."""
     return next(iter(glob.glob("/usr/lib/*/faketime/libfaketime.so.1")), "")
 
 

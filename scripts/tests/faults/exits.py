@@ -55,7 +55,7 @@ def scenario(places: dict[str, Any], folder: str, seconds: int, placement: str, 
 
 
 def recording_problem(path: str) -> str:
-    """Returns the error in a flight recording, or an empty text. Unfinished chunks have no length in their header."""
+    """Returns the error in a flight recording, or an empty string. Unfinished chunks have no length in their header."""
     if not os.path.exists(path):
         return "the flight recording is missing"
     with open(path, "rb") as file:
@@ -72,7 +72,7 @@ def recording_problem(path: str) -> str:
 
 
 def run(places: dict[str, Any], kind: str, index: int) -> str:
-    """Returns the error, or an empty text."""
+    """Returns the error, or an empty string."""
     placement = PLACEMENTS[index % 2]
     index //= 2
     runtime = places["runtimes"][index % len(places["runtimes"])]

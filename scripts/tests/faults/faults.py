@@ -115,7 +115,7 @@ class Trial:
         resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
 
     def run(self) -> tuple[str, str, str]:
-        """Returns the failure or an empty text, the line that the user sees, and which parts still work."""
+        """Returns the failure or an empty string, the line that the user sees, and the parts that still work."""
         environment = {**managed.environment(self.runtime), **self.fault.get("environment", {})}
         try:
             result = subprocess.run(self.command(), cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

@@ -62,7 +62,7 @@ class Checkout:
         output, errors = process.communicate(timeout=120)
         return subprocess.CompletedProcess(process.args, process.returncode, output, errors)
 
-    def made(self) -> list[str]:
+    def log_lines(self) -> list[str]:
         """Returns the lines that `make` has written."""
         return (self.root / "made").read_text().splitlines()
 

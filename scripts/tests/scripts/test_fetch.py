@@ -18,16 +18,16 @@ def once(key: str) -> str:
 def test_a_folder_is_filled_once_per_key(checkout: Checkout) -> None:
     for key in ["1", "1", "2", "2"]:
         assert checkout.run(once(key)).returncode == 0
-    assert checkout.made() == ["made, 0 files there"] * 2
+    assert checkout.log_lines() == ["made, 0 files there"] * 2
 
 
 def test_an_error_ends_the_step_and_names_the_log(checkout: Checkout) -> None:
     for _ in range(2):
         result = checkout.run(NOT_DONE)
         assert result.returncode == 1
-        assert f"broken failed; the whole log is {checkout.root}/build/log/broken.log" in result.stderr
+        assert f"broken failed; the full log is {checkout.root}/build/log/broken.log" in result.stderr
     assert checkout.run(once("1")).returncode == 0
-    assert checkout.made() == ["made, 0 files there"]
+    assert checkout.log_lines() == ["made, 0 files there"]
 
 
 def test_a_killed_step_starts_over(checkout: Checkout) -> None:
@@ -41,7 +41,7 @@ def test_a_killed_step_starts_over(checkout: Checkout) -> None:
     # The folder contains half of "2" now: not even "1" is there any more.
     assert checkout.run(once("1")).returncode == 0
     assert checkout.run(once("1")).returncode == 0
-    assert checkout.made() == ["made, 0 files there"] * 3
+    assert checkout.log_lines() == ["made, 0 files there"] * 3
 
 
 def test_a_new_environment_of_experiments_gets_its_additions_again(checkout: Checkout) -> None:
@@ -67,7 +67,7 @@ def test_a_second_command_waits_for_the_first_and_skips_the_step(checkout: Check
     assert first.wait() == 0
     output, errors = second.communicate()
     assert (second.returncode, output, errors) == (0, "", "")
-    assert checkout.made() == ["made, 0 files there"]
+    assert checkout.log_lines() == ["made, 0 files there"]
 
 
 def test_a_key_depends_on_contents_and_relative_paths(checkout: Checkout) -> None:

@@ -33,7 +33,7 @@ def test_only_changed_targets_are_built(project: Checkout) -> None:
             (project.root / "in").write_text(text)
         assert project.run(MODULE).returncode == 0
         assert (project.root / "build/cmake/out").read_text() == text
-    assert project.made() == ["made", "made"]
+    assert project.log_lines() == ["made", "made"]
 
 
 def test_an_up_to_date_build_does_not_wait_for_runs(project: Checkout) -> None:
@@ -58,7 +58,7 @@ def test_a_killed_build_starts_over(project: Checkout) -> None:
         project.kill(process)
     project.open_gate()
     assert project.run(MODULE).returncode == 0
-    assert project.made() == ["made", "made"]
+    assert project.log_lines() == ["made", "made"]
     assert (project.root / "build/cmake/out").read_text() == "one"
 
 
@@ -74,4 +74,4 @@ def test_a_moved_checkout_is_configured_again(project: Checkout) -> None:
     project.root = project.root.rename(project.root.with_name("moved"))
     result = project.run(MODULE)
     assert result.returncode == 0, result.stderr
-    assert project.made() == ["made", "made"]
+    assert project.log_lines() == ["made", "made"]

@@ -130,8 +130,8 @@ class Project:
         shutil.rmtree(fresh, ignore_errors=True)
         shutil.copytree(self.folder, fresh, ignore_dangling_symlinks=True)
 
-        def read(part: str, suffix: str, left_out: set[str]) -> dict[str, str]:
-            files = [file for file in (fresh / part).rglob(f"*{suffix}") if not left_out & set(file.relative_to(fresh / part).parent.parts)]
+        def read(part: str, suffix: str, excluded: set[str]) -> dict[str, str]:
+            files = [file for file in (fresh / part).rglob(f"*{suffix}") if not excluded & set(file.relative_to(fresh / part).parent.parts)]
             return {str(file.relative_to(fresh / part)): file.read_text() for file in files}
 
         schema = fresh / self.schema.relative_to(self.folder)

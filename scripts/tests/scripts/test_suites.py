@@ -34,7 +34,7 @@ suite(needs-nunit it LABELS all NUNIT COMMAND cp good.xml RESULTS/results.xml)
 
 
 def counts(cases: list[junit.Case]) -> tuple[int, int]:
-    """Returns how many tests passed and failed."""
+    """Returns the numbers of passed and failed tests."""
     failed = sum(bool(case.failure) for case in cases)
     return len(cases) - failed, failed
 
@@ -180,8 +180,8 @@ def test_an_unknown_suite_is_reported_with_the_known_ones() -> None:
 def test_suites_without_nunit_are_skipped_or_an_error_if_all_are(capsys: pytest.CaptureFixture[str]) -> None:
     suites = [*SUITES[:1], *(suite._replace(is_disabled=True) for suite in SUITES[3:5])]
     assert [suite.name for suite in command.select_suites(suites, ["all"])] == ["lint"]
-    assert "skipped unity, csharp-on-17: this system has no package of NUnit 2.6" in capsys.readouterr().err
-    with pytest.raises(Failure, match="no package of NUnit"):
+    assert "skipped unity, csharp-on-17: this system has no package for NUnit 2.6" in capsys.readouterr().err
+    with pytest.raises(Failure, match="no package for NUnit"):
         command.select_suites(suites, ["csharp"])
 
 

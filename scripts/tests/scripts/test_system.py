@@ -35,7 +35,7 @@ class Tools:
 
     @staticmethod
     def report() -> str:
-        """Returns why the system cannot be used, or nothing."""
+        """Returns the reason why the system cannot be used, or an empty string."""
         try:
             system.setup_system()
         except Failure as failure:
@@ -135,7 +135,7 @@ def test_a_tool_that_is_replaced_is_checked_again(tools: Tools) -> None:
 def test_a_cargo_that_cannot_reach_its_registry_is_a_one_line_error(tools: Tools, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr("build.console.LOGS", tools.folder / "log")
     tools.fake("cargo", 'case $1 in --version) echo cargo 1.85.0 ;; *) echo "error: failed to download from the registry" >&2; exit 101 ;; esac')
-    with pytest.raises(Failure, match=r"^flatbuffers failed; the whole log is .*flatbuffers\.log$"):
+    with pytest.raises(Failure, match=r"^flatbuffers failed; the full log is .*flatbuffers\.log$"):
         fetch.FETCHERS["flatbuffers"][1](tools.folder / "flatbuffers")
     shown = capsys.readouterr().err
     assert "failed to download from the registry" in shown

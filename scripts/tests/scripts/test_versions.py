@@ -74,11 +74,11 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None
     assert third_party("SQLite") == f"{sqlite_version} ({sqlite})"
     assert third_party("FlatBuffers C#") == f"{flatbuffers} ({crate})"
     for tools in ["npm", "prose", "site"]:
-        for name, wanted in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():
-            assert third_party(name) == wanted, name
+        for name, expected in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():
+            assert third_party(name) == expected, name
     experiments = [f"experiments/requirements{part}.txt" for part in ("", "-ray", "-test")]
     for path in ["tools/python/requirements.txt", "tools/site/requirements.txt", "tools/live/requirements.txt", *experiments]:
-        for name, wanted in re.findall(r"(?m)^(\S+)==(\S+) --hash=sha256:", text(path)):
-            assert third_party(name) == wanted, name
+        for name, expected in re.findall(r"(?m)^(\S+)==(\S+) --hash=sha256:", text(path)):
+            assert third_party(name) == expected, name
     assert third_party("actionlint") == fetch.ACTIONLINT
     assert third_party("ktlint") == pom("tools/ktlint/pom.xml").findtext(f".//{POM}dependency/{POM}version")
