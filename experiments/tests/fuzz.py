@@ -139,7 +139,7 @@ def seconds_of_rows(settings: dict[str, Any], interval: float) -> list[float]:
 
 
 def second_of(settings: dict[str, Any], tick: int) -> float:
-    """The simulated time after a tick. Times of ticks have seven digits."""
+    """Returns the simulated time after a tick, with seven digits."""
     return tick * float(f"{settings['deltaTime']:.7g}")
 
 

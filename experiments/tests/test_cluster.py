@@ -1,4 +1,4 @@
-"""A sweep on a Ray cluster of two nodes, of which one is lost."""
+"""Tests a sweep on a Ray cluster that loses one of its two nodes."""
 from collections.abc import Iterator
 
 import pytest

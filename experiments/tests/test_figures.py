@@ -1,4 +1,4 @@
-"""Figures of ./collektive plot: kinds, options, errors and files."""
+"""Tests the figures of ./collektive plot: kinds, options, errors and files."""
 import json
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""Short runs of the experiment fuzzer, and single failing calls."""
+"""Tests the experiment fuzzer in short runs, and single failing calls."""
 import random
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Statistics of experiments."""
+"""Tests the statistics of experiments."""
 from dataclasses import replace
 
 import numpy as np
@@ -79,7 +79,7 @@ def test_runs_of_equal_seeds_are_paired() -> None:
     assert (row["pairs"], row["delta"]) == (20, 1)
     assert 0.2 < row["difference_low"] < 0.3 < row["difference_high"] < 0.4
     assert row["p"] < 0.01
-    # Unpaired, the difference is hidden by noise.
+    # Without pairs, noise hides the difference.
     paired.runs["seed"] = range(40)
     row = compare(paired, "error", "program").iloc[0]
     assert row["pairs"] == 0 and row["p"] > 0.5

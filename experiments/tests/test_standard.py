@@ -1,4 +1,4 @@
-"""The standard scene and metrics in SQL: errors before the first run, and reproducible results."""
+"""Tests the standard scene and metrics in SQL: errors before the first run, and reproducible results."""
 import base64
 import copy
 import csv

@@ -19,7 +19,7 @@ from collektive_experiments import compare, files, load
 from collektive_experiments.store import Store
 
 MANY = {"vary": {"seed": "1-16"}, "set": {"seconds": 20}}
-"""Returns runs that take long enough to be disturbed."""
+"""Runs that take long enough to be disturbed."""
 
 
 def await_runs(project: Project, count: int, out: str = "out") -> None:

@@ -1,4 +1,4 @@
-"""The search for parameter values."""
+"""Tests the search for parameter values."""
 import csv
 import json
 import subprocess

@@ -77,7 +77,7 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
         try:
             run([*_java(), COMPILE_COMMAND, *compilation(schema, programs, work, jars, plugin)])
         except subprocess.CalledProcessError as error:
-            # The code of an internal error, whose usual cause is a plugin.
+            # The compiler's exit code for an internal error, usually caused by a plugin.
             if error.returncode == 2:
                 version = fetch.pom_value("kotlin.version")
                 raise Failure(f"the Kotlin compiler {version} crashed (see above); the compiler plugin may be built for another version") from error

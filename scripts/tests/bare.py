@@ -102,7 +102,7 @@ def _namespace(*command: str | Path) -> list[str | Path]:
 
 
 def _remove(folder: Path) -> None:
-    """Removes a folder, below which no mounts are left."""
+    """Removes a folder that contains no mounts."""
     subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)
 
 

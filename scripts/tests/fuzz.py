@@ -82,14 +82,14 @@ def run_each(words: list[str]) -> None:
         if name not in FUZZERS:
             raise Failure(f"test --fuzz: unknown fuzzer '{name}'; known: {' '.join(FUZZERS)}")
     if words != names + numbers or len(numbers) > 2 or not all(re.fullmatch(r"\d+", number) for number in numbers) or numbers[:1] == ["0"]:
-        raise Failure("test --fuzz: give a whole number of minutes, and a seed (see ./collektive test --help)")
+        raise Failure("test --fuzz: pass a whole number of minutes, and a seed (see ./collektive test --help)")
     seconds = 60 * int(numbers[0] if numbers else 5)
     seed = int(numbers[1]) if len(numbers) > 1 else int(time.time())
     names = names or list(FUZZERS)
     prepare(names)
     failed = [name for name in names if not run(name, seconds, seed)]
     if failed:
-        raise Failure(f"test --fuzz: see {LOGS}/fuzz-*.log; fix the defect and copy its input to the fuzzer's corpus")
+        raise Failure(f"test --fuzz: see {LOGS}/fuzz-*.log; fix the bug and copy its input to the fuzzer's corpus")
 
 
 def prepare(names: list[str]) -> None:
@@ -116,7 +116,7 @@ def run(name: str, seconds: int, seed: int) -> bool:
         code = subprocess.run(FUZZERS[name](seconds, seed), cwd=module, env=environment(name, seconds, seed), stdout=file, stderr=file).returncode
     text = log.read_text(errors="replace").replace("\r", "\n")
     if name == "shim" and code != 0:
-        # Its output names the seed, which joins the corpus in native-shim/test/fuzz.c.
+        # Its output contains the seed. Add it to the corpus in native-shim/test/fuzz.c.
         (findings / f"seed-{seed}.log").write_text(text)
     done = re.search(r"(?m)^Done \d+ runs.*", text)
     print_progress(f"fuzz {name}: {done[0] if done else 'ended early'}, {len(list(findings.iterdir()))} findings in {findings}")

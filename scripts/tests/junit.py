@@ -19,7 +19,7 @@ class Case:
 
 class _Case(TestCase):
     status = Attr()
-    """CTest's: `run`, or the way in which a test failed."""
+    """CTest's status of a test: `run`, or the kind of failure."""
 
 
 class _Suite(TestSuite):

@@ -12,7 +12,7 @@ from build.places import BUILD, COLLEKTIVE, CSHARP, NODE_MODULES, ROOT
 
 
 def run_node(test: Path, results: Path, *words: Path) -> int:
-    """Runs tests of Node and returns its exit code."""
+    """Runs a file of Node tests and returns the exit code."""
     reporters = ["--test-reporter=spec", "--test-reporter-destination=stdout", "--test-reporter=junit", f"--test-reporter-destination={results}"]
     return processes.call(["node", *reporters, test, *words], env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(NODE_MODULES)})
 

@@ -33,7 +33,7 @@ def notes(folder: Path) -> str:
 
 
 def verdict(suites: Mapping[str, Sequence[junit.Case]], folder: Path, skipped: int = 0) -> int:
-    """Prints failed tests, notes and the sums; returns the exit code."""
+    """Prints failed tests, notes and totals, and returns the exit code."""
     for name, cases in suites.items():
         for case in cases:
             if case.failure:

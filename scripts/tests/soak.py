@@ -10,7 +10,7 @@ from tests.faults.places import PROBE, PROGRAMS
 
 
 def run(minutes: float, words: list[str]) -> int:
-    """Returns the exit code of the scene, which is also the verdict."""
+    """Runs the scene, which exits with 0 if nothing grows, and returns its exit code."""
     jar = projects.programs_jar(inputs.schema(PROBE), inputs.programs(PROGRAMS))
     command = managed.command("mono-sgen", CSHARP / "Collektive.Soak.exe", f"home={jdk.find_jdk()}", f"host={HOST_JAR}", f"jar={jar}",
                               f"seconds={60 * minutes:g}", *words)

@@ -1,4 +1,4 @@
-"""Functions are compared on two runtimes, and a difference is shrunk."""
+"""Tests that functions are compared on two runtimes, and that a difference is reduced to a small run."""
 import os
 import re
 from unittest import mock

@@ -1,4 +1,4 @@
-"""Runs each lesson, and checks what its text claims."""
+"""Runs each lesson, and checks the claims of its text."""
 import csv
 import json
 import os
@@ -12,7 +12,7 @@ from build.places import ROOT
 
 LESSONS = ROOT / "scripts/lessons"
 Row = dict[str, float]
-# By lesson, whether the metrics at some seconds are as the text claims.
+# The claims of each lesson about metrics at some seconds.
 CLAIMS: dict[str, dict[float, Callable[[Row], bool]]] = {
     "gradient": {5: lambda row: row["wrong"] == 0 and row["farthest"] == 18},
     "channel": {5: lambda row: row["members"] == 10 and row["outside"] == 0},

@@ -1,4 +1,4 @@
-"""Creates a project and uses it."""
+"""Tests a project that ./collektive new creates."""
 import os
 
 from command import Folder, collektive, last_error

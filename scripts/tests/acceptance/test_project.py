@@ -61,7 +61,7 @@ class ProjectTest(Project):
         self.assertEqual(manifest["scenario"]["seed"], 3)
 
     def messages(self):
-        """Of the whole run."""
+        """Returns the message counts of the whole run."""
         with open(self.path("out", "metrics.csv")) as file:
             rows = list(csv.DictReader(file))
         return {name: sum(int(row[name]) for row in rows) for name in ("sent", "dropped", "delayed", "expired")}

@@ -1,4 +1,4 @@
-"""Recorded runs are replayed and compared."""
+"""Tests that recorded runs are replayed and compared."""
 import os
 import struct
 import zlib

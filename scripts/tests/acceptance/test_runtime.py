@@ -1,6 +1,6 @@
-"""Programs run on Collektive's own runtime, with jars and a compiler plugin of the user's.
+"""Tests programs on Collektive's own runtime, with jars and a compiler plugin from the user.
 
-The package's own library, DSL and standard library apart, stands in for Collektive's jars, and its compiler plugin for Collektive's.
+The package's library, split into DSL and standard library, replaces Collektive's jars, and its compiler plugin replaces Collektive's.
 """
 import csv
 import glob
@@ -65,7 +65,7 @@ class Runtimes(Project):
             self.assertIn(word, result.stderr)
 
     def collektive_jar(self):
-        """The jar that a run on Collektive has made of the programs as they are now."""
+        """Returns the jar that a run on Collektive compiled from the current programs."""
         project = Path(self.path("project"))
         return compiled(projects.programs_jar, inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"), inputs.jars(project / "collektive"),
                         inputs.jar(project / "plugin.jar"))

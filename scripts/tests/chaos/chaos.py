@@ -107,7 +107,7 @@ class Trial:
             for pid in marked(self.mark, "Collektive.Player.exe"):
                 kill(pid, signal.SIGKILL)
         else:
-            # Like the end of a container. Repeats, because a process may have started another one just before it was killed.
+            # As when a container ends. Repeats, because a process may have started another one just before it was killed.
             while pids := marked(self.mark):
                 for pid in pids:
                     kill(pid, signal.SIGKILL)

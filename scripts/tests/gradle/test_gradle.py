@@ -12,7 +12,7 @@ from build.places import JVM, ROOT
 
 GRADLE = os.environ.get("COLLEKTIVE_GRADLE", "gradle")
 MODULES = [pom.parent for pom in JVM.glob("*/pom.xml")]
-# Entries in which each build tool describes itself, and folders.
+# Folders, and entries that describe the build tool.
 IGNORED = re.compile(r"META-INF/(MANIFEST\.MF|maven/.*)$|.*/$")
 
 

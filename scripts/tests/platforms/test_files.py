@@ -62,7 +62,7 @@ class MachO:
         return version >> 16, version >> 8 & 0xFF
 
     def exports(self) -> set[str]:
-        """Names of its external, defined symbols."""
+        """Returns the names of the symbols that the library exports."""
         symbols, count, strings, _ = struct.unpack_from("<4I", self.command(0x2), 8)
         found = set()
         for i in range(count):
@@ -79,7 +79,7 @@ def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform
     assert file.processor == processor
     assert file.oldest_system() == system
     assert file.install_name() == "@rpath/libcollektive_shim.dylib"
-    # Names with an underscore are the linker's own.
+    # The linker adds names with an underscore.
     assert {name for name in file.exports() if not name.startswith("_")} == functions()
     # On Apple silicon, macOS loads only signed code.
     assert bool(file.command(0x1D)) == (platform == "mac-arm64")

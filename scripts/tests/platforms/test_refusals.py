@@ -43,7 +43,7 @@ def without_release(home: str, folder: Path) -> str:
 
 
 def others(platform: str) -> list[str]:
-    """JVMs of other platforms that are here."""
+    """The available JVMs of other platforms."""
     return ([] if platform == "linux-x64" else [HERE]) + [home_of(other) for other in JAVA if other != platform]
 
 

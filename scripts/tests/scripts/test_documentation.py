@@ -16,7 +16,7 @@ HEADERS = ["collektive_shim.h", "collektive_neighbours.h"]
 
 
 def undocumented_kotlin(text: str) -> Iterator[str]:
-    """Lines of public declarations without KDoc. That of a class may describe properties of its constructor by @property."""
+    """Yields the lines of public declarations without KDoc. The KDoc of a class may describe constructor properties with @property."""
     lines, last = text.splitlines(), ""
     for number, line in enumerate(lines):
         above = number - 1
@@ -36,7 +36,7 @@ def undocumented_kotlin(text: str) -> Iterator[str]:
 
 
 def undocumented_c(text: str) -> Iterator[str]:
-    """Declarations without a comment before them, or behind them on their line. The introduction describes `size`."""
+    """Yields declarations without a comment above them or on their line. The introduction of the header describes `size`."""
     lines = text.splitlines()
     inside = False
     for number, line in enumerate(lines):

@@ -38,7 +38,7 @@ def test_a_killed_step_starts_over(checkout: Checkout) -> None:
         checkout.kill(process)
     assert (checkout.root / "build/thing/half").exists()
     checkout.open_gate()
-    # The folder contains half of "2" now: not even "1" is there any more.
+    # The folder now contains half of "2" and nothing of "1".
     assert checkout.run(once("1")).returncode == 0
     assert checkout.run(once("1")).returncode == 0
     assert checkout.log_lines() == ["made, 0 files there"] * 3
@@ -48,7 +48,7 @@ def test_a_new_environment_of_experiments_gets_its_additions_again(checkout: Che
     requirements = checkout.root / "experiments/requirements.txt"
     (checkout.root / "experiments/requirements-test.txt").touch()
     pip = "fetch._install = lambda requirements, folder: (folder / requirements.name).touch(); fetch.run_logged = lambda *words: None; lock.shared(); "
-    # The second environment has no tests, and the third one the key of the first one.
+    # The second environment has no additions. The third one has the key of the first one.
     for tool, content in [("experiments-tests", "1"), ("experiments", "2"), ("experiments-tests", "1")]:
         requirements.write_text(content)
         result = checkout.run(f"{pip}fetch.fetch('{tool}')")

@@ -154,7 +154,7 @@ class Project:
         return write(self.place(self.random.choice(["scripts", "programs", "schemas"])), self.text())
 
     def text(self) -> str:
-        """Of a schema, too."""
+        """Returns content for any file, which is also a valid schema."""
         return f"/// {self.random.random()}\nstruct S{self.random.randrange(10**9)} {{ x: int; }}\n"
 
     def add_include(self) -> Path:
@@ -168,7 +168,7 @@ class Project:
         return includer
 
     def link(self) -> Path:
-        """A link to a file or to a folder outside."""
+        """Creates a link to a file or folder outside the project."""
         part = self.random.choice(["scripts", "programs", "schemas"])
         link = self.place(part)
         target = write(self.folder / "outside" / f"d{self.made}" / link.name, self.text())
@@ -184,7 +184,7 @@ class Project:
         return [Path(place, name) for place, _, found in os.walk(self.folder / part) for name in sorted(found) if Path(place, name).is_file()]
 
     def replaceable(self) -> list[Path]:
-        """Rarely included files and targets of links, without which hardly anything compiles any more."""
+        """Returns files that can be renamed or removed. Rarely includes schemas and targets of links, without which few projects compile."""
         return self.files() if self.random.random() < 0.03 else [*self.files("scripts"), *self.files("programs")]
 
     def change(self) -> Path:

@@ -58,7 +58,7 @@ def test_a_signal_that_ended_a_process_is_the_exit_code(checkout: Checkout) -> N
 
 
 def test_a_command_ends_without_an_init_process_that_reaps_orphans(checkout: Checkout) -> None:
-    # As in a container, whose first process often does not.
+    # As in a container, whose first process often does not reap orphans.
     parent_without_reaping = ("import ctypes; ctypes.CDLL(None).prctl(36, 1, 0, 0, 0); "
                               "sys.exit(__import__('subprocess').run([sys.executable, '-c', {!r}, root]).returncode)")
     orphan = run_in_group("__import__('subprocess').Popen(['sleep', '0.5']) and 0")

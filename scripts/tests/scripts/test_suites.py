@@ -144,7 +144,7 @@ def project(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> Callable[...
 def test_suites_run_with_their_fixtures_and_within_their_time(project: Callable[..., dict[str, tuple[int, int]]]) -> None:
     assert project("good", "bad", "without-fixture") == {"good": (2, 0), "bad": (1, 1), "without-fixture": (0, 1)}
     assert project("endless", "crash", "missing") == {"endless": (0, 1), "crash": (2, 1), "missing": (0, 1)}
-    # The time limit ends all of a suite.
+    # The time limit ends all processes of a suite.
     assert subprocess.run(["pgrep", "-fx", "sleep 613"], stdout=subprocess.PIPE, text=True).stdout == ""
 
 
