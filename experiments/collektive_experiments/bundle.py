@@ -43,7 +43,7 @@ def programs_jar(bundle: str, runtime: str) -> str:
 
 def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = ()) -> None:
     """
-    Makes the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code. Compiles the programs for
+    Creates the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code. Compiles the programs for
     the scenario's runtime, or for the given ones.
     `COLLEKTIVE` is the path of the command in the checkout that builds the bundle.
     """

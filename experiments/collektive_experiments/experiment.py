@@ -74,7 +74,7 @@ class Experiment:
 
     @property
     def runtimes(self) -> list[str]:
-        """The runtimes of the runs in lower case; empty for that of the scenario."""
+        """The runtimes of the runs in lower case, or an empty list for the runtime of the scenario."""
         values = dict(self.product + self.together).get(RUNTIME) or ([self.fixed[RUNTIME]] if RUNTIME in self.fixed else [])
         return sorted({value.lower() for value in values})
 

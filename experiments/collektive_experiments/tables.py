@@ -45,7 +45,7 @@ class Table:
             self._writers.append(pyarrow.csv.CSVWriter(self._files[1], schema))
 
     def add(self, row: dict[str, Any]) -> None:
-        """Adds a row; columns without a value are null."""
+        """Adds a row, in which columns without a value are null."""
         self._rows.append(row)
         if len(self._rows) == BATCH:
             self._flush()

@@ -1,4 +1,4 @@
-"""Sweeps of a project with its own schema, Kotlin, C# and scenario; shared by the tests."""
+"""Fixtures: sweeps of a project with its own schema, Kotlin, C# and scenario."""
 import json
 import os
 import shutil
@@ -24,7 +24,7 @@ class Project:
         shutil.copytree(PROJECT, folder / "project")
 
     def experiment(self, **keys: Any) -> str:
-        """Writes an experiment file; returns its path."""
+        """Writes an experiment file and returns its path."""
         path = self.folder / "experiment.json"
         path.write_text(json.dumps({"version": 1, "scenario": "project/lamps.json", **keys}, indent=1))
         return str(path)

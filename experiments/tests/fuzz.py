@@ -192,7 +192,7 @@ def check(case: Case, out: Path) -> None:
 
 
 def run_command(*words: str) -> tuple[int, str]:
-    """Runs a command of the package; returns its exit code and errors."""
+    """Runs a command of the package. Returns its exit code and errors."""
     errors = io.StringIO()
     with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):
         code = main(list(words))
@@ -200,7 +200,7 @@ def run_command(*words: str) -> tuple[int, str]:
 
 
 def damage(chance: random.Random, out: Path) -> int:
-    """Damages results; returns how many runs must be repeated that were complete or failed."""
+    """Damages results. Returns the number of complete or failed runs that must be repeated."""
     folders = sorted((out / "runs").iterdir())
     chosen = chance.sample(folders, chance.randint(1, len(folders)))
     count = 0
@@ -284,7 +284,7 @@ def try_case(case: Case, folder: Path) -> None:
 
 
 def run_failing(at: int, folder: Path, *words: str) -> tuple[int, int]:
-    """Runs a command in which one write, rename, deletion, sync or start of a process fails; returns its exit code and the number of these calls."""
+    """Runs a command in which one write, rename, deletion, sync or start of a process fails. Returns its exit code and the number of these calls."""
     calls = folder / "calls"
     calls.write_bytes(bytes(8))
     variables = {**os.environ, "LD_PRELOAD": str(BUILD / "failing.so"), "FAILING_CALLS": str(calls), "FAILING_AT": str(at),
@@ -315,7 +315,7 @@ def check_folders(out: Path) -> None:
 
 
 def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
-    """Sweeps while one call fails, resumes while another one fails, and resumes; returns how many calls of the sweep could have failed."""
+    """Sweeps while one call fails, resumes while another one fails, and resumes. Returns the number of calls of the sweep that could have failed."""
     path, out = folder / "experiment.json", folder / "out"
     path.write_text(case.text(), encoding="utf-8")
     words = ["sweep", str(path), "--out", str(out), "--jobs", "2", "--keep-going"]

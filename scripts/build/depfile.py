@@ -1,6 +1,6 @@
-"""depfile.py OUTPUT DEPFILE FOLDER...: writes that an output of the build graph depends on all files and folders below some folders.
+"""depfile.py OUTPUT DEPFILE FOLDER...: declares that an output of the build graph depends on all files and folders below FOLDER.
 
-Ninja reads such files in the form of make. A file that is added or removed changes its folder's time.
+Ninja reads DEPFILE, which has the format of make. A file that is added or removed changes its folder's time.
 """
 import sys
 from pathlib import Path

@@ -20,7 +20,7 @@ def build_parts(all_platforms: bool) -> None:
 
 
 def core(work: Path, out: Path, with_jre: bool = False, all_platforms: bool = False, repository: str = "") -> Path:
-    """Packs the package into a folder and returns the archive; `work` is an empty folder. The manifest links to pages of `repository`, if given."""
+    """Packs the package into `out` and returns the archive. `work` is an empty folder. The manifest links to pages of `repository`, if given."""
     print_progress("stage-package ...")
     content = work / "content"
     _stage(content, all_platforms)

@@ -28,7 +28,7 @@ class CompileError(Failure):
 
 
 def generator(schema: Path, *outputs: str | Path) -> list[str | Path]:
-    """Returns the command line that generates the code of a schema; outputs are --csharp DIR and --jvm DIR."""
+    """Returns the command line that generates the code of a schema. `outputs` are --csharp DIR and --jvm DIR."""
     return [find_jdk() / "bin/java", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", GENERATOR_JAR, "--flatc", FLATC, "--include",
             inputs.CORE, "--schema", schema, *outputs]
 

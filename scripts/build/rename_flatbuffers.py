@@ -1,4 +1,5 @@
-"""rename_flatbuffers.py FOLDER [SOURCE]: renames the namespace of FlatBuffers in the C# of FOLDER, which is a new copy of SOURCE if that is named.
+"""rename_flatbuffers.py FOLDER [SOURCE]: renames the namespace of FlatBuffers in the C# of FOLDER. With SOURCE, first replaces FOLDER
+by a copy of it.
 
 With its own namespace, the package works in projects that contain another copy of FlatBuffers.
 """

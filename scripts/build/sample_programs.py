@@ -49,7 +49,7 @@ def library(schema: Path, jar: zipfile.ZipFile) -> dict[str, bytes]:
 
 
 def _hash(schema: Path) -> str:
-    """Returns the hash by which the editor finds outdated libraries; SourceHash.kt defines it."""
+    """Returns the hash by which the editor finds outdated libraries, as defined in SourceHash.kt."""
     digest = hashlib.sha256()
     for file in [schema, *sources(schema)]:
         digest.update(file.name.encode() + b"\0" + file.read_bytes().replace(b"\r", b"") + b"\0")

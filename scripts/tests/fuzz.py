@@ -1,7 +1,7 @@
 """Fuzzes all code that reads untrusted input.
 
 `fuzz.py SECONDS RESULTS.xml` fuzzes scenario files, for the suite fuzz; `fuzz.py --each [NAME]... [MINUTES [SEED]]` runs all fuzzers, or those named,
-each for MINUTES. Corpora are kept in the repository: the suites replay them, and each input that showed a defect is one of their cases. New
+each for MINUTES. The corpora in the repository contain each input that showed a bug, and the suites replay them. New
 inputs that fuzzing finds stay in build/fuzz for the next run.
 """
 import os
@@ -106,7 +106,7 @@ def prepare(names: list[str]) -> None:
 
 
 def run(name: str, seconds: int, seed: int) -> bool:
-    """Runs a fuzzer, with its output in a log; returns whether it ended without a finding."""
+    """Runs a fuzzer, with its output in a log. Returns whether it ended without a finding."""
     findings, log = FUZZ / name / "findings", LOGS / f"fuzz-{name}.log"
     findings.mkdir(parents=True, exist_ok=True)
     (FUZZ / name / "corpus").mkdir(exist_ok=True)

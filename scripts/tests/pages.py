@@ -32,12 +32,12 @@ def page(results: Path) -> int:
 
 
 def live(results: Path) -> int:
-    """Tests the page of a running simulation; pictures and logs stay in build/live-page."""
+    """Tests the page of a running simulation. Keeps pictures and logs in build/live-page."""
     return run_node(ROOT / "unity/Headless~/Replay/live-test.mjs", results / "live.xml", COLLEKTIVE, BUILD / "live-page")
 
 
 def site(results: Path) -> int:
-    """Tests the site at three widths, light and dark; the pictures stay in build/site-pictures."""
+    """Tests the site at three widths, light and dark. Keeps pictures in build/site-pictures."""
     subprocess.run([COLLEKTIVE, "site", "--out", BUILD / "site"], check=True)
     return run_node(ROOT / "scripts/tests/site.mjs", results / "site.xml", BUILD / "site", BUILD / "site-pictures")
 

@@ -1,6 +1,6 @@
 """Runs a suite: `suite.py RESULTS [--lock] -- COMMAND...`.
 
-RESULTS becomes a folder. With --lock the outputs of the build are locked for use until the suite ends. The command runs in its own process group,
+Creates the folder RESULTS. With --lock, locks the build outputs for use until the suite ends. The command runs in its own process group,
 so the whole suite ends when CTest kills this process after the time limit.
 """
 import sys

@@ -1,7 +1,8 @@
-"""moving_picture.py REPLAY.html FILE.webp: makes the animation in the README from the replay page of a demo. With the address of a page of
-`./collektive live` instead, makes the one of an edit.
+"""moving_picture.py REPLAY.html FILE.webp: creates the animation in the README from the replay page of a demo. With the address of
+a page of `./collektive live` instead of REPLAY.html, creates the animation of an edit.
 
-Needs `./collektive setup npm site-tools`, and runs with build/site-tools/bin/python. Twelve pictures a second, and the last one for two seconds.
+Needs `./collektive setup npm site-tools`, and runs with build/site-tools/bin/python. The animation has twelve pictures per second,
+and shows the last one for two seconds.
 """
 import os
 import subprocess

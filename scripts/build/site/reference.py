@@ -144,7 +144,7 @@ PUBLIC = re.compile(r"^(\s*)(?:@\w+(?:\([^)]*\))?\s+)*public\s+(?!(?:final |open
 
 
 def kotlin(module: str, about: str, packages: str = "") -> Callable[[], str]:
-    """Returns a function that makes the page of a module's public declarations."""
+    """Returns a function that writes the page of a module's public declarations."""
     def make() -> str:
         page = f"# Kotlin API: {module}\n\n{about}\n"
         for path in sorted((JVM / module / "src/main/kotlin" / packages).rglob("*.kt")):

@@ -42,11 +42,13 @@ def problems(assets: Assets, classes: Mapping[str, ScriptClass]) -> Iterator[str
         except unity_yaml.UnityYamlError as error:
             yield f"{path}:{error}"
     for path, documents in files.items():
-        for problem in OneFile(assets, classes, files, path, documents).problems():
+        for problem in AssetFile(assets, classes, files, path, documents).problems():
             yield f"{path}:{problem}"
 
 
-class OneFile:
+class AssetFile:
+    """Checks one prefab, scene, material or asset."""
+
     def __init__(self, assets: Assets, classes: Mapping[str, ScriptClass], files: Files, path: str, documents: list[Document]) -> None:
         self.assets = assets
         self.classes = classes

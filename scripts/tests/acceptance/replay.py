@@ -1,4 +1,4 @@
-"""Reads the recording inside a replay page; the format is unity/Headless~/Replay/FORMAT.md."""
+"""Reads the recording inside a replay page, in the format of unity/Headless~/Replay/FORMAT.md."""
 import base64
 import gzip
 import json

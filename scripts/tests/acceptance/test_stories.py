@@ -1,7 +1,7 @@
 """Follows the tutorials: writes their files, runs their commands, and compares the output with the page.
 
-A block with a title is a file of the reader's project; a later block of the same title replaces it. Lines of a block `sh` are commands. A block
-`text` below them shows lines of what they print, in order; `...` stands for anything.
+A block with a title is a file of the reader's project. A later block with the same title replaces it. Lines of a block `sh` are commands. A block
+`text` below them shows lines of their output, in order. `...` matches any text.
 """
 import os
 import re

@@ -1,9 +1,9 @@
 /*
- * Makes one call fail that creates, writes, renames, deletes or syncs a file, or starts a program: to be preloaded (LD_PRELOAD) into a command and
- * all of its processes.
+ * Lets one call fail that creates, writes, renames, deletes or syncs a file, or starts a program. Preload this library (LD_PRELOAD) into a command
+ * and all of its processes.
  *
- * FAILING_CALLS names a file of 8 bytes that counts these calls in all processes. The call with the number FAILING_AT fails: with EIO, or with
- * EAGAIN where it is a fork. Only calls count that concern a file below FAILING_BELOW, a list of absolute paths separated by ':', or start a program.
+ * FAILING_CALLS names a file of 8 bytes that counts these calls in all processes. The call with the number FAILING_AT fails with EIO, or with EAGAIN
+ * if it is a fork. Calls on files count only below FAILING_BELOW, a list of absolute paths separated by ':'.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -41,7 +41,7 @@ __attribute__((constructor)) static void start(void)
     count = memory;
 }
 
-/* Returns whether this call fails, and sets errno then. */
+/* Returns whether this call fails. If so, sets errno. */
 static bool fails(int error)
 {
     if (count == NULL || atomic_fetch_add(count, 1) + 1 != failing)
@@ -89,7 +89,7 @@ static bool fails_at(int folder, const char *name)
     return is_below(path) && fails(EIO);
 }
 
-/* The function of libc that is called when the call does not fail. */
+/* The function of libc, which is called unless the call fails. */
 #define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 #define FILE_CALL(type, name, parameters, arguments, condition)                                                                                        \
     type name parameters                                                                                                                               \
@@ -147,7 +147,7 @@ pid_t fork(void)
     return fails(EAGAIN) ? -1 : NEXT(fork)();
 }
 
-/* Python tries each folder of PATH: only the one that has the program counts. */
+/* Python tries each folder of PATH. Only the folder that contains the program counts. */
 int execve(const char *path, char *const *words, char *const *environment)
 {
     return access(path, X_OK) == 0 && fails(EIO) ? -1 : NEXT(execve)(path, words, environment);

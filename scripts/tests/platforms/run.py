@@ -12,7 +12,7 @@ from build.places import ROOT
 from tests import junit
 
 # Omits slow and repeating tests, because an emulated JVM takes seconds to start.
-LEFT_OUT = "slow|repeats"
+EXCLUDED = "slow|repeats"
 # Of the tests in both placements, runs those in this process. qemu cannot start an emulated program from another one, does not report why a
 # program cannot be executed, and does not limit its memory.
 NOT_EMULATED = "^own_([^o]|o[^w]|own_(ends_with_its_parent|with_a_bad_launcher|out_of_memory))"
@@ -60,7 +60,7 @@ def run_shim(name: str, results: Path) -> int:
     environment = {**platforms.emulator_environment(), "CLK_TEST_JAVA_HOME": str(jre)}
     if name == "win-x64":
         subprocess.run([platforms.wine() or "wine", "wineboot", "-i"], env=environment, check=True)
-    return processes.call(["ctest", "--test-dir", str(platforms.CROSS / name), "--output-on-failure", "-j", "2", "-LE", LEFT_OUT, "-E", NOT_EMULATED,
+    return processes.call(["ctest", "--test-dir", str(platforms.CROSS / name), "--output-on-failure", "-j", "2", "-LE", EXCLUDED, "-E", NOT_EMULATED,
                            "--output-junit", str(results / f"{name}.xml")], env=environment)
 
 

@@ -1,4 +1,4 @@
-"""Dependency rules between modules; the docs match the code."""
+"""Tests the dependency rules between modules, and that the docs match the code."""
 import os
 import re
 import unittest

@@ -123,7 +123,7 @@ def test_the_results_of_ctest_are_read(tmp_path: Path) -> None:
 
 @pytest.fixture
 def project(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> Callable[..., dict[str, tuple[int, int]]]:
-    """Runs suites of a small project; returns how many tests of each passed and failed."""
+    """Runs suites of a small project. Returns the numbers of passed and failed tests of each."""
     root = checkout.root
     (root / "CMakeLists.txt").write_text(PROJECT % sys.executable)
     (root / "cmake").mkdir()
