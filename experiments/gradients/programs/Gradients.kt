@@ -29,13 +29,13 @@ private fun SensorData.start() = if (isSource) 0.0 else Double.POSITIVE_INFINITY
 
 private fun answer(distance: Double) = ActuatorData(value = minOf(distance, FAR), flag = distance < FAR)
 
-/** Distances along self-avoiding paths, which offers carry with them. */
+/** Distances along self-avoiding paths, which are part of the messages. */
 @Program("path-vector")
 public fun Aggregate<Int>.pathVector(sensors: SensorData): ActuatorData = answer(
     gradientCast(sensors.isSource, sensors.start(), metric(sensors), accumulateData = { _, toNeighbor, data -> data + toNeighbor }),
 )
 
-/** A gradient from each candidate, all the time; the nearest candidate that is a source counts. */
+/** A permanent gradient from each candidate. The nearest candidate that is a source counts. */
 @Program("multi-path")
 public fun Aggregate<Int>.multiPath(sensors: SensorData): ActuatorData {
     val distances = multiGradientCast(

@@ -12,7 +12,7 @@ namespace Fuzz
         protected override void Sense(ref fuzz.SensorData data) => data.Level = Level;
     }
 
-    /// <summary>Metrics of any names, whose values the fuzzer's model computes, too.</summary>
+    /// <summary>A scene with arbitrary metric names, whose values the fuzzer's model also computes.</summary>
     public sealed class FuzzScene : SceneBuilder
     {
         public string names = "one";
