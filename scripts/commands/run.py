@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME-seedK)")
     parser.add_argument("--debug", metavar="PORT", nargs="?", const="5005", help="wait for a debugger to attach to the JVM on this port of "
                         "127.0.0.1 (default: 5005); disables the time limit of ticks")
-    parser.add_argument("--recording", metavar="FILE.jfr", help="make a flight recording of the JVM")
+    parser.add_argument("--recording", metavar="FILE.jfr", help="write a flight recording of the JVM")
     parser.add_argument("--folder", metavar="DIR", help=argparse.SUPPRESS)
     add_run_arguments(parser)
 

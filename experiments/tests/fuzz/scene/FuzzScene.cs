@@ -38,7 +38,7 @@ namespace Fuzz
         protected override void Build(SimulationManager manager)
         {
             simulation = manager;
-            if (fate == 1) throw new InvalidOperationException("as asked");
+            if (fate == 1) throw new InvalidOperationException("as requested");
             if (fate == 2) Application.Quit(3);
             for (var i = 0; i < nodes; i++)
             {
