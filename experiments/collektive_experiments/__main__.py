@@ -100,7 +100,7 @@ def _threads(experiment: experiments.Experiment) -> int:
 
 
 def _line(message: str) -> str:
-    """Returns a message as one line: escapes control characters in names."""
+    """Returns a message on one line, with control characters escaped."""
     return re.sub(r"[\x00-\x1f\x7f\u2028\u2029]", lambda found: repr(found[0])[1:-1], message)
 
 

@@ -39,7 +39,7 @@ def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", metavar="FOLDER", help="folder of a sweep")
     parser.add_argument("--metric", nargs="+", metavar="NAME", help="draw only one figure of each of these metrics")
     parser.add_argument("--x", metavar="KEY", help="key of the horizontal axis, or time (the default of the kind line)")
-    parser.add_argument("--by", metavar="KEY", help="key that colours, markers and line styles show; the vertical axis of a heat map")
+    parser.add_argument("--by", metavar="KEY", help="key shown by colours, markers and line styles, or by the vertical axis of a heat map")
     parser.add_argument("--kind", metavar="line|box|heat|ecdf", help="kind of figure (default: line)")
     parser.add_argument("--log", metavar="x|y|xy", help="logarithmic axes")
     # Otherwise, -1:1 would be an unknown option.

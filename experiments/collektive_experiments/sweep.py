@@ -149,8 +149,8 @@ def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> fl
     return seconds[0] + seconds[2] * len(runs) / min(jobs, len(runs))
 
 
-def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, most_equal: float) -> int:
-    """Executes the remaining ones of `total` runs, and stops after `most_equal` first ones that fail in the same way. Returns the exit code of `sweep`."""
+def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, max_equal_failures: float) -> int:
+    """Executes the remaining runs of `total` ones. Stops if the first `max_equal_failures` runs all fail in the same way. Returns the exit code."""
     ended: queue.SimpleQueue[Ended | BaseException] = queue.SimpleQueue()
     progress = Progress(total, total - len(todo), jobs)
     interrupted: list[int] = []
@@ -176,7 +176,7 @@ def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, mos
                 progress.print(f"{run.name}: {outcome.status}: {outcome.message}")
                 _require_room(store)
             progress.ended(outcome)
-            if failed >= most_equal and progress.done == 0 and len(messages) == 1:
+            if failed >= max_equal_failures and progress.done == 0 and len(messages) == 1:
                 raise ExperimentError(f"the sweep stops: its first {failed} runs all failed in the same way; correct the cause and continue with "
                                       "--resume, or run all with --keep-going")
             if outcome.status == "differs":
@@ -204,8 +204,8 @@ def _require_room(store: Store) -> None:
 
 
 def check_keys(experiment: Experiment, store: Store, trust: bool, others: Iterable[tuple[dict[str, object], tuple[str | int, ...]]] = ()) -> list[str]:
-    """Validates each value of each key with the player, combined with the first values of the other keys, except those that vary together,
-    and `others` with these.
+    """Validates the values of all keys with the player. Each value is combined with the first values of the other keys. Keys that vary together
+    are validated row by row. Each entry of `others` is combined with the first values of the remaining keys.
 
     Returns the names of the metrics.
     """

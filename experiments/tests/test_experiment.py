@@ -110,7 +110,7 @@ def test_any_value_gives_a_valid_folder_name() -> None:
 ])
 def test_two_configurations_never_share_a_folder(one: dict[str, object], other: dict[str, object]) -> None:
     assert named(one) != named(other)
-    # Nor is one name a prefix of the other, because folders of unfinished runs have a suffix.
+    # A name must not be a prefix of another one either, because folders of unfinished runs have a suffix.
     assert not named(other).startswith(named(one))
 
 

@@ -96,8 +96,8 @@ void grid_free(struct grid *grid) {
 }
 
 /* Appends the entries of a range whose squared distances are in a band. Checks their row unless `any_row`: other rows may share its buckets. */
-static bool add_near(const struct grid *grid, int32_t start, int32_t end, const float place[3], const float band[2], bool any_row,
-                     int32_t row, struct hits *hits) {
+static bool append_hits(const struct grid *grid, int32_t start, int32_t end, const float place[3], const float band[2], bool any_row,
+                        int32_t row, struct hits *hits) {
     if (start >= end) return true;
     if (!reserve(&hits->keys, &hits->capacity, (int64_t)hits->count + (end - start), sizeof *hits->keys)) return false;
     const struct entry *entries = grid->entries;
@@ -136,15 +136,16 @@ static bool collect(const struct grid *grid, const float place[3], float inner, 
     int64_t rows = ((int64_t)last.y - first.y + 1) * ((int64_t)last.z - first.z + 1);
     if (length <= 0) return true;
     /* A double: the number of cells may exceed the range of int64_t. */
-    if ((double)length * (double)rows > grid->count || rows > MAX_ROWS) return add_near(grid, 0, grid->count, place, band, true, 0, hits);
+    if ((double)length * (double)rows > grid->count || rows > MAX_ROWS)
+        return append_hits(grid, 0, grid->count, place, band, true, 0, hits);
     for (int32_t y = first.y; y <= last.y; y++) {
         for (int32_t z = first.z; z <= last.z; z++) {
             int32_t row = row_of(y, z);
             int64_t start = bucket_of(grid, first.x, row);
             int64_t end = start + length, buckets = (int64_t)grid->mask + 1;
-            if (!add_near(grid, grid->starts[start], grid->starts[end < buckets ? end : buckets], place, band, false, row, hits))
+            if (!append_hits(grid, grid->starts[start], grid->starts[end < buckets ? end : buckets], place, band, false, row, hits))
                 return false;
-            if (end > buckets && !add_near(grid, 0, grid->starts[end - buckets], place, band, false, row, hits)) return false;
+            if (end > buckets && !append_hits(grid, 0, grid->starts[end - buckets], place, band, false, row, hits)) return false;
         }
     }
     return true;

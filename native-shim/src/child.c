@@ -28,7 +28,7 @@ static struct {
     prim_mutex killing;   /* held to kill or reap `process` */
     prim_child process;
     _Atomic int32_t id;          /* 0 if the child could not start */
-    char reason[ERROR_CAPACITY]; /* why it did not start, or how it ended */
+    char reason[ERROR_CAPACITY]; /* reason for the failed start, or for the end */
 } child = {.killing = PRIM_MUTEX_INIT};
 
 bool child_is_used(void) { return atomic_load_explicit(&child.used, memory_order_relaxed); }
@@ -170,7 +170,7 @@ static int32_t await_start(int64_t deadline) {
     if (result != CHANNEL_SILENT) return result == CLK_OK ? CLK_OK : error_set(result, "%s", channel_text());
     if (child.id == 0) return error_set(CLK_JVM_START, "cannot run %s: %s", child.arguments[0], child.reason);
     if (strstr(child.reason, "load main class " MAIN_CLASS) != NULL)
-        return error_set(CLK_HOST, "the class path lacks " MAIN_CLASS " of the version of this shim: %s", child.reason);
+        return error_set(CLK_HOST, "the class path does not contain " MAIN_CLASS " in the version of this shim: %s", child.reason);
     return error_set(CLK_JVM_START, "the JVM did not start: %s; correct the JVM options, or reinstall the JVM", child.reason);
 }
 

@@ -141,7 +141,7 @@ static int32_t run(struct session *session, int64_t deadline) {
     return result;
 }
 
-/* Exchanges the answer's block. The old one is still in use. */
+/* Replaces the answer's block. The old block is still in use. */
 static bool grow_answer(struct host_call *call, int32_t capacity) {
     struct block *block = slots_exchange(call->slot, capacity);
     if (block == NULL) return false;

@@ -56,7 +56,7 @@ static float distance_between(float x, float y, float z, const clk_point *to) {
     return dx * dx + dy * dy + dz * dz;
 }
 
-/* The model of a search. */
+/* Reference implementation of a search. */
 static int32_t scan(float x, float y, float z, float inner, float outer, int32_t count, clk_near *found) {
     int32_t hits = 0;
     for (int32_t i = 0; i < count; i++) {

@@ -172,7 +172,7 @@ static void start_own(void) {
                       false, 60000));
 }
 
-/* ---- Deaths of the child --------------------------------------------------------------------------------------------- */
+/* ---- Termination of the child --------------------------------------------------------------------------------------------- */
 
 static void *kill_later(void *signal) {
     int wait = (int)(random_next() % 30);

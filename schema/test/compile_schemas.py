@@ -43,7 +43,7 @@ def compile_test_schemas() -> Path:
 
 
 def compile_generated(folder: Path) -> str:
-    """Compiles the code that fuzz.py has generated in a folder. Returns the compilers' errors, or an empty text."""
+    """Compiles the code that fuzz.py has generated in a folder. Returns the compilers' errors, or an empty string."""
     try:
         sources = csharp.sources([folder / "csharp"])
         _run(csharp.command(folder / "TestSchemas.dll", sources, [*csharp.symbols(), *REFERENCES]))

@@ -1,4 +1,4 @@
-"""Prints the texts in the sources that users can see: errors, warnings, log lines, tooltips, menu entries and help.
+"""Prints the user-visible texts in the sources: errors, warnings, log lines, tooltips, menu entries and help.
 
 `build/python/bin/python scripts/checks/messages.py [PATTERN]...` prints those of the files that match, for example 'unity/*.cs'.
 """

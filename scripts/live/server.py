@@ -217,7 +217,7 @@ class Live:
     async def save(self, page: Page, name: str, text: str) -> None:
         """Writes a source of the programs and reloads them."""
         if name not in self._sources:
-            page.event({"event": "warning", "message": f"'{name}' is not a file in the folder of the programs"})
+            page.event({"event": "warning", "message": f"'{name}' is not a file in the programs folder"})
             return
         file = self.plan.parts["programs"].path / name
         part = file.with_name(f".{file.name}.part")
@@ -352,7 +352,7 @@ async def main(options: dict[str, Any]) -> int:
         try:
             await live.start()
             address = f"http://{HOST}:{gate.port}/{gate.token}/"
-            print_progress("running; Ctrl-C ends it")
+            print_progress("running; press Ctrl-C to stop")
             print(address, flush=True)
             if not options["no_browser"] and (sys.platform == "darwin" or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
                 await asyncio.to_thread(webbrowser.open, address)

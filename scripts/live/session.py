@@ -141,7 +141,7 @@ class Player:
 
 
 def sources(plan: player.Plan) -> dict[str, str]:
-    """Returns the text of each Kotlin source by its path in the folder of the programs. Returns nothing for a jar."""
+    """Returns the text of each Kotlin source by its path in the programs folder. The result is empty for a jar."""
     if plan.parts["programs"].path.is_file():
         return {}
     programs = inputs.programs(plan.parts["programs"].path)

@@ -157,7 +157,7 @@ def _steps(dockerfile: str) -> list[str]:
 
 
 def _make(name: str, work: Path, root: Path) -> None:
-    """Makes a minimal system with a clone of HEAD and this machine's settings of clients."""
+    """Creates a minimal system with a clone of HEAD and this machine's client settings."""
     suite = ROOTS[name]
     if suite == "noble":
         # Debian 12's debootstrap does not know this suite, but all Ubuntu suites work the same way.

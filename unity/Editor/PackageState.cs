@@ -22,7 +22,7 @@ namespace Collektive.Unity.Editor
                 + ": generate it again with Tools > Collektive > Generate Schema Code";
         }
 
-        /// <summary>Runs after each reload of scripts. An update of the package reloads them, but not the native library and the JVM.</summary>
+        /// <summary>Runs after each script reload. A package update reloads scripts, but not the native library or the JVM.</summary>
         [InitializeOnLoadMethod]
         private static void CheckVersions()
         {

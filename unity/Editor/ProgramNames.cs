@@ -122,8 +122,8 @@ namespace Collektive.Unity.Editor
                 }
                 else if (settings.program.Length > 0)
                 {
-                    Debug.LogWarning("'" + manager.name + "' names program '" + settings.program + "', which is in none of its libraries: select another one",
-                        manager);
+                    Debug.LogWarning(
+                        "'" + manager.name + "' names program '" + settings.program + "', which none of its libraries contains: select another one", manager);
                 }
             }
             Debug.Log("'" + manager.name + "' now refers to the libraries of its programs: save the scene", manager);

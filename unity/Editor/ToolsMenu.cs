@@ -83,7 +83,7 @@ namespace Collektive.Unity.Editor
             var projects = SchemaProject.FindAll().FindAll(isWanted);
             if (projects.Count == 0)
                 Debug.LogWarning(title
-                    + ": no sources were found. Put schemas (*.fbs) below Assets, and their programs (*.kt) into the folder Programs beside them");
+                    + ": no sources were found. Put schemas (*.fbs) below Assets, and their programs (*.kt) into a Programs folder next to them");
             return projects;
         }
     }

@@ -48,7 +48,7 @@ class Messages(Project):
         self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
         # The message about a full heap contains the setting, and errors in inlined code the line of the call.
         output = result.stderr + result.stdout
-        self.assertRegex(output, r"Java heap space, all 12\d MB: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
+        self.assertRegex(output, r"Java heap space, with all 12\d MB in use: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
         self.assertRegex(output, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")
         result = self.run_it("--keep-going")
         self.assertEqual(result.returncode, 1)

@@ -1,4 +1,4 @@
-"""Tests the commands and code of pages."""
+"""Tests the commands and code samples in the documentation."""
 import csv
 import json
 import os

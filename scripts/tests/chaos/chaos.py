@@ -182,7 +182,7 @@ class Trial:
             time.sleep(0.1)
         for pid in left:
             kill(pid, signal.SIGKILL)
-        return [f"processes are left: {'; '.join(left.values())}"]
+        return [f"leftover processes: {'; '.join(left.values())}"]
 
 
 def write_text(path: str, text: str) -> None:

@@ -137,7 +137,7 @@ class Trial:
         if best == "next tick" and "next play" not in last:
             wrong.append("the next play did not start")
         if not last.endswith("C#"):
-            wrong.append("C# does not work afterwards")
+            wrong.append("C# did not run after the fault")
         if state != ("Stopped" if best != "restart" else "None" if self.own else "Lost"):
             wrong.append(f"the JVM is {state} at the end")
         return "; ".join(wrong), read, text

@@ -1,4 +1,4 @@
-"""Fixtures of the tests of the scripts."""
+"""Fixtures for the tests of the scripts."""
 from pathlib import Path
 
 import pytest

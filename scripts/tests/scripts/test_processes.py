@@ -26,7 +26,7 @@ def child_of(checkout: Checkout) -> int:
 
 
 def ends(pid: int) -> bool:
-    """Waits until a process has ended, also if its parent does not wait for it."""
+    """Waits until a process has ended, even if its parent does not wait for it."""
     end = time.monotonic() + 20
     while time.monotonic() < end:
         status = Path(f"/proc/{pid}/stat")

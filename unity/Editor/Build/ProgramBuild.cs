@@ -152,7 +152,7 @@ namespace Collektive.Unity.Editor
 
         private static void End(int code, string output)
         {
-            ToolConsole.Show("the compiler of " + current.Schema, code, output);
+            ToolConsole.Show("the compiler for " + current.Schema, code, output);
             if (code == CompilerCrashed)
                 Debug.LogError("the Kotlin compiler crashed: the compiler plugin may be built for another version of the compiler; use the plugin's version");
             var built = current;

@@ -22,7 +22,7 @@ namespace Collektive.Unity.Editor
             EditorGUILayout.PropertyField(Fields.FindProperty(nameof(ProjectSettings.whenProgramsFail)), new GUIContent("Play Previous Programs",
                 "Whether Play starts with the previous programs when the current ones do not compile."), true);
             EditorGUILayout.PropertyField(Fields.FindProperty(nameof(ProjectSettings.reloadWhilePlaying)), new GUIContent("Reload While Playing",
-                "Whether a running simulation continues with programs that are saved while it runs. Nodes keep their state."), true);
+                "Whether a running simulation loads programs that you save during Play. Nodes keep their state."), true);
         }
 
         /// <inheritdoc/>

@@ -166,7 +166,7 @@ namespace Collektive.Headless
             nextTickMs = clock.Elapsed.TotalMilliseconds;
         }
 
-        /// <summary>Copies a node, to points on a spiral around a point.</summary>
+        /// <summary>Adds copies of a node on a spiral around a point.</summary>
         private void AddNodes(int count, JArray at)
         {
             if (count < 1 || count > MaxAdded) throw new ArgumentException("from 1 to " + MaxAdded + " nodes can be added at once");

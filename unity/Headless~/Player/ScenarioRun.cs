@@ -290,7 +290,7 @@ namespace Collektive.Headless
             if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
             Console.Error.WriteLine(
-                "collektive: the run ended, but " + manager.ErrorCount + " errors occurred in rounds, sensors, actuators, rules or handlers; they are above");
+                "collektive: the run ended, but " + manager.ErrorCount + " errors occurred in rounds, sensors, actuators, rules or handlers; see above");
             return 1;
         }
 

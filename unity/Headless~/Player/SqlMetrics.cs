@@ -29,7 +29,7 @@ namespace Collektive.Headless
         private readonly Sqlite.Statement clear, insert, insertMany;
         private readonly double[] rows;
 
-        /// <summary>Checks all metrics, on tables without nodes and with two.</summary>
+        /// <summary>Checks all metrics on an empty table and on a table with two nodes.</summary>
         /// <param name="limitMs">Milliseconds that a metric may take.</param>
         internal SqlMetrics(JsonFile file, JObject root, DataSchema schema, int limitMs)
         {

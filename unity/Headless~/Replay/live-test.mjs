@@ -196,7 +196,7 @@ suite('live', { timeout: 300000 }, async (t) => {
     await tab.click('#add');
     await eventually(() => state(view), ({ nodes }) => nodes === 110, '50 nodes should join');
     await view.getByRole('button', { name: 'Remove node' }).click();
-    await eventually(() => state(view), ({ nodes }) => nodes === 109, 'the node should leave');
+    await eventually(() => state(view), ({ nodes }) => nodes === 109, 'the node should be removed');
     await tab.fill('#count', '3');
     await tab.click('#click-adds');
     await view.click('#canvas', { position: { x: 200, y: 300 } });

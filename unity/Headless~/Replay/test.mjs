@@ -286,7 +286,7 @@ async function testSample(test, tab) {
       segments.length = 60 / header.framesPerSegment;
     }));
     await tab.locator('.side >> nth=1').waitFor();
-    await eventually(tab, (now) => now.other !== null, 'no other run');
+    await eventually(tab, (now) => now.other !== null, 'the other run did not load');
     for (const [time, frame, otherFrame] of [[3, 30, 30], [10, 100, 59]]) {
       await tab.evaluate((t) => window.replay.show(t), time);
       const now = await state(tab);

@@ -45,7 +45,7 @@ namespace Collektive.Standard
         private Vector3 target;
         private Vector3 direction;
         private float left;
-        private float wait;
+        private float remainingPause;
         private bool hasTarget;
 
         internal void Walk(Node node, Movement movement, Area area, float seconds)
@@ -59,10 +59,10 @@ namespace Collektive.Standard
             // A fast node passes several waypoints in a tick.
             while (seconds > 0)
             {
-                if (wait > 0)
+                if (remainingPause > 0)
                 {
-                    var waited = Mathf.Min(wait, seconds);
-                    wait -= waited;
+                    var waited = Mathf.Min(remainingPause, seconds);
+                    remainingPause -= waited;
                     seconds -= waited;
                     continue;
                 }
@@ -78,8 +78,8 @@ namespace Collektive.Standard
                 seconds -= way.magnitude / movement.speed;
                 transform.position = target;
                 hasTarget = false;
-                wait = movement.pause;
-                if (way.magnitude == 0 && wait == 0) return;
+                remainingPause = movement.pause;
+                if (way.magnitude == 0 && remainingPause == 0) return;
             }
         }
 

@@ -14,7 +14,7 @@ namespace Collektive.Standard
 
         internal int Count { get; private set; }
 
-        /// <summary>Adds a place unless another one is nearer than the distance. Returns whether it did.</summary>
+        /// <summary>Adds a place if it keeps the minimum distance to all others. Returns whether it was added.</summary>
         internal bool TryAdd(Vector3 place)
         {
             int x = CellOf(place.x), z = CellOf(place.z);
@@ -29,7 +29,7 @@ namespace Collektive.Standard
             return true;
         }
 
-        // Slightly wider, so that rounding does not put near places two cells apart.
+        // Slightly wider than the distance. Otherwise rounding could put close places two cells apart.
         private int CellOf(float coordinate) => minDistance > 0 ? (int)Math.Floor(coordinate / (1.001 * minDistance)) : 0;
     }
 }

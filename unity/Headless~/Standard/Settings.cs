@@ -135,7 +135,7 @@ namespace Collektive.Standard
         /// <summary>The program's answer is a velocity, applied by physics.</summary>
         Velocity,
 
-        /// <summary>The program's answer is a target, approached by physics.</summary>
+        /// <summary>The program's answer is a target position. Nodes move towards it as physical bodies.</summary>
         Target,
 
         /// <summary>Nodes follow the times in the deployment's file.</summary>

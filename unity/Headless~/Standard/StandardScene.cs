@@ -101,7 +101,7 @@ namespace Collektive.Standard
             if (deployment.nodes < 1 || deployment.nodes > MaxNodes)
                 return "'deployment.nodes' is " + deployment.nodes + "; it must be from 1 to " + MaxNodes;
             if (deployment.columns < 0) return "'deployment.columns' is " + deployment.columns + "; it must be at least 0";
-            if (!Area.IsSize(deployment.size)) return "'deployment.size' must be two numbers greater than 0, the metres along x and z";
+            if (!Area.IsSize(deployment.size)) return "'deployment.size' must be two numbers greater than 0: the lengths along x and z in metres";
             return ProblemIfNotPositive("deployment.spacing", deployment.spacing) ?? ProblemIfBelow("deployment.disorder", deployment.disorder, 0)
                 ?? ProblemIfNotPositive("deployment.radius", deployment.radius) ?? ProblemOf("deployment.polygon", deployment.polygon);
         }
@@ -174,7 +174,7 @@ namespace Collektive.Standard
                     if (tracks.Count == 0 && (id < 0 || id >= deployment.nodes))
                         return "'" + field + ".ids' contains node " + id + ", but the ids of the deployment are 0 to " + (deployment.nodes - 1);
                 }
-                if (!(set.from <= set.until)) return "'" + field + ".from' is " + Text(set.from) + ", above 'until', " + Text(set.until);
+                if (!(set.from <= set.until)) return "'" + field + ".from' is " + Text(set.from) + "; it must be at most 'until', " + Text(set.until);
             }
             return null;
         }
@@ -189,7 +189,7 @@ namespace Collektive.Standard
                 var field = "obstacles[" + i + "]";
                 if (obstacle.box.Length > 0 == obstacle.polygon.Count > 0) return "'" + field + "' needs either 'box' or 'polygon'";
                 if (obstacle.box.Length > 0 && !Area.IsPoint(obstacle.box)) return "'" + field + ".box' must be the centre, [x, z]";
-                if (!Area.IsSize(obstacle.size)) return "'" + field + ".size' must be two numbers greater than 0, the metres along x and z";
+                if (!Area.IsSize(obstacle.size)) return "'" + field + ".size' must be two numbers greater than 0, the lengths along x and z in metres";
                 var problem = ProblemOf(field + ".polygon", obstacle.polygon) ?? ProblemIfNotPositive(field + ".height", obstacle.height);
                 if (problem != null) return problem;
             }
@@ -229,7 +229,7 @@ namespace Collektive.Standard
             var placed = new PlaceGrid(deployment.kind == DeploymentKind.Poisson ? deployment.spacing : 0);
             for (var i = 0; i < deployment.nodes && manager.Failure.Length == 0; i++)
             {
-                var place = deployment.kind == DeploymentKind.Grid ? PlaceInGrid(i) : FreePlace(placed);
+                var place = deployment.kind == DeploymentKind.Grid ? PlaceInGrid(i) : FindFreePlace(placed);
                 if (place is Vector3 free) MakeNode(i, free);
             }
             if (manager.Nodes.Count == 0 && manager.Failure.Length == 0)
@@ -248,7 +248,7 @@ namespace Collektive.Standard
             return area.IsFree(place) ? place : (Vector3?)null;
         }
 
-        private Vector3? FreePlace(PlaceGrid placed)
+        private Vector3? FindFreePlace(PlaceGrid placed)
         {
             const int Attempts = 1000;
             for (var attempt = 0; attempt < Attempts; attempt++)

@@ -24,7 +24,7 @@ namespace UnityEditor
             return editor;
         }
 
-        /// Fields with drawers of the package are drawn by them; the others are not listed.
+        /// Draws the fields that have a drawer in the package. Other fields are omitted.
         public bool DrawDefaultInspector()
         {
             UnityEngine.Headless.Gui.Draw("default inspector", target.GetType().Name);

@@ -156,7 +156,7 @@ namespace CollektiveSamples.Channel
             var holder = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             holder.SetActive(false);
             holder.name = isSource ? "Source" : isTarget ? "Target" : "Node";
-            // Bodies of other nodes do not block radio.
+            // Other nodes' bodies do not block radio signals.
             holder.layer = IgnoreRaycastLayer;
             holder.transform.position = place;
             if (isSource || isTarget) holder.transform.localScale = 2 * Vector3.one;

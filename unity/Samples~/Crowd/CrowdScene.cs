@@ -81,7 +81,7 @@ namespace CollektiveSamples.Crowd
             var rows = (walkers + 19) / 20;
             for (var i = 0; i < walkers; i++)
             {
-                // Rows of ten, from near the middle outwards, not quite in line.
+                // Rows of ten walkers, starting near the middle, with small random offsets.
                 var side = i % 2 == 0 ? -1 : 1;
                 var place = new Vector3(side * (Front + Spacing * (i / 20)), BodyRadius, Spacing * (i / 2 % 10 - 4.5f));
                 place += new Vector3(manager.Random.Range(-0.3f, 0.3f), 0, manager.Random.Range(-0.3f, 0.3f));

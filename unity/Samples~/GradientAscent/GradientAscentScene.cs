@@ -40,11 +40,11 @@ namespace CollektiveSamples.GradientAscent
         public float fieldScale = 1;
 
         [SerializeField]
-        [Tooltip("Prefab of the nodes. None, as in runs without Unity: the scene builds an equal object.")]
+        [Tooltip("Prefab of the nodes. If empty, the scene builds an equivalent object, as in runs without Unity.")]
         private Node nodePrefab = null;
 
         [SerializeField]
-        [Tooltip("The source in the scene. None: the scene builds one.")]
+        [Tooltip("The source in the scene. If empty, the scene builds one.")]
         private IntensitySource sourceObject = null;
 
         private readonly List<float> distances = new List<float>();

@@ -9,7 +9,7 @@ namespace CollektiveSamples.GradientAscent
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Obstacle Sensor")]
     public sealed class ObstacleSensor : ObstacleSensor<SensorData>
     {
-        /// <summary>Number of colliders that touched the node's body in its last round: their closest points are within a radius of the centre.</summary>
+        /// <summary>Number of colliders that touched the node's body in its last round: those with a point within the body's radius.</summary>
         public int Contacts { get; private set; }
 
         /// <summary>Radius of the node's body in metres.</summary>

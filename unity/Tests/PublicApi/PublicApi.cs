@@ -13,7 +13,7 @@ namespace Collektive.Unity.PublicApi.Tests
         private const BindingFlags Declared =
             BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
-        /// <summary>Lists the types in Collektive's namespaces, which exclude generated code, without those that only generated code needs.</summary>
+        /// <summary>Lists the public types in Collektive's namespaces, except those that only generated code needs.</summary>
         internal static string Of(Assembly assembly)
         {
             var lines = new List<string>();

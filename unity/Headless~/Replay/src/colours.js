@@ -14,7 +14,7 @@ const SCALES = {
   'Blue to red': (share) => interpolateRdBu(1 - share),
 };
 const TEN = schemeObservable10.map(packed);
-// By the order in which categories appear.
+// Colours of categories, by their order of appearance.
 const CATEGORIES = {
   'Ten colours': (place) => TEN[((place % 10) + 10) % 10],
   // Steps by the golden angle, so that the first colours differ strongly and hundreds are distinct.

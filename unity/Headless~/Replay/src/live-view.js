@@ -90,7 +90,7 @@ class LivePlayer extends Player {
     }
   }
 
-  /** Shows the current time, which requests the next picture, unless it is shown. */
+  /** Shows the current time unless it is already shown. Showing it requests the next picture. */
   showNow(now) {
     const { times, frames } = this.recording;
     const last = times.length - 1;

@@ -52,7 +52,7 @@ class Files {
     return this.view.state.doc.toString();
   }
 
-  /** Shows the content of files on disk. A file with unsaved changes keeps them. */
+  /** Updates the files from disk. Files with unsaved changes keep their text. */
   update(files) {
     for (const name of this.files.keys()) if (!(name in files)) this.files.delete(name);
     for (const [name, text] of Object.entries(files)) this.updateFile(name, text);

@@ -75,7 +75,7 @@ namespace Collektive.Headless.Tests
             var jar = Path.Combine(folder, "host.jar");
             File.WriteAllText(jar, "1");
             words = new JvmSettings().ToLaunch(TestJvm.Home, jar, folder).Options;
-            File.WriteAllText(jar, "of another build");
+            File.WriteAllText(jar, "another build");
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, jar, folder).Options, Is.Not.EqualTo(words));
         }
 

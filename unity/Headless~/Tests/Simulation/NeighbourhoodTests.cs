@@ -13,7 +13,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void The_nearest_nodes_are_neighbours_and_exchange_messages()
         {
-            // On a line at 0, 1, 3 and 7 metres the nearest of each node is the one to its left, except for the first node.
+            // The nodes are at 0, 1, 3 and 7 metres. The nearest node is always the one to the left, except for the first node.
             var line = MakeLine(0, 1, 3, 7);
             foreach (var node in line) node.Node.gameObject.AddComponent<KNearestNeighbourhood>().Count = 1;
             Play(1);

@@ -45,7 +45,7 @@ namespace UnityEngine.Headless
                 for (var i = 0; i < Math.Max(controls.Count, repainted.Count); i++)
                 {
                     if (i < controls.Count && i < repainted.Count && controls[i] == repainted[i]) continue;
-                    throw new ArgumentException("The layout had the control '" + (i < controls.Count ? controls[i] : "none") + "' where the repaint has '"
+                    throw new ArgumentException("The layout had the control '" + (i < controls.Count ? controls[i] : "none") + "', but the repaint had '"
                         + (i < repainted.Count ? repainted[i] : "none") + "'");
                 }
             }

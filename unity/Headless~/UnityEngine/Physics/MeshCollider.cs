@@ -22,7 +22,7 @@ namespace UnityEngine
             }
         }
 
-        /// Assign it again after changes of its vertices, as in Unity.
+        /// As in Unity, assign the mesh again after changing its vertices.
         public Mesh sharedMesh
         {
             get => ownMesh;

@@ -199,7 +199,7 @@ namespace UnityEngine
                 kinematic = value;
                 Motion.Velocity = Motion.Spin = Vector3.zero;
                 Motion.Asleep = 0;
-                // Remove shapes that only a kinematic body can have before the change, and add them after it.
+                // Only kinematic bodies can have some shapes: remove these before the change, and add them after it.
                 if (!value) RefreshColliders();
                 Order(Physx.Order.Kinematic, new Vector3(value ? 1f : 0f, 0f, 0f));
                 Order(Physx.Order.Detection, new Vector3((int)detection, 0f, 0f));

@@ -29,7 +29,7 @@ namespace UnityEngine
         public GraphicsBuffer(Target target, int count, int stride)
         {
             if ((target & NeedsCompute) != 0 && !SystemInfo.supportsComputeShaders)
-                throw new ArgumentException("This device has no compute shaders, which a buffer of target " + target + " needs.", nameof(target));
+                throw new ArgumentException("This device does not support compute shaders, which buffers of target " + target + " require.", nameof(target));
             if (count <= 0) throw new ArgumentException("A buffer must hold at least one element.", nameof(count));
             if (stride <= 0 || stride % 4 != 0) throw new ArgumentException("A buffer's stride must be a multiple of 4.", nameof(stride));
             this.target = target;
@@ -60,7 +60,7 @@ namespace UnityEngine
                 var element = Marshal.SizeOf(data.GetType().GetElementType());
                 if (managedBufferStartIndex < 0 || count < 0 || managedBufferStartIndex + count > data.Length
                     || graphicsBufferStartIndex < 0 || graphicsBufferStartIndex * stride + count * element > memory.Length)
-                    throw new ArgumentOutOfRangeException(nameof(count), count, "Bad indices for SetData: the data or the buffer ends before them.");
+                    throw new ArgumentOutOfRangeException(nameof(count), count, "Bad indices for SetData: they exceed the data or the buffer.");
                 Marshal.Copy(pinned.AddrOfPinnedObject() + managedBufferStartIndex * element, memory, graphicsBufferStartIndex * stride, count * element);
             }
             finally

@@ -126,7 +126,7 @@ namespace Collektive.Unity
         /// <summary>By program, values of its parameters for nodes without their own values.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
 
-        /// <summary>Names of the metrics in the jars that ticks can measure.</summary>
+        /// <summary>Names of the metrics defined in the jars, which a tick measures on request.</summary>
         internal IReadOnlyList<string> Metrics { get; set; } = new string[0];
 
         /// <summary>Returns the name of the program that a node runs.</summary>

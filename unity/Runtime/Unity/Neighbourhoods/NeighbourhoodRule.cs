@@ -11,7 +11,7 @@ namespace Collektive.Unity
     public abstract class NeighbourhoodRule : NodePart
     {
         [SerializeField]
-        [Tooltip("On: neighbours receive messages from this node. Off: it also receives theirs.")]
+        [Tooltip("On: neighbours only receive messages from this node. Off: this node also receives messages from them.")]
         private bool directed;
 
         [SerializeField]

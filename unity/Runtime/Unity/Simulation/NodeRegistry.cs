@@ -96,7 +96,7 @@ namespace Collektive.Unity
             joining.Clear();
         }
 
-        /// <summary>Sends the parameters of the nodes of a program again.</summary>
+        /// <summary>Resends the parameters of all nodes that run a program.</summary>
         public void ChangeParameters(StepRequest request, string program)
         {
             foreach (var node in nodes)

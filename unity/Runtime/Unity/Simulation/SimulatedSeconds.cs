@@ -1,6 +1,6 @@
 namespace Collektive.Unity
 {
-    /// <summary>Simulated seconds as doubles.</summary>
+    /// <summary>Converts settings in simulated seconds to doubles.</summary>
     internal static class SimulatedSeconds
     {
         /// <summary>

@@ -8,7 +8,7 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Draws all links of the last tick at once from two buffers, the nodes' positions and the pairs of linked nodes, without a GameObject or a matrix
-    /// per link. Each directed link is drawn from its sender half of the way to its receiver: links in both directions form a whole line.
+    /// per link. Each directed link is drawn from its sender to the midpoint. Two opposite links form a complete line.
     /// </summary>
     [AddComponentMenu("Collektive/Link View")]
     [DisallowMultipleComponent]

@@ -51,7 +51,7 @@ public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorDa
     )
 }
 
-/** Returns the sum of the pushes away from [others] that are too near. */
+/** Returns the sum of the repulsions from [others] that are too close. */
 private fun Point3D.awayFrom(others: List<Point3D>): Point3D {
     var x = 0.0
     var y = 0.0

@@ -25,7 +25,7 @@ import kotlin.math.sqrt
         Parameter("speed", "2.5", "Speed of an exploring robot in metres per second, greater than 0."),
         Parameter("spacing", "7.5", "Distance between exploring robots in metres, greater than 0 and less than the range."),
         Parameter("casualties", "3", "Maximum number of casualties, 0 or greater. Casualties are numbered from 0."),
-        Parameter("width", "1.0", "Metres by which a path through a robot of the channel may exceed the shortest path, 0 or greater."),
+        Parameter("width", "1.0", "Maximum detour of a path through a robot of the channel, in metres, 0 or greater."),
     ],
 )
 public fun Aggregate<Int>.rescue(sensors: SensorData, device: Device): ActuatorData {

@@ -10,7 +10,7 @@ class ProgramPlaceTest {
     private fun token(name: String, line: Int) = "$name@Swarm.kt:$line#0123456789abcdef"
 
     @Test
-    fun `a token is read as its name and its place`() {
+    fun `a token has a readable name and a location`() {
         assertEquals("share", readable(token("share", 12)))
         assertEquals("Swarm.kt:12", location(token("share", 12)))
     }

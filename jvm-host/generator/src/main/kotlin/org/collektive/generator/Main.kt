@@ -76,7 +76,7 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
         output.write("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
         sanitized.binarySchema(copies.of(file), work.resolve("portable"))
         output.write("META-INF/collektive/${schema.name}.bfbs", Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
-        output.addLine(SERVICES, "${schema.name}") { output.holds("${it.replace('.', '/')}.kt") }
+        output.addLine(SERVICES, "${schema.name}") { output.contains("${it.replace('.', '/')}.kt") }
     }
 }
 

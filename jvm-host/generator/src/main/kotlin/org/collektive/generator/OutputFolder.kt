@@ -14,7 +14,7 @@ internal class OutputFolder(private val root: Path) {
         Files.write(file, bytes)
     }
 
-    fun holds(path: String): Boolean = Files.exists(root.resolve(path))
+    fun contains(path: String): Boolean = Files.exists(root.resolve(path))
 
     /** Adds [line] to a file of sorted lines. Keeps other lines for which [isWanted] holds, because schemas share the file. */
     fun addLine(path: String, line: String, isWanted: (String) -> Boolean) {

@@ -39,7 +39,7 @@ internal object ProgramCompiler {
     }
 
     /**
-     * Compiles by the options of [USAGE], prints messages to [log], and replaces the jar atomically. Overwrites the folders `generated` and `classes`
+     * Compiles programs as [USAGE] describes, prints messages to [log], and replaces the jar atomically. Overwrites the folders `generated` and `classes`
      * of the work folder.
      *
      * @return 0; 1 after an error; 2 after an exception in the Kotlin compiler or its plugin. After errors the jar is unchanged.

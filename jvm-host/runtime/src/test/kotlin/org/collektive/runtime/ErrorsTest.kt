@@ -109,7 +109,7 @@ class ErrorsTest {
     }
 
     @Test
-    fun `a pivot without its own toString, with serialised messages`() {
+    fun `a pivot without its own toString is rejected when messages are serialised`() {
         class Key
         val error = failure(JSON) { alignedOn(Key()) { evolve(0) { it } } }
         assertContains(error.message.orEmpty(), "cannot be a pivot where messages are serialised: its class does not override toString")

@@ -177,7 +177,8 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
             checkNotNull(provider) {
                 val names = found.map(RuntimeProvider::name)
                 val missing = if (name == null) "no runtime is" else "the runtime $name is not"
-                "$missing on the class path, which contains the runtimes $names: add collektive-library.jar for the built-in runtime, or collektive-adapter.jar and Collektive's jars"
+                "$missing on the class path (found: $names): " +
+                    "add collektive-library.jar for the built-in runtime, or collektive-adapter.jar and Collektive's jars"
             }
             return provider.runtimes(ViewRule)
         }

@@ -142,6 +142,6 @@ class TestNetworkTest {
     @Test
     fun `the error names a missing runtime`() {
         val error = assertFailsWith<IllegalStateException> { TestNetwork(runtime = "other") }
-        assertContains(error.message.orEmpty(), "the runtime other is not on the class path, which contains the runtimes [")
+        assertContains(error.message.orEmpty(), "the runtime other is not on the class path (found: [")
     }
 }

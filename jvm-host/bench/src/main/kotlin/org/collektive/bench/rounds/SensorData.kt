@@ -5,7 +5,7 @@ import it.unibo.collektive.stdlib.util.Point2D
 /** The sensor data of a device; the positions of obstacles are relative to it. */
 internal class SensorData(val position: Point2D, val intensity: Double, val obstacles: List<Point2D>, val isSource: Boolean)
 
-/** The result of program a: the direction to go. */
+/** The result of program a: the direction of movement. */
 internal data class Heading(val x: Double, val y: Double)
 
 /** The result of program c: whether the device leads, and how many devices its leader counted. */

@@ -31,7 +31,7 @@ internal object RoundTrip {
         DataInputStream(file.inputStream().buffered()).use { input ->
             for (name in listOf("SensorData", "ActuatorData", "GlobalData").filter { it in schema.types }) {
                 val hash = java.lang.Long.reverseBytes(input.readLong())
-                check(hash == schema.types[name]) { "$name has another fingerprint in C#" }
+                check(hash == schema.types[name]) { "the fingerprint of $name differs in C#" }
             }
             while (input.available() > 0) {
                 val positions = List(3) { input.readLittle() }

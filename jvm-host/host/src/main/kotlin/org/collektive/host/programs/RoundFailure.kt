@@ -48,7 +48,7 @@ internal object RoundFailure {
         val megabytes = Runtime.getRuntime().maxMemory() shr MEBI_BITS
         return when {
             "heap" in message || "GC overhead" in message ->
-                ", all $megabytes MB: raise the maximum heap in the JVM settings (jvm.maximumHeapMb), or store less data in the program"
+                ", with all $megabytes MB in use: raise the maximum heap in the JVM settings (jvm.maximumHeapMb), or store less data in the program"
 
             "Metaspace" in message -> ": raise -XX:MaxMetaspaceSize in the JVM settings' flags (jvm.flags), or load fewer classes"
 

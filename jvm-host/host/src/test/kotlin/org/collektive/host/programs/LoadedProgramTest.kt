@@ -43,12 +43,12 @@ class LoadedProgramTest {
 
     @Test
     fun `a full heap names the setting to raise`() {
-        val told = program.describe(OutOfMemoryError("Java heap space"), "node 1 at root")
+        val description = program.describe(OutOfMemoryError("Java heap space"), "node 1 at root")
         assertContains(
-            told,
-            "java.lang.OutOfMemoryError: Java heap space, all ${Runtime.getRuntime().maxMemory() shr 20} MB: raise the maximum heap",
+            description,
+            "java.lang.OutOfMemoryError: Java heap space, with all ${Runtime.getRuntime().maxMemory() shr 20} MB in use: raise the maximum heap",
         )
-        assertContains(told, "jvm.maximumHeapMb")
+        assertContains(description, "jvm.maximumHeapMb")
         assertContains(program.describe(OutOfMemoryError("Metaspace"), null), "-XX:MaxMetaspaceSize")
         assertContains(
             program.describe(OutOfMemoryError("Cannot reserve 4 bytes of direct buffer memory"), null),

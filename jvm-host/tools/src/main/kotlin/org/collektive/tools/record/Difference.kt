@@ -25,7 +25,7 @@ internal class Difference(private val owner: String, private val field: String, 
          */
         private val WITHOUT_EFFECT = setOf("threads", "record", "jars", "runtime", "runtimeJars")
 
-        /** Measured times, the message of a reload, and the digest, which differs only if another field differs. */
+        /** Fields that are not compared: measured times, the message of a reload, and the digest, which differs only if another field differs. */
         private val MEASURED = setOf("digest", "hostMicros", "roundMicros", "reload")
 
         /** Returns the first difference that can change the results of a session, or `null`. */

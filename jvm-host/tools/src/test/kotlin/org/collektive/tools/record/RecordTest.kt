@@ -154,7 +154,7 @@ class RecordTest {
     }
 
     @Test
-    fun `a difference of the runtimes is found in the records of both`() {
+    fun `a difference between the runtimes is found by comparing their records`() {
         val other = folder.resolve("other.clkrec")
         val programs = summing("sensors.value() + (aggregate.getClass().getName().contains(\"runtime.AggregateDevice\") ? 0 : 1)")
         val replayed = run("replay", record(jar = programs), *collektive, "--out", other)

@@ -45,7 +45,7 @@ public inline fun <reified ID : Comparable<ID>, reified V : Comparable<V>> Aggre
     maxDiameter: Int = Int.MAX_VALUE,
 ): V = gossip(local, maxDiameter) { a, b -> maxOf(a, b) }
 
-/** The least of all devices' [local] values, by [gossip]. */
+/** Returns the minimum of all devices' [local] values, spread by [gossip]. */
 public inline fun <reified ID : Comparable<ID>, reified V : Comparable<V>> Aggregate<ID>.gossipMin(
     local: V,
     maxDiameter: Int = Int.MAX_VALUE,

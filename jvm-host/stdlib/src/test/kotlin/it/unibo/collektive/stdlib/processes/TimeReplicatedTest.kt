@@ -35,7 +35,7 @@ class TimeReplicatedTest {
     }
 
     @Test
-    fun `replicas start two rounds apart, however rare rounds are`() {
+    fun `replicas start two rounds apart, even if rounds are rare`() {
         val swarm = Swarm(1)
         val ages = (1..8).map { now -> swarm.round { timeReplicated(at(now), 2, 0.8.seconds) { evolve(0) { it + 1 } } }.getValue(0) }
         assertEquals(listOf(1, 2, 3, 4, 3, 4, 3, 4), ages)
