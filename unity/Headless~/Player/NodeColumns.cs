@@ -99,11 +99,10 @@ namespace Collektive.Headless
                     sensors.ReadDue(simulation, used[i].Index, kept[i]);
                     continue;
                 }
-                for (var k = 0; k < simulation.Answer.NodeCount; k++)
-                {
-                    var (values, bytes) = simulation.Answer.Message(k);
-                    kept[i][simulation.Answer.Node(k)] = used[i].Name == "message_bytes" ? bytes : values;
-                }
+                var areBytes = used[i].Name == "message_bytes";
+                var nodes = simulation.Answer.Nodes;
+                var messages = simulation.Answer.Messages;
+                for (var k = 0; k < messages.Length; k++) kept[i][nodes[k]] = areBytes ? messages[k].Bytes : messages[k].Values;
             }
         }
 
