@@ -211,7 +211,7 @@ class ValidatorTest(unittest.TestCase):
     def test_finds_code_without_an_assembly(self) -> None:
         os.remove(os.path.join(self.root, ASMDEF))
         os.remove(os.path.join(self.root, ASMDEF + ".meta"))
-        self.assert_problem("SimulationManager.cs", "no assembly definition")
+        self.assert_problem("SimulationManager.cs", "not belong to an assembly definition")
 
     def test_finds_an_asset_that_is_not_packed(self) -> None:
         self.change("package.json", r'    "unity/Prefabs",\n', "")

@@ -55,7 +55,7 @@ def test_the_second_of_two_simultaneous_commands_waits_only_for_the_build(checko
             assert run.stdout is not None
             assert select.select([run.stdout], [], [], 20)[0], "it waits for the other run"
             assert run.stdout.readline() == "runs\n"
-        assert len(checkout.made()) == 1
+        assert len(checkout.log_lines()) == 1
     finally:
         for run in runs:
             checkout.kill(run)

@@ -14,6 +14,8 @@ mkdirSync(out, { recursive: true });
 const browser = await launch();
 try {
   const tab = await browser.newPage({ viewport: { width: 1600, height: 900 }, colorScheme });
+  // Drawing 10,000 nodes without a graphics processor takes long on a busy machine.
+  tab.setDefaultTimeout(180000);
   await tab.goto(pathToFileURL(resolve(page)).href);
   const frames = await tab.evaluate(async () => {
     await window.replay.ready;

@@ -16,7 +16,7 @@ namespace CollektiveSamples.Swarm
         private const float Spacing = 1.8f;
         private const float Pad = 1.2f;
         private const float Near = 2.5f;
-        private const float OnSurface = 1;
+        private const float InPlace = 1;
 
         private static readonly string[] ShapeNames = { "sphere", "ring", "wave", "letters" };
         private static readonly string[] Names = { "formed", "shapes", "nearest" };
@@ -35,7 +35,7 @@ namespace CollektiveSamples.Swarm
 
         /// <summary>Maximum speed in metres per second.</summary>
         [Min(0.1f)]
-        public float speed = 8;
+        public float speed = 12;
 
         [SerializeField]
         [Tooltip("Renderer that is drawn once per drone. Its material must have instancing enabled.")]
@@ -60,7 +60,7 @@ namespace CollektiveSamples.Swarm
         };
 
         /// <summary>
-        /// Writes the number of drones within a metre of the shape that they form; the number of different shapes; and the least distance in metres between the
+        /// Writes the number of drones within a metre of their places on the shape; the number of different shapes; and the least distance in metres between the
         /// centres of two drones at the beginning of the tick, at most 2.5.
         /// </summary>
         public override void Measure(double[] values)
@@ -73,7 +73,7 @@ namespace CollektiveSamples.Swarm
                 if (node.TryGetAnswer(out ActuatorData answer) && answer.Shape >= 0)
                 {
                     formed.Add(answer.Shape);
-                    if (answer.Off <= OnSurface) values[0]++;
+                    if (answer.Off <= InPlace) values[0]++;
                 }
                 manager.FindNodes(node.Position, (float)values[2], near, distances);
                 for (var i = 0; i < near.Count; i++)
@@ -99,10 +99,11 @@ namespace CollektiveSamples.Swarm
             var side = Mathf.CeilToInt(Mathf.Sqrt(drones));
             var field = Mathf.Max(side * Pad, 3 * radius) + 4;
             MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(field, 1, field));
+            // Their height is that of the shapes, which cameras frame.
             foreach (var x in new[] { -1, 1 })
             {
                 foreach (var z in new[] { -1, 1 })
-                    MakeBox("Mast", new Vector3(x * field / 2, 1.75f * radius, z * field / 2), new Vector3(0.5f, 3.5f * radius, 0.5f));
+                    MakeBox("Mast", new Vector3(x * field / 2, 1.4f * radius, z * field / 2), new Vector3(0.5f, 2.8f * radius, 0.5f));
             }
             for (var i = 0; i < drones; i++) MakeDrone(radius, new Vector3(i % side - (side - 1) / 2f, 0, i / side - (side - 1) / 2f) * Pad);
             if (droneModel != null) new GameObject("Drone View").AddComponent<DroneView>().Model = droneModel;

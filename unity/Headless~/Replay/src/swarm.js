@@ -41,7 +41,7 @@ vec3 bodyPoint(vec3 v, vec3 centre) {
 `;
 
 export class Swarm {
-  /** `slots` and `links` are the maximum numbers in calls of `show`; `materials` are those of the theme: `outline`, `halo`, `link`, `accentLine`, `trail`. */
+  /** `slots` and `links` are the maximum numbers in calls of `show`; `materials` belong to the theme: `outline`, `halo`, `link`, `accentLine`, `trail`. */
   constructor(scene, slots, links, materials) {
     this.colours = null; // see setColours
     this.detailed = slots <= DETAILED_NODES;

@@ -2,46 +2,56 @@ package drones
 
 import it.unibo.collektive.stdlib.util.Point3D
 import kotlin.math.PI
-import kotlin.math.hypot
-import kotlin.math.max
+import kotlin.math.abs
+import kotlin.math.cos
 import kotlin.math.sin
 import kotlin.math.sqrt
 
 /**
- * A surface around the origin. Shapes of one radius have about the same area.
+ * A surface around the origin, as the image of the unit square. Evenly spread points of the square are evenly spread on the surface, and near points
+ * are nearly always near there. Shapes of one radius have about the same area.
  *
- * @property isRound whether drones can turn around the vertical axis and stay on the surface.
- * @property vectorToSurface returns the vector from a place to the nearest point of the surface with a radius, or to one near it.
+ * @property isRound whether drones can turn around the vertical axis and stay on the surface: `u` is the part of a whole turn.
+ * @property pointAt returns the point of the surface with a radius for `u` and `v` from 0 to 1.
  */
-internal class Shape(val isRound: Boolean, val vectorToSurface: (place: Point3D, radius: Double) -> Point3D)
+internal class Shape(val isRound: Boolean, val pointAt: (u: Double, v: Double, radius: Double) -> Point3D)
 
 /** The shapes, in order. */
 internal val SHAPES: List<Shape> = listOf(
-    Shape(isRound = true) { place, radius -> place.atDistance(place.length, radius) - place },
+    Shape(isRound = true) { u, v, radius ->
+        val height = 2 * v - 1
+        onCircle(u, radius * sqrt(1 - height * height), radius * height)
+    },
     // A ring of three times the thickness of its tube.
-    Shape(isRound = true) { place, radius ->
-        val middle = place.copy(y = 0.0).atDistance(hypot(place.x, place.z), RING * radius)
-        val fromTube = place - middle
-        fromTube.atDistance(fromTube.length, RING / 3 * radius) - fromTube
+    Shape(isRound = true) { u, v, radius ->
+        val angle = tubeAngle(v)
+        onCircle(u, RING * radius * (1 + cos(angle) / 3), RING * radius * sin(angle) / 3)
     },
     // A square with two waves.
-    Shape(isRound = false) { place, radius ->
-        val half = WAVE * radius
-        val x = place.x.coerceIn(-half, half)
-        Point3D(Triple(x, HEIGHT * radius * sin(2 * PI * x / half), place.z.coerceIn(-half, half))) - place
+    Shape(isRound = false) { u, v, radius ->
+        val x = 2 * u - 1
+        Point3D(Triple(WAVE * radius * x, HEIGHT * radius * sin(2 * PI * x), WAVE * radius * (2 * v - 1)))
     },
     // The word HI as tubes along the strokes of its letters, readable from above.
-    Shape(isRound = false) { place, radius ->
-        val middle = STROKES.map { it.nearestTo(place, radius) }.minBy { (place - it).length }
-        val fromTube = place - middle
-        fromTube.atDistance(fromTube.length, TUBE * radius) - fromTube
+    Shape(isRound = false) { u, v, radius ->
+        var along = u * STROKES.sumOf { it.length }
+        val stroke = STROKES.first { stroke -> (along <= stroke.length || stroke === STROKES.last()).also { if (!it) along -= stroke.length } }
+        stroke.pointAt(along, 2 * PI * v, radius)
     },
 )
 
 /** A horizontal line between two points, in radii, parallel to an axis. */
-private class Stroke(val fromX: Double, val fromZ: Double, val toX: Double, val toZ: Double) {
-    fun nearestTo(place: Point3D, radius: Double) =
-        Point3D(Triple(place.x.coerceIn(fromX * radius, toX * radius), 0.0, place.z.coerceIn(fromZ * radius, toZ * radius)))
+private class Stroke(val fromX: Double, val fromZ: Double, toX: Double, toZ: Double) {
+    val isAlongX = fromZ == toZ
+    val length = abs(toX - fromX) + abs(toZ - fromZ)
+
+    /** The point of the tube at a distance from the beginning in radii, at an angle around the line. */
+    fun pointAt(along: Double, angle: Double, radius: Double): Point3D {
+        val aside = TUBE * cos(angle)
+        val x = fromX + if (isAlongX) along else aside
+        val z = fromZ + if (isAlongX) aside else along
+        return Point3D(Triple(radius * x, radius * TUBE * sin(angle), radius * z))
+    }
 }
 
 private val STROKES = listOf(
@@ -55,13 +65,20 @@ private val STROKES = listOf(
 
 internal val Point3D.length: Double get() = sqrt(x * x + y * y + z * z)
 
-private fun Point3D.copy(x: Double = this.x, y: Double = this.y, z: Double = this.z) = Point3D(Triple(x, y, z))
+private fun onCircle(turn: Double, radius: Double, height: Double) =
+    Point3D(Triple(radius * cos(2 * PI * turn), height, radius * sin(2 * PI * turn)))
 
-/** The point in the same direction at a [distance]; this one is [length] away. */
-private fun Point3D.atDistance(length: Double, distance: Double) = this * (distance / max(length, TOO_SMALL))
+/** The angle around the tube of the ring below which lies that part of the area: the solution of `angle + sin(angle) / 3 = 2 * PI * part`. */
+private fun tubeAngle(part: Double): Double {
+    var angle = 2 * PI * part
+    repeat(TUBE_STEPS) { angle = 2 * PI * part - sin(angle) / 3 }
+    return angle
+}
 
 private const val RING = 0.98
 private const val WAVE = 1.5
 private const val HEIGHT = 0.3
 private const val TUBE = 0.19
-private const val TOO_SMALL = 1e-6
+
+/** Each step divides the error by three. */
+private const val TUBE_STEPS = 20

@@ -10,24 +10,28 @@ import org.collektive.api.Device
 import org.collektive.api.Parameter
 import org.collektive.api.Program
 import org.collektive.schema.Vector3Value
-import kotlin.math.sqrt
+import kotlin.math.PI
+import kotlin.math.max
+import kotlin.math.min
 
 /**
  * Forms one shape after another. The drones elect a leader. Its clock determines the current shape, which spreads from neighbour to
- * neighbour. Each drone flies to the nearest point of the shape, circles on round shapes, and keeps its distance from other drones.
+ * neighbour. Each drone flies to its place on the shape, which follows from its place at the start, circles on round shapes, and keeps its distance from
+ * other drones.
  */
 @Program(
     "swarm",
     parameters = [
         Parameter("radius", "20.0", "Radius of the shapes in metres. All drones must fit on a sphere of this radius."),
         Parameter("shapeSeconds", "15.0", "Seconds between two shapes."),
-        Parameter("speed", "8.0", "Maximum speed of a drone in metres per second."),
+        Parameter("speed", "12.0", "Maximum speed of a drone in metres per second."),
     ],
 )
 public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorData {
     val position = requireNotNull(sensors.position()) { "the sensor data has no position" }
     val here = Point3D(Triple(position.x().toDouble(), position.y().toDouble(), position.z().toDouble()))
     val radius = device.parameters.double("radius")
+    val start = evolve(here) { it }
     val leads = boundedElection(MAX_HOPS) == localId
     val turn = share(NOT_YET) { turns ->
         val receivedTurn = turns.all.values.list.max()
@@ -38,10 +42,13 @@ public fun Aggregate<Int>.swarm(sensors: SensorData, device: Device): ActuatorDa
     if (turn != NOT_YET) {
         val fromMiddle = here - Point3D(Triple(0.0, MIDDLE * radius, 0.0))
         val shape = SHAPES[turn % SHAPES.size]
-        val toShape = shape.vectorToSurface(fromMiddle, radius)
-        off = toShape.length
-        way += toShape * PULL
-        if (shape.isRound) way += fromMiddle.around() * (ROTATION_SHARE * device.parameters.double("speed"))
+        val speed = device.parameters.double("speed")
+        val angularSpeed = if (shape.isRound) ROTATION_SHARE * speed / radius else 0.0
+        val turned = partOfPad(start.x, radius) + angularSpeed * device.time / (2 * PI)
+        val toPlace = shape.pointAt(turned, partOfPad(start.z, radius), radius) - fromMiddle
+        off = toPlace.length
+        // Slower than the maximum speed, so that drones can avoid others on the way.
+        way += toPlace * min(PULL, PULL_SHARE * speed / max(off, TOO_SMALL)) + fromMiddle.around() * angularSpeed
     }
     return ActuatorData(
         target = (here + way).toVector(),
@@ -67,15 +74,13 @@ private fun Point3D.awayFrom(others: List<Point3D>): Point3D {
     return Point3D(Triple(x, y, z))
 }
 
-/** The direction in which a point turns around the vertical axis; 0 on the axis. */
-private fun Point3D.around(): Point3D {
-    val fromAxis = sqrt(x * x + z * z)
-    return if (fromAxis < TOO_SMALL) ORIGIN else Point3D(Triple(-z / fromAxis, 0.0, x / fromAxis))
-}
+/** The velocity of a point that turns around the vertical axis by a radian per second. */
+private fun Point3D.around() = Point3D(Triple(-z, 0.0, x))
+
+/** A coordinate of the square from which the drones start, from 0 to 1. */
+private fun partOfPad(coordinate: Double, radius: Double) = (coordinate / (PAD * radius) + 0.5).coerceIn(0.0, 1.0)
 
 private fun Point3D.toVector() = Vector3Value(x = x.toFloat(), y = y.toFloat(), z = z.toFloat())
-
-private val ORIGIN = Point3D(Triple(0.0, 0.0, 0.0))
 
 /** Bound of the election in hops, at least the diameter of the swarm, so that one drone leads all others. */
 private const val MAX_HOPS = 120
@@ -84,13 +89,19 @@ private const val NOT_YET = -1
 /** Height of the centre of the shapes, in radii. */
 private const val MIDDLE = 1.75
 
-/** Speed of a drone in metres per second, for each metre of distance from the shape. */
+/** Side of the square from which the drones start, in radii. */
+private const val PAD = 2.36
+
+/** Speed of a drone in metres per second, for each metre of distance from its place. */
 private const val PULL = 1.5
+
+/** Greatest such speed, as a share of the maximum speed. */
+private const val PULL_SHARE = 0.8
 
 /** Distance in metres below which drones repel each other, and the strength of the repulsion. */
 private const val MIN_DISTANCE = 1.5
-private const val PUSH = 3.0
+private const val PUSH = 9.0
 
-/** Share of the speed with which drones turn around the axis. */
+/** Speed at the equator of the sphere, as a share of the maximum speed. */
 private const val ROTATION_SHARE = 0.4
 private const val TOO_SMALL = 1e-6

@@ -3,51 +3,53 @@ package drones
 import it.unibo.collektive.stdlib.util.Point3D
 import org.junit.jupiter.api.Test
 import kotlin.math.PI
-import kotlin.random.Random
+import kotlin.math.abs
+import kotlin.math.hypot
+import kotlin.math.sin
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
 class ShapeTest {
     @Test
-    fun `following the vector leads to the shape`() {
-        val random = Random(1)
-        for ((number, shape) in SHAPES.withIndex()) {
-            repeat(200) {
-                var place = Point3D(Triple(random.nextDouble(-40.0, 40.0), random.nextDouble(-40.0, 40.0), random.nextDouble(-40.0, 40.0)))
-                repeat(20) { place += shape.vectorToSurface(place, RADIUS) }
-                assertTrue(shape.vectorToSurface(place, RADIUS).length < 1e-6, "shape $number at $place")
-            }
+    fun `places are on the surface`() {
+        val (sphere, ring, wave, letters) = SHAPES
+        for ((u, v) in grid(50)) {
+            assertEquals(RADIUS, sphere.pointAt(u, v, RADIUS).length, 1e-9)
+            val onRing = ring.pointAt(u, v, RADIUS)
+            assertEquals(0.98 * RADIUS / 3, hypot(hypot(onRing.x, onRing.z) - 0.98 * RADIUS, onRing.y), 1e-9)
+            val onWave = wave.pointAt(u, v, RADIUS)
+            assertEquals(0.3 * RADIUS * sin(2 * PI * onWave.x / (1.5 * RADIUS)), onWave.y, 1e-9)
+            assertTrue(abs(letters.pointAt(u, v, RADIUS).y) <= 0.19 * RADIUS)
         }
     }
 
     @Test
-    fun `the ways to the shapes have known lengths`() {
-        val (sphere, ring, wave, letters) = SHAPES
-        assertEquals(-10.0, sphere.vectorToSurface(point(30.0, 0.0, 0.0), RADIUS).x, 1e-9)
-        assertEquals(0.98 * RADIUS * 4 / 3 - 40, ring.vectorToSurface(point(40.0, 0.0, 0.0), RADIUS).x, 1e-9)
-        assertEquals(-10.0, wave.vectorToSurface(point(1.5 * RADIUS + 10, 3.0, 0.0), RADIUS).x, 1e-9)
-        assertEquals(0.3 * RADIUS - 1, wave.vectorToSurface(point(0.375 * RADIUS, 1.0, 5.0), RADIUS).y, 1e-9)
-        assertEquals(0.19 * RADIUS - 9, letters.vectorToSurface(point(-0.7 * RADIUS, 9.0, 0.0), RADIUS).y, 1e-9)
+    fun `the strokes of the letters have the same places everywhere`() {
+        val letters = SHAPES.last()
+        // H has two strokes of 2.4 radii and one of 1.2, and I one of 2.4 and two of 0.8.
+        assertEquals(Point3D(Triple(-1.11 * RADIUS, 0.0, -1.2 * RADIUS)).toString(), letters.pointAt(0.0, 0.0, RADIUS).toString())
+        assertEquals(1.2 * RADIUS, letters.pointAt(2.4 / 10, 0.0, RADIUS).z, 1e-9)
+        assertEquals(1.3 * RADIUS, letters.pointAt(1.0, 0.0, RADIUS).x, 1e-9)
     }
 
+    /** The distances to the nearest of 10,000 even places are those of the sphere, apart from its poles and from crossing strokes. */
     @Test
-    fun `the vector from the centre of a shape is finite`() {
-        for (shape in SHAPES) assertTrue(shape.vectorToSurface(point(0.0, 0.0, 0.0), RADIUS).length.isFinite())
+    fun `drones are spread about evenly on all shapes`() {
+        for ((number, shape) in SHAPES.withIndex()) {
+            val cells = grid(100).map { (u, v) -> shape.pointAt(u, v, RADIUS) }.groupBy { Triple(cell(it.x), cell(it.y), cell(it.z)) }
+            val area = 4 * PI * RADIUS * RADIUS
+            // A cell of the side a of a flat part contains about a * a / area of all places, and up to three times as many on slopes and crossings.
+            val most = cells.values.maxOf { it.size } / 10_000.0
+            assertTrue(most < 4 * CELL * CELL / area, "shape $number: $most")
+        }
     }
 
-    /** Counts random points near the surface. Their number is proportional to the area. */
-    @Test
-    fun `all shapes have about the area of the sphere`() {
-        val random = Random(2)
-        val places = List(400_000) { point(random.nextDouble(-45.0, 45.0), random.nextDouble(-45.0, 45.0), random.nextDouble(-45.0, 45.0)) }
-        val areas = SHAPES.map { shape -> places.count { shape.vectorToSurface(it, RADIUS).length < 0.5 } / 400_000.0 * 90 * 90 * 90 }
-        assertEquals(4 * PI * RADIUS * RADIUS, areas.first(), 400.0)
-        for ((number, area) in areas.withIndex()) assertEquals(1.0, area / areas.first(), 0.35, "shape $number")
-    }
+    private fun cell(coordinate: Double) = Math.floor(coordinate / CELL)
 
-    private fun point(x: Double, y: Double, z: Double) = Point3D(Triple(x, y, z))
+    private fun grid(side: Int) = (0 until side * side).map { Pair((it % side + 0.5) / side, (it / side + 0.5) / side) }
 
     private companion object {
         const val RADIUS = 20.0
+        const val CELL = 4.0
     }
 }

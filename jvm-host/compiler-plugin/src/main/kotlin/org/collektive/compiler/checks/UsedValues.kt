@@ -71,7 +71,7 @@ internal fun isValueUsed(expression: FirExpression): Boolean {
     return true
 }
 
-/** Whether the result of this call is that of [lambda], as with `run` and `let`. */
+/** Whether this call returns the result of [lambda], as with `run` and `let`. */
 private fun FirFunctionCall.returnsValueOf(lambda: FirAnonymousFunction): Boolean {
     val result = parameterOf(lambda)?.returnTypeRef?.coneType?.typeArguments?.lastOrNull()?.type
     return result is ConeTypeParameterType && result == callee?.resolvedReturnType
