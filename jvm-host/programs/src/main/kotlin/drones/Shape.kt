@@ -8,8 +8,8 @@ import kotlin.math.sin
 import kotlin.math.sqrt
 
 /**
- * A surface around the origin, as the image of the unit square. Evenly spread points of the square are evenly spread on the surface, and near points
- * are nearly always near there. Shapes of one radius have about the same area.
+ * A surface around the origin, as the image of the unit square. Evenly spread points of the square are evenly spread on the surface, and
+ * near points are nearly always near there. Shapes of one radius have about the same area.
  *
  * @property isRound whether drones can turn around the vertical axis and stay on the surface: `u` is the part of a whole turn.
  * @property pointAt returns the point of the surface with a radius for `u` and `v` from 0 to 1.
@@ -35,8 +35,9 @@ internal val SHAPES: List<Shape> = listOf(
     // The word HI as tubes along the strokes of its letters, readable from above.
     Shape(isRound = false) { u, v, radius ->
         var along = u * STROKES.sumOf { it.length }
-        val stroke = STROKES.first { stroke -> (along <= stroke.length || stroke === STROKES.last()).also { if (!it) along -= stroke.length } }
-        stroke.pointAt(along, 2 * PI * v, radius)
+        var stroke = 0
+        while (stroke < STROKES.lastIndex && along > STROKES[stroke].length) along -= STROKES[stroke++].length
+        STROKES[stroke].pointAt(along, 2 * PI * v, radius)
     },
 )
 

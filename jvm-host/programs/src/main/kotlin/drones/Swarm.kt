@@ -16,8 +16,8 @@ import kotlin.math.min
 
 /**
  * Forms one shape after another. The drones elect a leader. Its clock determines the current shape, which spreads from neighbour to
- * neighbour. Each drone flies to its place on the shape, which follows from its place at the start, circles on round shapes, and keeps its distance from
- * other drones.
+ * neighbour. Each drone flies to its place on the shape, which follows from its place at the start, circles on round shapes, and keeps its
+ * distance from other drones.
  */
 @Program(
     "swarm",
