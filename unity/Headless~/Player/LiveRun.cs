@@ -142,7 +142,7 @@ namespace Collektive.Headless
                 else if (command["add"] != null) AddNodes((int)command["add"], (JArray)command["at"]);
                 else if (command["remove"] != null) RemoveNode((int)command["remove"]);
                 else if (command["parameter"] != null) SetParameter((string)command["program"], (string)command["parameter"], (string)command["value"]);
-                else if (command.Property("select") != null) selected = (int?)command["select"] ?? -1;
+                else if (command.Property("select") != null) manager.Simulation.Inspected = selected = (int?)command["select"] ?? -1;
                 else throw new ArgumentException("unknown command");
                 if (!isRunning) Refresh();
             }

@@ -15,15 +15,31 @@ namespace Collektive.Headless
     {
         private const int MaxRows = 60;
 
-        /// <returns>Sensor data, answer, last error and incoming links of a node; null for an unknown node.</returns>
+        /// <returns>Sensor data, answer, last error, incoming links, state and last round of a node; null for an unknown node.</returns>
         internal static JObject Of(SimulationManager manager, int id)
         {
             var node = id < 0 ? null : manager.Find(id);
             if (node == null) return null;
+            // None until a tick has inspected the node.
+            var answer = manager.Tick > 0 && manager.Simulation.Answer.InspectedNode == id ? manager.Simulation.Answer : null;
             return new JObject(
                 new JProperty("id", id), new JProperty("program", manager.Settings.ProgramOf(node)),
                 new JProperty("sensors", Rows(Sensed(manager.Simulation, id))), new JProperty("answer", Rows(node.Answer)),
-                new JProperty("error", node.LastError), new JProperty("links", Links(manager, id)));
+                new JProperty("error", node.LastError), new JProperty("links", Links(manager, id)),
+                new JProperty("state", answer == null ? null : State(answer)),
+                new JProperty("roundMicros", answer?.InspectedRoundNanos / 1000.0));
+        }
+
+        /// <summary>Returns path and text of each stored value.</summary>
+        private static JArray State(StepAnswer answer)
+        {
+            var rows = new JArray();
+            for (var i = 0; i < answer.StateCount; i++)
+            {
+                var (path, value) = answer.State(i);
+                rows.Add(new JArray(path, value));
+            }
+            return rows;
         }
 
         /// <summary>Returns the sender and the length of each link on which a node receives.</summary>

@@ -87,6 +87,22 @@ namespace Collektive.Bridge
             return (metric.Value, metric.Error);
         }
 
+        /// <summary>Id of the node that the step inspected, or -1.</summary>
+        public int InspectedNode => response.Inspection?.Node ?? -1;
+
+        /// <summary>Nanoseconds of the last round of <see cref="InspectedNode"/>, or 0 if it had none since it is inspected.</summary>
+        public long InspectedRoundNanos => response.Inspection.GetValueOrDefault().RoundNanos;
+
+        /// <summary>Number of stored values of <see cref="InspectedNode"/>, which is not -1.</summary>
+        public int StateCount => response.Inspection.GetValueOrDefault().StateLength;
+
+        /// <summary>Path and text of a stored value of <see cref="InspectedNode"/>; ascending by path. Allocates.</summary>
+        public (string Path, string Value) State(int index)
+        {
+            var entry = response.Inspection.GetValueOrDefault().State(index).GetValueOrDefault();
+            return (entry.Path, entry.Value);
+        }
+
         /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
         public int Node(int index) => response.Nodes(index);
 

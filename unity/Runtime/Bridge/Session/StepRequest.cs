@@ -39,6 +39,9 @@ namespace Collektive.Bridge
         /// <summary>Whether answers contain <see cref="StepAnswer.Metric"/>.</summary>
         public bool Measures { get; set; }
 
+        /// <summary>Id of the node that <see cref="StepAnswer.InspectedNode"/> describes, or -1.</summary>
+        public int Inspected { get; set; } = -1;
+
         /// <summary>Directed links made or changed since the last step.</summary>
         internal GrowingArray<LinkRecord> Links { get; } = new GrowingArray<LinkRecord>();
 
@@ -127,7 +130,7 @@ namespace Collektive.Bridge
             var nodesRemovedVector = Block(builder, nodesRemoved, sizeof(int));
             builder.Finish(Frame.StepRequest.CreateStepRequest(
                 builder, tick, time, deltaTime, nodesRemovedVector, nodesAddedVector, linksRemovedVector, linksVector, dueVector,
-                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload, MeasuresMessages, Measures, nodesChangedVector).Value);
+                new Offset<Frame.Opaque>(sensors), new Offset<Frame.Opaque>(globals), reload, MeasuresMessages, Measures, nodesChangedVector, Inspected).Value);
         }
 
         private Offset<Frame.ReloadRequest> WriteReload(FlatBufferBuilder builder)

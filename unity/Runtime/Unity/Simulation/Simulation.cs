@@ -139,6 +139,9 @@ namespace Collektive.Unity
         /// <summary>Whether answers contain the metrics of programs.</summary>
         internal bool Measures { get; set; }
 
+        /// <summary>Id of the node that answers describe, or -1.</summary>
+        internal int Inspected { get; set; } = -1;
+
         /// <summary>Number of nodes with a round in the last tick.</summary>
         internal int DueCount => due.Count;
 
@@ -317,6 +320,7 @@ namespace Collektive.Unity
             {
                 session.Request.MeasuresMessages = MeasuresMessages;
                 session.Request.Measures = Measures;
+                session.Request.Inspected = Inspected;
                 session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
             }
             Finish();

@@ -24,6 +24,9 @@ public interface DeviceRuntime {
      */
     public fun commit(): Export
 
+    /** Returns at most [limit] stored values by their paths, as text. Call it only while no round runs. The default returns nothing. */
+    public fun state(limit: Int): Map<String, Any?> = emptyMap()
+
     /**
      * Removes the state, and the messages that receivers have not read. Call it only while no round runs.
      *

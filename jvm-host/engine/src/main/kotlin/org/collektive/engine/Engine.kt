@@ -32,6 +32,8 @@ public class Engine @JvmOverloads constructor(
     private var turns = IntArray(0)
     private var linkCount = 0
     private var reloadedCount = 0
+    private var inspected = -1
+    private var inspectedNanos = 0L
     private val runtimesOfNodes = object : AbstractList<DeviceRuntime>() {
         override val size get() = nodes.size
         override fun get(index: Int) = nodes.node(index).runtime
@@ -73,6 +75,8 @@ public class Engine @JvmOverloads constructor(
         apply(tick)
         result.nodeCount = nodes.size
         result.linkCount = linkCount
+        if (tick.inspected != inspected) inspectedNanos = 0
+        inspected = tick.inspected
         if (!isSequential) order.arrange(nodes, linkCount, tick.number)
         runtimes.freeUnused(runtimesOfNodes)
         findDue(tick)
@@ -86,13 +90,17 @@ public class Engine @JvmOverloads constructor(
     }
 
     /**
-     * Runs [work] once on a round thread. It must catch the exceptions of users' code.
+     * Runs [work], which errors call [name], once on a round thread. It must catch the exceptions of users' code.
      *
      * @throws RoundTimeoutException when it still runs at the [deadline] of [step]; the engine must then be closed.
      */
-    public fun run(deadline: Long, work: () -> Unit) {
-        runOnPool(workTask, work, 1, deadline, "metrics")
+    public fun run(deadline: Long, name: String, work: () -> Unit) {
+        runOnPool(workTask, work, 1, deadline, name)
     }
+
+    /** Returns the node [Tick.inspected] after the last [step], with at most [limit] values, or `null` for an unknown node. */
+    public fun inspect(limit: Int): NodeState? =
+        nodes.find(inspected)?.let { NodeState(it.id, inspectedNanos, it.runtime.state(limit)) }
 
     /**
      * Returns all nodes after the last [step].
@@ -271,12 +279,15 @@ public class Engine @JvmOverloads constructor(
             val index = indexOf(turn)
             val node = result.node(index)
             thread.begin(node)
+            val isInspected = node.id == inspected
+            val began = if (isInspected) System.nanoTime() else 0
             try {
                 result.answered(index, answer(node, data, worker, index))
             } catch (failure: Throwable) {
                 // Any exception of a program, including errors of the JVM, fails only its round.
                 result.failed(index, describe(node, failure))
             }
+            if (isInspected) inspectedNanos = System.nanoTime() - began
             thread.end()
         }
     }
@@ -308,6 +319,9 @@ public class Engine @JvmOverloads constructor(
         const val PREFETCHED_ROUNDS = 64
     }
 }
+
+/** A node's stored values by their paths, and the duration of its last round since it is inspected; 0 nanoseconds without one. */
+public class NodeState(public val id: Int, public val roundNanos: Long, public val values: Map<String, Any?>)
 
 /** Thrown when the answer of a program cannot be written; the message states the reason. */
 public class InvalidAnswerException(message: String) : IllegalStateException(message)

@@ -48,7 +48,10 @@ public class Tick {
     /** Whether the answer contains the metrics of the session. */
     public var measures: Boolean = false
 
-    /** Resets everything except [number], [time], [deltaTime], [measuresMessages] and [measures]. Keeps the memory. */
+    /** Id of the node to [inspect][Engine.inspect], or -1. */
+    public var inspected: Int = -1
+
+    /** Resets everything except [number], [time], [deltaTime], [measuresMessages], [measures] and [inspected]. Keeps the memory. */
     public fun clear() {
         reload = null
         nodesRemoved.clear()

@@ -56,6 +56,25 @@ class MailboxRuntimesTest {
     }
 
     @Test
+    fun `both runtimes return the stored values by their paths`() {
+        for (runtimes in listOf(AggregateRuntimes(), MailboxRuntimes())) {
+            TestEngine(program { alignedOn("outer") { evolve(0) { it + 1 } + alignedOn(7) { evolve(3) { it } } } }, runtimes = runtimes).use {
+                with(it) {
+                    step {
+                        add(3)
+                        due(3)
+                        inspected = 3
+                    }
+                }
+                val state = checkNotNull(it.engine.inspect(limit = 10))
+                assertEquals(mapOf("outer" to 1, "outer > 7" to 3), state.values)
+                assertTrue(state.roundNanos > 0)
+                assertEquals(1, it.engine.inspect(limit = 1)?.values?.size)
+            }
+        }
+    }
+
+    @Test
     fun `values that must not outlive a round are refused by each runtime`() {
         val rule = SharingRule { if (it is StringBuilder) "a builder changes" else null }
         val view = StringBuilder()

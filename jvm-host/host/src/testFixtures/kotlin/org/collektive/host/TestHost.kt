@@ -55,6 +55,7 @@ internal class Step(val tick: Long) {
     var reload: Path? = null
     var measuresMessages = false
     var measures = false
+    var inspected = -1
 
     class Added(val id: Int, val program: String? = null, val parameters: Map<String, String> = emptyMap())
 
@@ -94,6 +95,7 @@ internal class Step(val tick: Long) {
                 measuresMessages,
                 measures,
                 0,
+                inspected,
             ),
         )
         return direct(builder)

@@ -62,6 +62,9 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
         return outbound
     }
 
+    override fun state(limit: Int): Map<String, Any?> =
+        state.entries.take(limit).associate { (path, value) -> path.toMultilineString(" > ") to value }
+
     override fun forget() {
         state = emptyMap()
         newState = emptyMap()

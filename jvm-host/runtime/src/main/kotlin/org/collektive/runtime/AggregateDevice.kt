@@ -70,6 +70,13 @@ internal class AggregateDevice<ID : Any>(
         return valid
     }
 
+    override fun state(limit: Int): Map<String, Any?> = buildMap {
+        valid.forEachPath { path ->
+            val value = valid.storedAt(path)
+            if (size < limit && value !== RoundRecord.Nothing) put(path.toString(), value)
+        }
+    }
+
     override fun forget() {
         valid.clear()
         running.clear()

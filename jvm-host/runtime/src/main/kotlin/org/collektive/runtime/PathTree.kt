@@ -1,5 +1,7 @@
 package org.collektive.runtime
 
+import it.unibo.collektive.path.FullPath
+
 /**
  * All paths of a session. Equal paths are the same object on all devices.
  *
@@ -80,6 +82,8 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
     fun matches(other: Any?, hash: Int) = token === other || tokenHash == hash && token == other
 
     fun slot(mask: Int) = spread(tokenHash) and mask
+
+    override fun toString(): String = FullPath(generateSequence(this, PathNode::parent).map(PathNode::token).toList().dropLast(1).asReversed()).toString()
 
     companion object {
         fun spread(hash: Int) = hash * -0x61c88647 ushr 7

@@ -63,6 +63,7 @@ public class StepRequestReader(private val newNodes: NewNodes, private val data:
         tick.deltaTime = request.deltaTime()
         tick.measuresMessages = request.measureMessages()
         tick.measures = request.measure()
+        tick.inspected = request.inspected()
         tick.nodesRemoved.addVector(FrameLayouts.STEP_REQUEST_NODES_REMOVED, 1)
         for (index in 0 until request.nodesAddedLength()) tick.nodesAdded.add(newNode(request.nodesAdded(node, index)))
         for (index in 0 until request.nodesChangedLength()) tick.nodesChanged.add(newNode(request.nodesChanged(node, index)))

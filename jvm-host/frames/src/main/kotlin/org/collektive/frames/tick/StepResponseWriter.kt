@@ -4,10 +4,12 @@ import org.collektive.api.Program
 import org.collektive.engine.RoundDigest
 import org.collektive.engine.Tick
 import org.collektive.engine.TickResult
+import org.collektive.frame.Inspection
 import org.collektive.frame.MessageSizes
 import org.collektive.frame.MetricValue
 import org.collektive.frame.ReloadResponse
 import org.collektive.frame.RoundError
+import org.collektive.frame.StateEntry
 import org.collektive.frame.StepResponse
 import org.collektive.frames.AnswerBuffer
 import org.collektive.frames.session.writePrograms
@@ -30,6 +32,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
      *
      * @param tick its due nodes, and whether to measure their messages.
      * @param metrics those of the session if [tick] measures them, otherwise none.
+     * @param inspection of the tick's inspected node, if any.
      * @param begin start of the host call, on the clock of `System.nanoTime()`.
      * @return the position of the response, see [AnswerBuffer.finish].
      */
@@ -40,6 +43,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         begin: Long,
         reload: ReloadOutcome?,
         metrics: List<MetricOutcome>,
+        inspection: NodeInspection?,
     ): Long {
         val builder = buffer.builder
         digest.begin(result.tick)
@@ -53,6 +57,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         val nodes = builder.endVector()
         val sizes = if (tick.measuresMessages) writeSizes(result) else 0
         val measured = if (metrics.isEmpty()) 0 else writeMetrics(metrics)
+        val inspected = if (inspection == null) 0 else write(inspection)
         StepResponse.startStepResponse(builder)
         StepResponse.addTick(builder, result.tick)
         StepResponse.addDigest(builder, digest.value)
@@ -61,6 +66,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         if (errors != 0) StepResponse.addErrors(builder, errors)
         if (sizes != 0) StepResponse.addMessages(builder, sizes)
         if (measured != 0) StepResponse.addMetrics(builder, measured)
+        if (inspected != 0) StepResponse.addInspection(builder, inspected)
         StepResponse.addNodeCount(builder, result.nodeCount)
         StepResponse.addLinkCount(builder, result.linkCount)
         val network = result.network
@@ -79,6 +85,15 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         val error = builder.createString(reload.error)
         val programs = ReloadResponse.createProgramsVector(builder, buffer.writePrograms(reload.programs))
         return ReloadResponse.createReloadResponse(builder, error, programs, reload.values?.stored ?: 0, reload.values?.kept ?: 0)
+    }
+
+    private fun write(inspection: NodeInspection): Int {
+        val builder = buffer.builder
+        val entries = inspection.values.map { (path, value) ->
+            StateEntry.createStateEntry(builder, builder.createString(path), builder.createString(value))
+        }
+        val state = Inspection.createStateVector(builder, entries.toIntArray())
+        return Inspection.createInspection(builder, inspection.node, inspection.roundNanos, state)
     }
 
     private fun writeSizes(result: TickResult): Int {

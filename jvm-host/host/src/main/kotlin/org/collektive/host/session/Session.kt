@@ -11,6 +11,7 @@ import org.collektive.frames.MalformedFrameException
 import org.collektive.frames.data.DataSchema
 import org.collektive.frames.session.writeOpenResponse
 import org.collektive.frames.tick.MetricOutcome
+import org.collektive.frames.tick.NodeInspection
 import org.collektive.frames.tick.ReloadOutcome
 import org.collektive.frames.tick.StepResponseWriter
 import org.collektive.host.record.RecordWriter
@@ -82,8 +83,9 @@ public class Session internal constructor(
         next.data.accept(tick)
         loaded = next
         val metrics = if (tick.measures) failing(tick, limit) { measure(tick, deadline) } else emptyList()
+        val inspection = if (tick.inspected >= 0) failing(tick, limit) { inspect(deadline) } else null
         val outcome = prepared?.let { ReloadOutcome(it.error, next.programs.infos, result.storedValues) }
-        val place = write(result, tick, outcome, metrics, slot, answer, begin)
+        val place = write(result, tick, outcome, metrics, inspection, slot, answer, begin)
         events.end(result, frame.remaining(), place.toInt())
         return place
     }
@@ -100,11 +102,18 @@ public class Session internal constructor(
 
     private fun measure(tick: Tick, deadline: Long): List<MetricOutcome> {
         var metrics = emptyList<MetricOutcome>()
-        engine.run(deadline) {
+        engine.run(deadline, "metrics") {
             val network = engine.snapshot(tick, loaded.data::snapshot)
             metrics = loaded.programs.metrics.map { it.measure(network) }
         }
         return metrics
+    }
+
+    /** Runs on a round thread, because texts of values call users' code. */
+    private fun inspect(deadline: Long): NodeInspection? {
+        var inspection: NodeInspection? = null
+        engine.run(deadline, "the inspection") { inspection = engine.inspect(NodeInspection.MAX_VALUES)?.let(::NodeInspection) }
+        return inspection
     }
 
     private inline fun <T> failing(tick: Tick, limit: Long, work: () -> T): T = try {
@@ -128,13 +137,14 @@ public class Session internal constructor(
         tick: Tick,
         reload: ReloadOutcome?,
         metrics: List<MetricOutcome>,
+        inspection: NodeInspection?,
         slot: Long,
         answer: ByteBuffer,
         begin: Long,
     ): Long = try {
         events.write()
         buffer.begin(slot, answer)
-        response.write(result, loaded.data, tick, begin, reload, metrics)
+        response.write(result, loaded.data, tick, begin, reload, metrics, inspection)
     } catch (e: Throwable) {
         throw fail(e) { "cannot write the answer of tick ${result.tick}: $e" }
     }
