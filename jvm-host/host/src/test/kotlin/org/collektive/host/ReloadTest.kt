@@ -191,7 +191,40 @@ class ReloadTest {
         assertEquals("1 ${RELOADS + 24}", text(step()))
     }
 
+    @Test
+    fun `a reload with 1,000 nodes takes at most 50 ms between two ticks`() {
+        val body = """
+            int links = aggregate.alignedOn("links", () -> aggregate.neighboring(device.getId(), InMemory.INSTANCE).getNeighbors().getSize());
+            var last = aggregate.alignedOn("point", () -> aggregate.<java.util.List<Double>>evolve(java.util.List.of(0.0, 0.0), p -> p));
+            return count(aggregate, "first") + count(aggregate, "second") + " " + links + last;"""
+        val jars = List(2) { jar("int version = $it;\n$body") }
+        open(body)
+        val nodes = (0 until NODES).toList()
+        fun step(reload: Path? = null): Double {
+            val step = Step(++tick).also {
+                if (tick == 1L) {
+                    it.added = nodes.map(Step::Added)
+                    it.linked = nodes.flatMap { id -> (1..8).map { by -> id to (id + by) % NODES } }
+                }
+                it.due = nodes
+                it.reload = reload
+            }
+            val begin = System.nanoTime()
+            val answer = session.ok(step)
+            val millis = (System.nanoTime() - begin) / 1e6
+            if (reload != null) assertReloaded(answer.reload(), stored = 3 * NODES, kept = 3 * NODES)
+            return millis
+        }
+        repeat(20) { step() }
+        val pauses = List(15) { step(jars[it % 2]).also { repeat(3) { step() } } }.sorted()
+        val median = pauses[pauses.size / 2]
+        println("reload with $NODES nodes: median %.1f ms, at most %.1f ms".format(median, pauses.last()))
+        // The limit leaves room for a busy machine.
+        assertTrue(median < 4 * 50, "a reload takes $median ms")
+    }
+
     private companion object {
+        const val NODES = 1000
         const val RELOADS = 1000
     }
 }
