@@ -8,16 +8,11 @@ folder.
 Ctrl-C ends the simulation. Exit code: 0 the simulation was started; 1 it was not."""
 import argparse
 import json
-import shutil
 from pathlib import Path
 
-from build import fetch, graph, processes, sample_programs
-from build.console import Failure
+from build import fetch, graph, processes
 from build.places import LIVE_PYTHON, ROOT
-
-LESSONS = ROOT / "scripts/lessons"
-# Files that only Unity needs.
-UNITY_FILES = ("*.meta", "*.unity", "*.asmdef", "*.mat", "*.prefab")
+from live import examples
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -40,32 +35,13 @@ def run(arguments: argparse.Namespace) -> int:
     fetch.fetch("live", "kotlinc")
     scenario = Path(arguments.scenario)
     if not scenario.exists():
-        named = [folder / arguments.scenario / "scenario.json" for folder in (sample_programs.SAMPLES, LESSONS)]
-        scenario = next(filter(Path.is_file, named), scenario)
+        scenario = examples.find(arguments.scenario) or scenario
     scenario = scenario.resolve()
-    if scenario.parent.parent in (sample_programs.SAMPLES, LESSONS):
-        scenario = copy_sample(scenario, Path("out/live") / scenario.parent.name)
+    if examples.is_example(scenario):
+        scenario = examples.copy(scenario)
     options = {**vars(arguments), "scenario": str(scenario)}
     del options["run"]
     server: list[str | Path] = [LIVE_PYTHON, "-I", ROOT / "scripts/live/server.py", json.dumps(options)]
     code = processes.call(server)
     processes.end_orphans()
     return code
-
-
-def copy_sample(scenario: Path, folder: Path) -> Path:
-    """Copies a sample or lesson with its Kotlin, unless the folder exists. Returns the scenario of the copy."""
-    copy = folder.absolute() / scenario.name
-    if copy.is_file():
-        return copy
-    if folder.exists():
-        raise Failure(f"'{folder}' exists and has no {scenario.name}: delete or rename the folder")
-    shutil.copytree(scenario.parent, folder, ignore=shutil.ignore_patterns(*UNITY_FILES))
-    if scenario.parent.parent == LESSONS:
-        return copy
-    (schema,) = scenario.parent.glob("*.fbs")
-    shutil.copytree(sample_programs.folder(schema), folder / "programs")
-    values = json.loads(scenario.read_text(encoding="utf-8"))
-    values["programs"] = "programs"
-    copy.write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
-    return copy

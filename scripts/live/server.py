@@ -16,6 +16,7 @@ import tempfile
 import time
 import webbrowser
 from collections import deque
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,8 @@ from websockets.http11 import Request, Response
 from build import player, projects
 from build.console import Failure, print_progress
 from build.places import BUILD
-from live import session
+from live import examples, session
+from live.record import Record
 
 HOST = "127.0.0.1"
 # A page that sends more commands per second is disconnected.
@@ -83,6 +85,7 @@ class Live:
         self.trust: bool = options["trust_jvm"]
         self.seed: str | None = options["seed"]
         self.values: dict[str, str] = dict(value.partition("=")[::2] for value in options["values"])
+        self.examples = examples.catalogue()
         self.pages: list[Page] = []
         self.work = work
         self.jar = work / "programs.jar"
@@ -93,7 +96,8 @@ class Live:
         self.compiled: dict[str, Any] | None = None
         self.player = session.Player(self.on_message)
         self.compiler = session.Compiler(work)
-        self._sources: dict[str, str] = {}
+        self.record = Record(work / "out/run.clkrec")
+        self._sources: dict[str, session.Source] = {}
         self._changing = asyncio.Lock()
 
     def player_options(self) -> list[str]:
@@ -103,30 +107,60 @@ class Live:
 
     async def start(self) -> None:
         """Reads the scenario, compiles changed code, and starts the player."""
-        self.plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options())
-        jar, dll = await asyncio.gather(asyncio.to_thread(self.plan.programs_jar), asyncio.to_thread(self.plan.scripts_dll))
-        self._sources = session.sources(self.plan)
+        plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options())
+        # Changed together, because the watch compares them.
+        self.plan, self._sources = plan, self.read_sources(plan)
+        self.header = self.last_frame = self.stopped = self.compiled = None
+        jar, dll = await asyncio.gather(asyncio.to_thread(plan.programs_jar), asyncio.to_thread(plan.scripts_dll))
         session.replace(self.jar, jar)
         projects.record_own_program(self.jar)
-        self.header = self.last_frame = self.stopped = self.compiled = None
+        self.record.begin()
         await self.player.start(self.scenario, self.plan, self.jar, dll, self.work / "out", self.player_options())
 
-    async def restart(self, seed: str, changes: dict[str, Any]) -> None:
-        """Starts the scenario again with other values. If that fails, the earlier values are kept."""
-        before = self.seed, self.values
-        self.seed = seed
-        self.values = {**self.values, **{key: _text(value) for key, value in changes.items()}}
+    async def restart(self, scenario: str, seed: str | None, values: dict[str, str], trust: bool) -> None:
+        """Starts a scenario in place of the running one. If it is invalid, the previous scenario and values are kept."""
+        before = self.scenario, self.seed, self.values, self.trust
+        plan = self.plan
+        self.scenario, self.seed, self.values, self.trust = scenario, seed, values, trust
+        stopped = None
         try:
             await self.player.stop()
             await self.start()
         except Failure as failure:
-            self.seed, self.values = before
-            # The player has printed the error of an invalid scenario.
-            self.stopped = {"event": "stopped", "message": str(failure) or "the scenario is invalid; the reason is in the terminal"}
-            self.broadcast(self.stopped)
+            # The player has printed the error of an invalid scenario, and the compilers have printed theirs.
+            reason = str(failure) or f"the {'scenario is invalid' if self.plan is plan else 'sources are not compiled'}; the reason is in the terminal"
+            stopped = {"event": "stopped", "message": reason}
+        if self.plan is plan:
+            self.scenario, self.seed, self.values, self.trust = before
+        else:
+            self.broadcast({"event": "started"})
+            for page in self.pages:
+                self.send_welcome(page)
+        if stopped is not None:
+            self.stopped = stopped
+            self.broadcast(stopped)
+            if self.plan is not plan and self.is_editable:
+                await self.compile()
+
+    async def open_example(self, name: str) -> None:
+        """Runs a lesson or sample in place of the running scenario."""
+        scenario = examples.find(name) if name in (*examples.LESSONS, *examples.SAMPLES) else None
+        if scenario is None:
+            raise ValueError(f"unknown example '{name}'")
+        try:
+            copy = examples.copy(scenario)
+        except (Failure, OSError) as error:
+            self.broadcast({"event": "warning", "message": f"cannot copy the example: {error}"})
             return
-        self.broadcast({"event": "started", **self.identity()})
-        self.broadcast({"event": "files", "files": self._sources})
+        await self.restart(str(copy), None, {}, False)
+
+    def read_sources(self, plan: player.Plan) -> dict[str, session.Source]:
+        return session.sources(plan, Path(self.scenario).parent)
+
+    @property
+    def files(self) -> dict[str, dict[str, str]]:
+        """The sources as the page shows them."""
+        return {name: {"text": source.text, "problem": source.problem} for name, source in self._sources.items()}
 
     def identity(self) -> dict[str, str]:
         """Returns the seed, and the command that repeats the run from its start."""
@@ -179,8 +213,8 @@ class Live:
                 self.send_welcome(self.pages[0])
 
     def send_welcome(self, page: Page) -> None:
-        page.event({"event": "welcome", "controls": self.pages[0] is page, "title": Path(self.scenario).parent.name, "files": self._sources,
-                    "editable": self.is_editable, **self.identity()})
+        page.event({"event": "welcome", "controls": self.pages[0] is page, "title": Path(self.scenario).parent.name, "scenario": self.scenario,
+                    "files": self.files, "editable": self.is_editable, "examples": self.examples, **self.identity()})
 
     async def receive(self, page: Page) -> None:
         began, count = time.monotonic(), 0
@@ -206,9 +240,15 @@ class Live:
             await self.save(page, command["save"], command["text"])
         elif "restart" in command:
             async with self._changing:
-                await self.restart(str(command["seed"]), command["restart"])
+                changes = {key: _text(value) for key, value in command["restart"].items()}
+                await self.restart(self.scenario, str(command["seed"]), {**self.values, **changes}, self.trust)
+        elif "open" in command:
+            async with self._changing:
+                await self.open_example(command["open"])
         elif "scenario" in command:
             page.event({"event": "warning", "message": self.save_scenario(command["scenario"], command["set"])})
+        elif "record" in command:
+            page.event({"event": "warning", "message": await self.save_record(command["record"])})
         elif PLAYER_COMMANDS & command.keys():
             self.player.send(command)
         else:
@@ -216,51 +256,74 @@ class Live:
 
     async def save(self, page: Page, name: str, text: str) -> None:
         """Writes a source of the programs and reloads them."""
-        if name not in self._sources:
-            page.event({"event": "warning", "message": f"'{name}' is not a file in the programs folder"})
+        source = self._sources.get(name)
+        problem = f"'{name}' is not a file in the programs folder" if source is None else source.problem
+        if source is None or problem:
+            page.event({"event": "warning", "message": problem})
             return
-        file = self.plan.parts["programs"].path / name
-        part = file.with_name(f".{file.name}.part")
         try:
-            part.write_text(text, encoding="utf-8")
-            part.chmod(file.stat().st_mode)
-            part.replace(file)
+            source.write(text)
         except OSError as error:
-            page.event({"event": "warning", "message": f"cannot write '{file}': {error.strerror}"})
+            page.event({"event": "warning", "message": f"cannot write '{source.path}': {error.strerror}"})
             return
-        self._sources[name] = text
-        self.broadcast({"event": "files", "files": self._sources})
+        self._sources[name] = replace(source, text=text)
+        self.broadcast({"event": "files", "files": self.files})
         await self.reload()
 
     async def reload(self) -> None:
         """Compiles the programs, and loads them into the running simulation if that succeeds."""
         async with self._changing:
-            compiled = await self.compiler.compile(self.plan)
-            self.compiled = {"event": "compiled", "problems": compiled.problems, "messages": compiled.messages, "milliseconds": compiled.milliseconds}
-            self.broadcast(self.compiled)
-            if compiled.jar is None:
-                return
-            session.replace(self.jar, compiled.jar)
-            projects.record_own_program(self.jar)
-            self.player.send({"reload": True})
+            await self.compile()
+
+    async def compile(self) -> None:
+        compiled = await self.compiler.compile(self.plan)
+        self.compiled = {"event": "compiled", "problems": compiled.problems, "messages": compiled.messages, "milliseconds": compiled.milliseconds}
+        self.broadcast(self.compiled)
+        if compiled.jar is None:
+            return
+        session.replace(self.jar, compiled.jar)
+        projects.record_own_program(self.jar)
+        self.player.send({"reload": True})
 
     async def watch(self) -> None:
         """Reloads programs that another editor changed."""
         while True:
             await asyncio.sleep(WATCH_SECONDS)
             try:
-                current = session.sources(self.plan)
+                if self.record.limit():
+                    self.broadcast({"event": "warning", "message": self.record.deletion})
+                current = self.read_sources(self.plan)
             except (OSError, Failure):
                 continue  # an editor replaces a file
             if current != self._sources:
                 self._sources = current
-                self.broadcast({"event": "files", "files": current})
+                self.broadcast({"event": "files", "files": self.files})
                 await self.reload()
+
+    def beside_scenario(self, name: str, suffix: str) -> Path | None:
+        """Returns the path of a new file, or None for another kind of name."""
+        file = Path(self.scenario).with_name(name)
+        return file if Path(name).name == name and file.suffix == suffix else None
+
+    async def save_record(self, name: str) -> str:
+        """Copies the record of the run so far, and returns a message about it."""
+        file = self.beside_scenario(name, ".clkrec")
+        if file is None:
+            return "enter the name of a .clkrec file, which is written beside the scenario"
+        try:
+            await asyncio.to_thread(self.record.save, file)
+        except FileExistsError:
+            return f"'{file.name}' already exists: enter another name"
+        except OSError as error:
+            return f"cannot write '{file}': {error.strerror}"
+        except Failure as failure:
+            return str(failure)
+        return f"saved; replay it with ./collektive replay {shlex.quote(os.path.relpath(file))}"
 
     def save_scenario(self, name: str, changes: dict[str, Any]) -> str:
         """Writes a scenario with the current values, and returns a message about it."""
-        file = Path(self.scenario).with_name(name)
-        if Path(name).name != name or file.suffix != ".json":
+        file = self.beside_scenario(name, ".json")
+        if file is None:
             return "enter the name of a .json file, which is written beside the scenario"
         values = json.loads(Path(self.scenario).read_text(encoding="utf-8"))
         if self.seed is not None:

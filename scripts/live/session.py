@@ -1,5 +1,6 @@
 """The processes of a live run: the player, and the compiler that stays loaded."""
 import asyncio
+import codecs
 import contextlib
 import json
 import os
@@ -7,6 +8,7 @@ import re
 import shutil
 import socket
 import struct
+import tempfile
 import time
 import uuid
 from collections.abc import Awaitable, Callable, Sequence
@@ -140,12 +142,52 @@ class Player:
             await self._on_message({"event": "stopped", "message": f"the player ended with exit code {code}; the reason is in the terminal"}, None)
 
 
-def sources(plan: player.Plan) -> dict[str, str]:
-    """Returns the text of each Kotlin source by its path in the programs folder. The result is empty for a jar."""
-    if plan.parts["programs"].path.is_file():
+@dataclass(frozen=True)
+class Source:
+    """A file of the programs: its text with line feeds and without a byte-order mark, and why it cannot be edited, if so."""
+
+    path: Path
+    text: str
+    problem: str
+    mark: bytes
+    newline: str
+
+    def write(self, text: str) -> None:
+        """Replaces the content atomically. Keeps mark, line ends, and permissions, and a link to the file."""
+        target = self.path.resolve()
+        descriptor, part = tempfile.mkstemp(".part", f".{target.name}.", target.parent)
+        try:
+            with os.fdopen(descriptor, "wb") as output:
+                output.write(self.mark + text.replace("\n", self.newline).encode())
+            os.chmod(part, target.stat().st_mode)
+            os.replace(part, target)
+        except BaseException:
+            os.unlink(part)
+            raise
+
+
+def sources(plan: player.Plan, folder: Path) -> dict[str, Source]:
+    """Returns the sources of the programs by their paths in their folder; none for a jar. Links must stay inside this folder or the given one."""
+    programs = plan.parts["programs"].path
+    if programs.is_file():
         return {}
-    programs = inputs.programs(plan.parts["programs"].path)
-    return {name: file.read_text(encoding="utf-8", errors="replace") for name, file in programs.files.items()}
+    roots = [programs.resolve(), folder.resolve()]
+    return {name: _source(file, roots) for name, file in inputs.programs(programs).files.items()}
+
+
+def _source(path: Path, roots: list[Path]) -> Source:
+    content = path.read_bytes()
+    mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""
+    target = path.resolve()
+    problem = "" if any(map(target.is_relative_to, roots)) else f"the file is a link to '{target}', which is not in the project's folder"
+    try:
+        text = content[len(mark):].decode()
+    except UnicodeDecodeError as error:
+        text = content.decode(errors="replace")
+        problem = f"the file is not UTF-8 (byte {error.start + len(mark)}): convert it in another editor"
+    ends = text.count("\r\n")
+    newline = "\r\n" if 2 * ends > text.count("\n") else "\n"
+    return Source(path, re.sub("\r\n?", "\n", text), problem, mark, newline)
 
 
 def replace(jar: Path, new: Path) -> None:

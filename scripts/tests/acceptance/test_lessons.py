@@ -9,6 +9,7 @@ import pytest
 from command import collektive
 
 from build.places import ROOT
+from live import examples
 
 LESSONS = ROOT / "scripts/lessons"
 Row = dict[str, float]
@@ -37,3 +38,10 @@ def test_a_lesson_does_what_its_text_claims(name: str, tmp_path: Path) -> None:
     for second, is_true in CLAIMS[name].items():
         assert is_true(rows[second]), (second, rows[second])
     assert json.loads((tmp_path / "out/manifest.json").read_text())["errors"] == 0
+
+
+def test_the_live_page_offers_all_lessons() -> None:
+    catalogue = examples.catalogue()
+    assert sorted(examples.LESSONS) == sorted(os.listdir(LESSONS))
+    assert all(examples.find(example["name"]) and example["title"] and example["text"].endswith(".") for example in catalogue)
+    assert all(example["question"] for example in catalogue if example["name"] in examples.LESSONS)

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
-import { existsSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
+import { existsSync, lstatSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { request } from 'node:http';
 import { join } from 'node:path';
 import suite from 'node:test';
@@ -107,7 +107,7 @@ const statusOf = (address, headers, path = '') => new Promise((resolve, reject) 
 });
 const HANDSHAKE = { Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': '13', 'Sec-WebSocket-Key': 'AAAAAAAAAAAAAAAAAAAAAA==' };
 
-suite('live', { timeout: 300000 }, async (t) => {
+suite('live', { timeout: 600000 }, async (t) => {
   let live = await start();
   assert.ok(live.address, live.output);
   let page = await open(live.address);
@@ -192,6 +192,8 @@ suite('live', { timeout: 300000 }, async (t) => {
     await view.evaluate(() => window.replay.select(7));
     await view.waitForFunction(() => /Intensity/.test(document.getElementById('inspection').textContent), null, { polling: 100 });
     assert.match(await view.textContent('#inspection'), /Sensors.*Position\.X.*Answer.*Receives from(node \d+[\d.]+ m|valueno node)/s);
+    await view.waitForFunction(() => /Last roundduration[\d.,]+ µs/.test(document.getElementById('inspection').textContent), null, { polling: 100 });
+    assert.match(await view.textContent('#inspection'), /Statevalueempty/); // a program without stored values
     await picture(tab, 'inspected');
     await tab.click('#add');
     await eventually(() => state(view), ({ nodes }) => nodes === 110, '50 nodes should join');
@@ -299,6 +301,105 @@ suite('live', { timeout: 300000 }, async (t) => {
     await page.tab.click('#save-scenario');
     await page.tab.waitForSelector('#warning >> text=already exists');
     assert.ok(!existsSync(elsewhere), 'no file is written through a link');
+  });
+
+  await t.test('saves a record that can be replayed, while the run continues', async () => {
+    const save = async (name, message) => {
+      await page.tab.fill('#record', name);
+      await page.tab.click('#save-record');
+      await page.tab.waitForSelector(`#warning >> text=${message}`);
+    };
+    await save('run.txt', 'enter the name of a .clkrec file');
+    await save('linked.json', 'enter the name of a .clkrec file');
+    await edit(page.tab, 'var x = 0.0', 'var x = 0.00'); // the record contains a reload
+    await eventually(() => outcome(page.tab), (text) => text.startsWith('reloaded'), 'the program should be reloaded');
+    await save('live.clkrec', 'saved; replay it');
+    await save('live.clkrec', 'already exists');
+    const replay = spawn(collektive, ['replay', 'out/live/GradientAscent/live.clkrec'], { cwd: folder, stdio: ['ignore', 'pipe', 'pipe'] });
+    let output = '';
+    for (const stream of [replay.stdout, replay.stderr]) stream.on('data', (data) => { output += data; });
+    assert.equal((await once(replay, 'close'))[0], 0, output);
+    assert.match(output, /all digests equal the record/);
+    writeFileSync(program, original);
+  });
+
+  await t.test('keeps line ends, the byte-order mark and links of sources, and does not edit other files', async () => {
+    const programs = join(folder, 'out/live/GradientAscent/programs');
+    const target = join(folder, 'out/live/GradientAscent/Shared.kt');
+    const outside = join(folder, 'Outside.kt');
+    writeFileSync(target, '\ufeffpackage gradientascent\r\n\r\nconst val SHARED = 1\r\n');
+    writeFileSync(outside, 'package gradientascent\n\nconst val OUTSIDE = 1\n');
+    symlinkSync('../Shared.kt', join(programs, 'Shared.kt'));
+    symlinkSync(outside, join(programs, 'Outside.kt'));
+    writeFileSync(join(programs, 'Latin.kt'), Buffer.from('package gradientascent\n\n// caf\xe9\n', 'latin1'));
+    const choose = async (name) => {
+      await page.tab.waitForSelector(`#file option[value="${name}"]`, { state: 'attached' });
+      await page.tab.selectOption('#file', name);
+    };
+    await choose('Shared.kt');
+    assert.ok(await page.tab.isDisabled('#save'), 'an unchanged file has nothing to save');
+    await edit(page.tab, 'SHARED = 1', 'SHARED = 2');
+    await eventually(() => readFileSync(target, 'utf8'), (text) => text === '\ufeffpackage gradientascent\r\n\r\nconst val SHARED = 2\r\n', 'saved');
+    assert.ok(lstatSync(join(programs, 'Shared.kt')).isSymbolicLink());
+    for (const [name, reason] of [['Outside.kt', "the file is a link to '"], ['Latin.kt', 'the file is not UTF-8 (byte 30)']]) {
+      await choose(name);
+      await page.tab.waitForSelector(`#problem >> text=Read-only: ${reason}`);
+      const before = readFileSync(join(programs, name));
+      await page.tab.focus('.cm-content');
+      await page.tab.keyboard.type('x');
+      assert.ok(await page.tab.isDisabled('#save'));
+      await page.tab.evaluate((file) => window.live.send({ save: file, text: 'changed' }), name);
+      await page.tab.waitForSelector(`#warning >> text=${reason}`);
+      assert.deepEqual(readFileSync(join(programs, name)), before);
+    }
+    await picture(page.tab, 'read-only');
+    for (const name of ['Shared.kt', 'Outside.kt', 'Latin.kt']) rmSync(join(programs, name));
+    await page.tab.waitForSelector('#problem', { state: 'hidden' });
+  });
+
+  await t.test('opens a lesson in place of the scenario, and asks before it discards changes', async () => {
+    const current = page.tab;
+    const opened = (name) => eventually(() => current.textContent('#name'), (text) => text === name, `${name} should be open`, 60000);
+    await current.click('#examples summary');
+    assert.equal(await current.locator('#examples li').count(), 11);
+    assert.match(await current.textContent('#examples li'), /^GradientA gradient is the distance .*Question: replace hopDistanceTo/);
+    await picture(current, 'examples');
+    await current.evaluate(() => {
+      const { view: editor } = window.live.files;
+      editor.dispatch({ changes: { from: 0, insert: '// unsaved\n' } });
+    });
+    const answers = ['dismiss', 'accept'];
+    current.on('dialog', (dialog) => dialog[answers.shift()]());
+    await current.click('#examples >> text="Healing"');
+    assert.equal(answers.length, 1);
+    assert.match(await current.evaluate(() => window.live.files.text), /^\/\/ unsaved/);
+    await current.click('#examples >> text="Healing"');
+    await opened('healing');
+    assert.match(await current.evaluate(() => window.live.files.text), /^\/\/ Aggregate programs heal/);
+    assert.match(await current.inputValue('#command'), /live out\/live\/healing\/scenario.json$/);
+    await eventually(() => state(page.view), ({ nodes, tick }) => nodes === 100 && tick > 2, 'the lesson should run');
+    await page.view.evaluate(() => window.replay.select(3));
+    await page.view.waitForFunction(() => /State(?!value).+ > .+\d/.test(document.getElementById('inspection').textContent), null, { polling: 100 });
+    await picture(current, 'lesson');
+    await current.evaluate(() => window.live.send({ open: 'nothing' }));
+    await current.waitForSelector('#warning >> text=unknown example');
+    // A program that cannot be compiled opens, too.
+    const broken = join(folder, 'out/live/channel');
+    mkdirSync(join(broken, 'programs'), { recursive: true });
+    const lesson = new URL('../../../scripts/lessons/channel/', import.meta.url);
+    writeFileSync(join(broken, 'scenario.json'), readFileSync(new URL('scenario.json', lesson)));
+    const source = readFileSync(new URL('programs/Channel.kt', lesson), 'utf8');
+    writeFileSync(join(broken, 'programs/Channel.kt'), source.replace('length > 0', 'nothing > 0'));
+    await current.click('#examples summary');
+    await current.click('#examples >> text="Channel"');
+    await opened('channel');
+    await current.waitForSelector('#warning >> text=The simulation stopped');
+    await current.waitForSelector('.cm-lintRange-error', { timeout: 15000 });
+    await edit(current, 'nothing > 0', 'length > 0');
+    await eventually(() => outcome(current), (text) => text.startsWith('compiled'), 'the program should be compiled');
+    await current.click('#restart');
+    await eventually(() => current.textContent('#state'), (text) => text === 'running', 'the lesson should run', 30000);
+    assert.deepEqual(page.complaints, []);
   });
 
   await t.test('refuses other hosts, origins and tokens, and answers the page only', async () => {

@@ -21,7 +21,8 @@ class LivePlayer extends Player {
 
   /** Shows another recording, after a restart or when the view has too little space for the nodes. */
   adopt(recording) {
-    const [{ view: old }] = this.runs;
+    const [{ view: old, recording: { metadata } }] = this.runs;
+    const isSame = metadata.title === recording.metadata.title;
     const holder = old.holder.cloneNode(true);
     holder.querySelector('.labels').replaceChildren();
     old.holder.after(holder);
@@ -35,10 +36,15 @@ class LivePlayer extends Player {
     this.legend.frame = null;
     this.legend.setFields(this.fields);
     this.resize();
-    run.view.lookAs(old);
+    if (isSame) run.view.lookAs(old);
     old.dispose();
     this.legend.choose(Math.max(this.fields.findIndex((field) => field.name === name), 0));
     this.drawCharts();
+    if (!isSame) {
+      this.describeRun();
+      this.hasOwnRange = false;
+      this.selected = null;
+    }
     this.show(recording.times.at(-1));
   }
 
@@ -113,8 +119,11 @@ class LivePlayer extends Player {
     const shown = node && node.id === this.selected ? node : null;
     element('inspection').hidden = !shown;
     if (!shown) return;
+    const { state, roundMicros } = shown;
+    const known = roundMicros > 0 ? [['duration', `${roundMicros.toLocaleString('en', { maximumSignificantDigits: 3 })} µs`]] : [];
     element('inspection').replaceChildren(
-      ...rows('Sensors', shown.sensors), ...rows('Answer', shown.answer),
+      ...rows('Sensors', shown.sensors), ...rows('Answer', shown.answer), ...rows('Last round', known),
+      ...rows('State', state ? (state.length > 0 ? state : [['', 'empty']]) : [['', 'after the next tick']]),
       ...rows('Receives from', shown.links.length > 0 ? shown.links : [['', 'no node']]), ...(shown.error ? rows('Last error', [['', shown.error]]) : []));
     for (const term of element('inspection').children) if (term.nextSibling?.textContent === '' && term.tagName === 'DT') term.className = 'group';
   }

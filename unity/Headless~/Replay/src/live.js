@@ -38,7 +38,7 @@ const THEME = EditorView.theme({
 /** The files of the programs, one of them in the editor. */
 class Files {
   constructor(onSave) {
-    this.files = new Map(); // name -> { state, saved, problems }
+    this.files = new Map(); // name -> { state, saved, problem, problems }; a file with a problem cannot be edited
     this.name = null;
     this.editable = new Compartment();
     this.readOnly = false;
@@ -52,25 +52,38 @@ class Files {
     return this.view.state.doc.toString();
   }
 
-  /** Updates the files from disk. Files with unsaved changes keep their text. */
+  /** Whether a file has changes that are not saved. */
+  get isChanged() {
+    return [...this.files].some(([name, { state, saved }]) => (name === this.name ? this.text : state.doc.toString()) !== saved);
+  }
+
+  /** Removes all files with their changes. */
+  clear() {
+    this.files.clear();
+    this.name = null;
+    this.setProblems([]);
+  }
+
+  /** Shows the content of files on disk. A file with unsaved changes keeps them. */
   update(files) {
     for (const name of this.files.keys()) if (!(name in files)) this.files.delete(name);
-    for (const [name, text] of Object.entries(files)) this.updateFile(name, text);
+    for (const [name, file] of Object.entries(files)) this.updateFile(name, file);
     element('file').replaceChildren(...[...this.files.keys()].map((name) => part('option', name, { value: name })));
     if (!this.files.has(this.name)) this.open(this.files.keys().next().value);
     element('file').value = this.name;
-    this.describe();
+    this.setReadOnly(this.readOnly);
   }
 
-  updateFile(name, text) {
+  updateFile(name, { text, problem }) {
     const known = this.files.get(name);
     if (!known) {
-      this.files.set(name, { state: this.stateOf(text), saved: text, problems: [] });
+      this.files.set(name, { state: this.stateOf(text), saved: text, problem, problems: [] });
       return;
     }
     const shown = name === this.name ? this.view.state : known.state;
     const isChanged = shown.doc.toString() !== known.saved;
     known.saved = text;
+    known.problem = problem;
     if (isChanged || shown.doc.toString() === text) return;
     const change = { changes: { from: 0, to: shown.doc.length, insert: text } };
     if (name === this.name) this.view.dispatch(change);
@@ -105,18 +118,25 @@ class Files {
   }
 
   save() {
-    if (this.readOnly || this.name === null) return;
+    if (this.isReadOnly || this.name === null) return;
     this.onSave(this.name, this.text);
   }
 
   describe() {
     const isChanged = this.name !== null && this.text !== this.files.get(this.name).saved;
-    element('save').disabled = this.readOnly || !isChanged;
+    element('save').disabled = this.isReadOnly || !isChanged;
+    const problem = this.files.get(this.name)?.problem;
+    element('problem').hidden = !problem;
+    element('problem').textContent = problem ? `Read-only: ${problem}` : '';
+  }
+
+  get isReadOnly() {
+    return this.readOnly || Boolean(this.files.get(this.name)?.problem);
   }
 
   setReadOnly(readOnly) {
     this.readOnly = readOnly;
-    this.view.dispatch({ effects: this.editable.reconfigure(EditorState.readOnly.of(readOnly)) });
+    this.view.dispatch({ effects: this.editable.reconfigure(EditorState.readOnly.of(this.isReadOnly)) });
     this.describe();
   }
 
@@ -238,9 +258,15 @@ class Live {
 
   /** Event handlers, by the names of events. */
   on = {
-    welcome({ controls, title, files, editable, command, seed }) {
+    welcome({ controls, title, scenario, files, editable, examples, command, seed }) {
       element('name').textContent = title;
       document.title = `${title}, live`;
+      if (this.scenario !== scenario) {
+        this.scenario = scenario;
+        this.files.clear();
+        this.report('', '');
+        this.showExamples(examples, title);
+      }
       this.setControl(controls);
       this.editable = editable;
       this.files.setReadOnly(!controls || !editable);
@@ -249,13 +275,10 @@ class Live {
       element('seed').value = seed;
       if (!editable) this.report('The programs are in a jar and cannot be edited here.', '');
     },
-    started({ command, seed }) {
+    started() {
       this.restarted = true;
       this.isStopped = false;
       this.changes = {};
-      element('command').value = command;
-      element('seed').value = seed;
-      this.setControl(this.controls);
       element('warning').hidden = true;
     },
     header(header) {
@@ -285,6 +308,24 @@ class Live {
     },
   };
 
+  /** Lists the lessons and samples. */
+  showExamples(examples, current) {
+    element('examples').hidden = false;
+    element('examples').open = false;
+    element('examples').querySelector('ul').replaceChildren(...examples.map(({ name, title, text, question }) => {
+      const item = part('li', '');
+      const button = part('button', title);
+      button.setAttribute('aria-current', String(name === current));
+      button.addEventListener('click', () => {
+        if (this.files.isChanged && !window.confirm('Discard the changes that are not saved?')) return;
+        this.setState(`opening ${title} …`, false);
+        this.send({ open: name });
+      });
+      item.append(button, part('p', text), ...(question ? [part('p', `Question: ${question}`, { className: 'quiet' })] : []));
+      return item;
+    }));
+  }
+
   setState(text, isBad) {
     element('state').textContent = text;
     element('state').classList.toggle('bad', isBad);
@@ -293,7 +334,7 @@ class Live {
   setControl(controls) {
     this.controls = controls;
     this.files.setReadOnly(!controls || this.editable === false);
-    for (const control of document.querySelectorAll('#panels :is(input, button, select)')) control.disabled = !controls && control.id !== 'copy';
+    for (const control of document.querySelectorAll(':is(#panels, #examples) :is(input, button, select)')) control.disabled = !controls && control.id !== 'copy';
     if (!controls) this.setState('watching: another page controls the simulation', false);
   }
 
@@ -389,6 +430,7 @@ class Live {
       this.send({ restart: this.changes, seed: element('seed').value });
     });
     element('save-scenario').addEventListener('click', () => this.send({ scenario: element('scenario').value, set: this.changes }));
+    element('save-record').addEventListener('click', () => this.send({ record: element('record').value }));
     element('copy').addEventListener('click', () => {
       element('command').select();
       navigator.clipboard.writeText(element('command').value);

@@ -1,0 +1,72 @@
+"""The record of a live run (docs/record-format.md), which begins with its first tick."""
+import contextlib
+import os
+import shutil
+import struct
+import zlib
+from pathlib import Path
+
+from build.console import Failure
+
+# Larger records are deleted.
+MAX_BYTES = 1_000_000_000
+_MAGIC_BYTES = 8
+_CHUNK = struct.Struct("<4sII")
+
+
+class Record:
+    """A record that the player is writing."""
+
+    def __init__(self, path: Path, maximum: int = MAX_BYTES) -> None:
+        self._path = path
+        self._maximum = maximum
+        self._is_deleted = False
+
+    def begin(self) -> None:
+        """Resets the state for a new run."""
+        self._is_deleted = False
+
+    def limit(self) -> bool:
+        """Deletes the content of a record that is too large. Returns whether it did so for the first time."""
+        with contextlib.suppress(FileNotFoundError):
+            # The player's next writes leave a hole, so the size of the file says nothing.
+            if 512 * self._path.stat().st_blocks > self._maximum:
+                os.truncate(self._path, 0)
+                was_deleted, self._is_deleted = self._is_deleted, True
+                return not was_deleted
+        return False
+
+    @property
+    def deletion(self) -> str:
+        return f"the record exceeded {self._maximum / 1e9:g} GB and was deleted; press Restart to begin another one"
+
+    def save(self, target: Path) -> None:
+        """Copies all finished ticks to a new file, and ends it.
+
+        Raises `Failure` if there are none, and FileExistsError, also for a link.
+        """
+        if self._is_deleted:
+            raise Failure(self.deletion)
+        end = self._end()
+        with self._path.open("rb") as source, target.open("xb") as output:
+            shutil.copyfileobj(source, output)
+            output.truncate(end)
+            output.seek(end)
+            head = struct.pack("<4sI", b"END ", 0)
+            output.write(head + struct.pack("<I", zlib.crc32(head)))
+
+    def _end(self) -> int:
+        """Returns the end of the last finished tick."""
+        at, end = _MAGIC_BYTES, 0
+        if self._path.exists():
+            with self._path.open("rb") as source:
+                size = os.fstat(source.fileno()).st_size
+                while at + _CHUNK.size <= size:
+                    source.seek(at)
+                    kind, length, _ = _CHUNK.unpack(source.read(_CHUNK.size))
+                    at += _CHUNK.size + length
+                    if at <= size and kind in (b"DONE", b"FAIL"):
+                        end = at
+        if end == 0:
+            raise Failure("the run has no finished tick yet")
+        return end

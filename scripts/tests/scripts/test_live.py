@@ -1,0 +1,114 @@
+"""Records and sources of live runs."""
+import os
+import struct
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from build import inputs
+from build.console import Failure
+from live import session
+from live.record import Record
+
+
+def chunk(kind: bytes, payload: bytes = b"payload") -> bytes:
+    return struct.pack("<4sII", kind, len(payload), 0) + payload
+
+
+HEAD = b"CLKREC\1\0" + chunk(b"HEAD") + chunk(b"OPEN") + chunk(b"JAR ")
+TICK = chunk(b"STEP") + chunk(b"DONE")
+
+
+def test_a_saved_record_ends_with_the_last_finished_tick(tmp_path: Path) -> None:
+    source = tmp_path / "run.clkrec"
+    source.write_bytes(HEAD + TICK + TICK + chunk(b"STEP") + chunk(b"DONE")[:-1])
+    Record(source).save(tmp_path / "saved.clkrec")
+    # The CRC-32 of an empty END chunk.
+    assert (tmp_path / "saved.clkrec").read_bytes() == HEAD + TICK + TICK + b"END \0\0\0\0" + bytes.fromhex("ba7a6345")
+
+
+@pytest.mark.parametrize("content", [None, b"", HEAD, HEAD + chunk(b"STEP")])
+def test_a_run_without_a_finished_tick_has_no_record(content: bytes | None, tmp_path: Path) -> None:
+    source = tmp_path / "run.clkrec"
+    if content is not None:
+        source.write_bytes(content)
+    with pytest.raises(Failure, match="the run has no finished tick yet"):
+        Record(source).save(tmp_path / "saved.clkrec")
+    assert not (tmp_path / "saved.clkrec").exists()
+
+
+def test_a_saved_record_replaces_no_file(tmp_path: Path) -> None:
+    source = tmp_path / "run.clkrec"
+    source.write_bytes(HEAD + TICK)
+    (tmp_path / "link.clkrec").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(FileExistsError):
+        Record(source).save(tmp_path / "link.clkrec")
+    assert not (tmp_path / "elsewhere").exists()
+
+
+def test_a_large_record_is_deleted_while_the_player_writes_it(tmp_path: Path) -> None:
+    source = tmp_path / "run.clkrec"
+    record = Record(source, maximum=100_000)
+    assert not record.limit()
+    with source.open("wb") as player:
+        player.write(b"x" * 200_000)
+        player.flush()
+        assert record.limit()
+        player.write(b"x" * 200_000)
+        player.flush()
+        assert not record.limit(), "reported once"
+        player.write(b"x")
+        player.flush()
+        assert source.stat().st_blocks * 512 < 100_000
+    with pytest.raises(Failure, match="the record exceeded 0.0001 GB and was deleted; press Restart"):
+        record.save(tmp_path / "saved.clkrec")
+    record.begin()
+    source.write_bytes(HEAD + TICK)
+    record.save(tmp_path / "saved.clkrec")
+
+
+def sources(project: Path) -> dict[str, session.Source]:
+    plan: Any = SimpleNamespace(parts={"programs": inputs.programs(project / "programs")})
+    return session.sources(cast(Any, plan), project)
+
+
+@pytest.mark.parametrize(("before", "shown", "after"), [
+    (b"a\nb\n", "a\nb\n", b"x\ny\n"),
+    (b"a\r\nb\r\n", "a\nb\n", b"x\r\ny\r\n"),
+    (b"\xef\xbb\xbfa\r\nb\nc\r\n", "a\nb\nc\n", b"\xef\xbb\xbfx\r\ny\r\n"),
+    (b"", "", b"x\ny\n"),
+])
+def test_saving_keeps_the_line_ends_and_the_mark(before: bytes, shown: str, after: bytes, tmp_path: Path) -> None:
+    file = tmp_path / "programs/A.kt"
+    file.parent.mkdir()
+    file.write_bytes(before)
+    file.chmod(0o640)
+    source = sources(tmp_path)["A.kt"]
+    assert (source.text, source.problem) == (shown, "")
+    source.write("x\ny\n")
+    assert file.read_bytes() == after
+    assert file.stat().st_mode & 0o777 == 0o640
+    assert os.listdir(file.parent) == ["A.kt"]
+
+
+def test_saving_writes_to_the_target_of_a_link_in_the_project(tmp_path: Path) -> None:
+    project = tmp_path / "project"
+    (project / "programs").mkdir(parents=True)
+    (project / "A.kt").write_text("a")
+    (tmp_path / "B.kt").write_text("b")
+    (project / "programs/A.kt").symlink_to(project / "A.kt")
+    (project / "programs/B.kt").symlink_to(tmp_path / "B.kt")
+    found = sources(project)
+    found["A.kt"].write("x")
+    assert (project / "A.kt").read_text() == "x"
+    assert (project / "programs/A.kt").is_symlink()
+    assert found["B.kt"].problem == f"the file is a link to '{tmp_path / 'B.kt'}', which is not in the project's folder"
+
+
+def test_a_source_that_is_not_utf_8_has_the_reason(tmp_path: Path) -> None:
+    file = tmp_path / "programs/A.kt"
+    file.parent.mkdir()
+    file.write_bytes(b"\xef\xbb\xbf// caf\xe9")
+    assert sources(tmp_path)["A.kt"].problem == "the file is not UTF-8 (byte 9): convert it in another editor"
