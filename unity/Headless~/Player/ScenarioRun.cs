@@ -118,7 +118,7 @@ namespace Collektive.Headless
             var settings = manager.Settings;
             scenario.CopyTo(settings);
             settings.jars.AddRange(options.Jars);
-            if (scenario.Record) settings.record = Path.Combine(options.Out, "run.clkrec");
+            if (scenario.Record || options.Command == "live") settings.record = Path.Combine(options.Out, "run.clkrec");
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings = scenario.Jvm;
             FindProblem(settings);
@@ -318,8 +318,14 @@ namespace Collektive.Headless
             return 0;
         }
 
-        private ScenarioException Stopped(SimulationManager manager) =>
-            new ScenarioException("stopped at tick " + (completedTicks + 1) + ": " + manager.Failure);
+        private ScenarioException Stopped(SimulationManager manager)
+        {
+            var tick = "tick " + (completedTicks + 1);
+            var failure = manager.Failure;
+            foreach (var start in new[] { tick + ": ", tick + " failed: " })
+                if (failure.StartsWith(start, StringComparison.Ordinal)) failure = failure.Substring(start.Length);
+            return new ScenarioException("stopped at " + tick + ": " + failure);
+        }
 
         /// <summary>Returns the likely reason why a frame had no tick.</summary>
         private static string ReasonForMissingTick(SimulationManager manager)
