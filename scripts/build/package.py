@@ -68,7 +68,8 @@ def _stage(content: Path, all_platforms: bool) -> None:
     _copy(GENERATED / "bridge", unity / "Runtime/Bridge/Generated")
     for jar in (places.HOST_JAR, places.LIBRARY_JAR, places.ADAPTER_JAR):
         _copy(jar, jars / jar.name)
-    for file in (places.GENERATOR_JAR, places.TESTING_JAR, ROOT / "schema/types.fbs", places.LINKS / "Links.kt"):
+    for file in (places.GENERATOR_JAR, places.TESTING_JAR, ROOT / "schema/types.fbs", places.LINKS / "Links.kt",
+                 ROOT / "scripts/template/build.gradle.kts"):
         _copy(file, tools / file.name)
     _copy(places.compiler_plugin(), tools / "collektive-compiler-plugin.jar")
     _strip(places.FLATC, tools / "linux-x64/flatc")

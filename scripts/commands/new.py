@@ -1,4 +1,5 @@
-"""Creates a project that runs immediately, in the new folder NAME: a schema, a program with a test, a scene in C#, a scenario and an experiment.
+"""Creates a project that runs immediately, in the new folder NAME: a schema, a program with a test, a scene in C#, a scenario, an experiment,
+and a Gradle build with which IDEs complete and check the Kotlin.
 
 NAME consists of lower-case letters and digits. It becomes the namespace of the C# and the package of the Kotlin."""
 import argparse
@@ -6,6 +7,7 @@ import re
 import tempfile
 from pathlib import Path
 
+from build import gradle, graph
 from build.console import Failure
 from build.places import ROOT
 
@@ -28,10 +30,13 @@ def run(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.name)
     if folder.exists():
         raise Failure(f"new: '{folder}' already exists; choose another name")
+    graph.build("runtime", "jvm_modules")
     # Creates the project atomically.
     with tempfile.TemporaryDirectory(prefix=f".{folder.name}.", dir=".") as work:
         project = Path(work) / folder.name
         _copy(project, folder.name)
+        build = project / "build.gradle.kts"
+        build.write_text(gradle.fill(build.read_text(encoding="utf-8"), f"{folder.name}.fbs", "programs"), encoding="utf-8")
         project.rename(folder)
     print(f"""{folder}: created. Next:
   ./collektive run {folder}/scenario.json --out out/{folder}

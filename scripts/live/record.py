@@ -29,7 +29,7 @@ class Record:
     def limit(self) -> bool:
         """Deletes the content of a record that is too large. Returns whether it did so for the first time."""
         with contextlib.suppress(FileNotFoundError):
-            # The player's next writes leave a hole, so the size of the file says nothing.
+            # After a deletion, the player's writes leave a hole, which counts for the size of the file but not for its blocks.
             if 512 * self._path.stat().st_blocks > self._maximum:
                 os.truncate(self._path, 0)
                 was_deleted, self._is_deleted = self._is_deleted, True
@@ -43,7 +43,7 @@ class Record:
     def save(self, target: Path) -> None:
         """Copies all finished ticks to a new file, and ends it.
 
-        Raises `Failure` if there are none, and FileExistsError, also for a link.
+        Raises `Failure` without finished ticks, and `FileExistsError` for an existing file or link.
         """
         if self._is_deleted:
             raise Failure(self.deletion)

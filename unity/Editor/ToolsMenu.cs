@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using Collektive.Bridge;
 using UnityEditor;
 using UnityEngine;
 
@@ -43,6 +44,19 @@ namespace Collektive.Unity.Editor
                         + ": install it with Package Manager > + > Install package from tarball, then restart the editor "
                         + "(until then it uses the old backend)");
                 return archive != null;
+            });
+        }
+
+        [MenuItem(Menu + "Write Gradle Build", false, 4)]
+        private static void WriteGradleBuild()
+        {
+            var projects = FindAll("Writing the Gradle build", project => project.HasPrograms && project.Runtime.Kind == AggregateRuntime.BuiltIn);
+            if (projects.Count == 0) return;
+            TryRun(() =>
+            {
+                GradleBuild.Write(projects);
+                Debug.Log("Gradle build for IDEs: open the folder " + GradleBuild.Folder + " in IntelliJ IDEA or VS Code");
+                return true;
             });
         }
 

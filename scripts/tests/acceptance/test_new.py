@@ -1,7 +1,13 @@
 """Tests a project that ./collektive new creates."""
 import os
+import re
+import subprocess
 
 from command import Folder, collektive, last_error
+
+from build import fetch
+from build.jdk import find_jdk
+from build.places import BUILD
 
 
 class NewTest(Folder):
@@ -9,7 +15,8 @@ class NewTest(Folder):
         created = collektive("new", "herd", cwd=self.folder)
         self.assertEqual(created.returncode, 0, created.stderr)
         self.assertEqual(os.listdir(self.folder), ["herd"])
-        self.assertEqual(sorted(os.listdir(self.path("herd"))), ["experiment.json", "herd.fbs", "programs", "scenario.json", "scene", "tests"])
+        self.assertEqual(sorted(os.listdir(self.path("herd"))), ["build.gradle.kts", "experiment.json", "herd.fbs", "programs",
+                                                                        "scenario.json", "scene", "settings.gradle.kts", "tests"])
         checked = collektive("check", "herd", cwd=self.folder)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("24 runs", checked.stdout)
@@ -21,6 +28,33 @@ class NewTest(Folder):
         self.assertEqual((manifest["nodes"], manifest["errors"]), (100, 0))
         self.assertGreater(manifest["end"]["reached"], 0.5)
         self.assertTrue(os.path.exists(self.path("out", "replay.html")))
+
+    def test_the_kotlin_compiles_with_the_files_that_the_gradle_build_names(self) -> None:
+        created = collektive("new", "herd", cwd=self.folder)
+        self.assertEqual(created.returncode, 0, created.stderr)
+        with open(self.path("herd", "settings.gradle.kts")) as file:
+            self.assertEqual(file.read(), 'rootProject.name = "herd"\n')
+        with open(self.path("herd", "build.gradle.kts")) as file:
+            text = file.read()
+        self.assertNotRegex(text, "@[A-Z]+@")
+        names = dict(re.findall(r'^val (\w+) = (?:files\()?(".*")\)?$', text, re.M))
+        self.assertEqual(set(names), {"library", "testing", "plugin", "generator", "flatc", "types", "schemas", "programs"})
+        paths = {name: [os.path.join(self.path("herd"), path) for path in re.findall(r'"([^"]+)"', value)] for name, value in names.items()}
+        self.assertEqual([path for values in paths.values() for path in values if not os.path.exists(path)], [])
+        self.assertIn(f'kotlin("jvm") version "{fetch.pom_value("kotlin.version")}"', text)
+        generated = self.path("generated")
+        java = find_jdk() / "bin/java"
+        subprocess.run([java, "-jar", *paths["generator"], "--flatc", *paths["flatc"], "--include", *paths["types"], "--jvm", generated,
+                        "--schema", *paths["schemas"]], check=True)
+        junit = sorted((BUILD / "junit").glob("*.jar"))
+        result = subprocess.run(
+            [java, "-cp", f"{BUILD}/kotlinc/*", "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler", "-no-stdlib", "-no-reflect", "-jvm-target", "17",
+             "-d", self.path("classes"),
+             "-cp", ":".join(map(str, [*paths["library"], *paths["testing"], *junit])), f"-Xplugin={paths['plugin'][0]}",
+             *paths["programs"], self.path("herd", "tests"), generated],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertTrue(os.path.exists(self.path("classes", "herd", "HerdKt.class")))
 
     def test_an_existing_folder_is_kept_and_invalid_names_are_refused(self) -> None:
         os.mkdir(self.path("herd"))

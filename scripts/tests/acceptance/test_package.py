@@ -79,7 +79,7 @@ class PackageTest(Packaged):
         built = ["Jvm~/collektive-adapter.jar", "Jvm~/collektive-host.jar", "Jvm~/collektive-library.jar",
                  "Runtime/Plugins/Collektive.FlatBuffers.dll",
                  "Runtime/Plugins/linux-x64/libcollektive_shim.so", "Samples~/GradientAscent/Programs/GradientAscent.kt",
-                 "Tools~/Links.kt", "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar",
+                 "Tools~/Links.kt", "Tools~/build.gradle.kts", "Tools~/collektive-compiler-plugin.jar", "Tools~/collektive-generator.jar",
                  "Tools~/collektive-testing.jar", "Tools~/linux-x64/flatc", "Tools~/types.fbs"]
         expected |= {"unity/" + path for path in built}
         expected |= {str(path.relative_to(ROOT).with_suffix(".clkprograms")) for path in (ROOT / "unity/Samples~").glob("*/*.fbs")}

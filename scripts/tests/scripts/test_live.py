@@ -62,7 +62,7 @@ def test_a_large_record_is_deleted_while_the_player_writes_it(tmp_path: Path) ->
         player.write(b"x")
         player.flush()
         assert source.stat().st_blocks * 512 < 100_000
-    with pytest.raises(Failure, match="the record exceeded 0.0001 GB and was deleted; press Restart"):
+    with pytest.raises(Failure, match=r"the record exceeded 0\.0001 GB and was deleted; press Restart"):
         record.save(tmp_path / "saved.clkrec")
     record.begin()
     source.write_bytes(HEAD + TICK)

@@ -27,6 +27,11 @@ namespace Collektive.Unity.Editor
         /// <summary>Source of the functions on links: part of the built-in library, and compiled with programs for other runtimes.</summary>
         internal static string Links => PackageTool("Links.kt");
 
+        /// <summary>API for tests of programs.</summary>
+        internal static string Testing => PackageTool("collektive-testing.jar");
+
+        internal static string GradleTemplate => PackageTool("build.gradle.kts");
+
         /// <summary>Folder of <c>types.fbs</c>, which schemas may include.</summary>
         internal static string SchemaFolder => Path.GetDirectoryName(PackageTool("types.fbs"));
 

@@ -334,7 +334,8 @@ class Live {
   setControl(controls) {
     this.controls = controls;
     this.files.setReadOnly(!controls || this.editable === false);
-    for (const control of document.querySelectorAll(':is(#panels, #examples) :is(input, button, select)')) control.disabled = !controls && control.id !== 'copy';
+    const all = document.querySelectorAll(':is(#panels, #examples) :is(input, button, select)');
+    for (const control of all) control.disabled = !controls && control.id !== 'copy';
     if (!controls) this.setState('watching: another page controls the simulation', false);
   }
 

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Text.RegularExpressions;
 using Collektive.Bridge;
 using Collektive.Unity;
 using Collektive.Unity.Editor;
@@ -58,6 +59,39 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             Write("Assets/swarm.fbs", "namespace swarm;\ntable SensorData { intensity: float; }\n");
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Generate Schema Code");
             Assert.That(Logged("ActuatorData is missing"), Is.StringStarting("Error: "));
+        }
+
+        [Test]
+        public void The_Gradle_build_names_the_programs_and_files_of_the_package()
+        {
+            Write("Assets/Swarm/swarm.fbs", Schema);
+            Write("Assets/Swarm/Programs/Count.kt", Kotlin);
+            Write("Assets/$Other/other.fbs", Schema);
+            Write("Assets/$Other/Programs/Count.kt", Kotlin);
+            for (var i = 0; i < 2; i++) EditorApplication.ExecuteMenuItem("Tools/Collektive/Write Gradle Build");
+            Assert.That(Logged("open the folder CollektivePrograms"), Is.StringStarting("Log: "));
+            Assert.That(Directory.GetFiles("CollektivePrograms").Length, Is.EqualTo(2));
+            var text = File.ReadAllText("CollektivePrograms/build.gradle.kts");
+            var folder = Directory.GetCurrentDirectory();
+            Assert.That(text, Is.StringContaining(
+                "files(\"" + folder + "/Assets/\\$Other/Programs\", \"" + folder + "/Assets/Swarm/Programs\")"));
+            Assert.That(text, Is.StringContaining("files(\"" + folder + "/Assets/\\$Other/other.fbs\", \"" + folder + "/Assets/Swarm/swarm.fbs\")"));
+            var paths = Regex.Matches(text, "\"(/[^\"]+)\"");
+            Assert.That(paths.Count, Is.EqualTo(11));
+            foreach (Match path in paths)
+            {
+                var file = path.Groups[1].Value.Replace("\\$", "$");
+                Assert.That(File.Exists(file) || Directory.Exists(file), Is.True, file);
+            }
+        }
+
+        [Test]
+        public void Without_programs_no_Gradle_build_is_written()
+        {
+            Write("Assets/swarm.fbs", Schema);
+            EditorApplication.ExecuteMenuItem("Tools/Collektive/Write Gradle Build");
+            Assert.That(Logged("no sources were found"), Is.StringStarting("Warning: "));
+            Assert.That(Directory.Exists("CollektivePrograms"), Is.False);
         }
 
         [Test]

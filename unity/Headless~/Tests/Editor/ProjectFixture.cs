@@ -42,6 +42,8 @@ namespace Collektive.Headless.Tests.Editor
             Copy("jvm-host/generator/target/collektive-generator.jar", "Tools~/collektive-generator.jar");
             Copy("jvm-host/compiler-plugin/target/compiler-plugin-0.2.0.jar", "Tools~/collektive-compiler-plugin.jar");
             Copy("jvm-host/stdlib/src/main/kotlin/org/collektive/links/Links.kt", "Tools~/Links.kt");
+            Copy("jvm-host/testing/target/collektive-testing.jar", "Tools~/collektive-testing.jar");
+            Copy("scripts/template/build.gradle.kts", "Tools~/build.gradle.kts");
             foreach (var jar in new[] { "host", "library", "adapter" })
                 Copy("jvm-host/host/target/collektive-" + jar + ".jar", "Jvm~/collektive-" + jar + ".jar");
         }
