@@ -99,8 +99,7 @@ public class Engine @JvmOverloads constructor(
     }
 
     /** Returns the node [Tick.inspected] after the last [step], with at most [limit] values, or `null` for an unknown node. */
-    public fun inspect(limit: Int): NodeState? =
-        nodes.find(inspected)?.let { NodeState(it.id, inspectedNanos, it.runtime.state(limit)) }
+    public fun inspect(limit: Int): NodeState? = nodes.find(inspected)?.let { NodeState(it.id, inspectedNanos, it.runtime.state(limit)) }
 
     /**
      * Returns all nodes after the last [step].

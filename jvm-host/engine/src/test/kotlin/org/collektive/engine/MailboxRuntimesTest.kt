@@ -57,8 +57,9 @@ class MailboxRuntimesTest {
 
     @Test
     fun `both runtimes return the stored values by their paths`() {
+        val program = program { alignedOn("outer") { evolve(0) { it + 1 } + alignedOn(7) { evolve(3) { it } } } }
         for (runtimes in listOf(AggregateRuntimes(), MailboxRuntimes())) {
-            TestEngine(program { alignedOn("outer") { evolve(0) { it + 1 } + alignedOn(7) { evolve(3) { it } } } }, runtimes = runtimes).use {
+            TestEngine(program, runtimes = runtimes).use {
                 with(it) {
                     step {
                         add(3)

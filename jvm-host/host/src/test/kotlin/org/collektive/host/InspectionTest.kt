@@ -80,7 +80,8 @@ class InspectionTest {
             static final class Throwing { @Override public String toString() { throw new IllegalStateException(); } }
             """,
         )
-        val expected = listOf("long" to "x".repeat(120) + "…", "object" to "Plain", "throwing" to "toString() failed: java.lang.IllegalStateException")
+        val failure = "toString() failed: java.lang.IllegalStateException"
+        val expected = listOf("long" to "x".repeat(120) + "…", "object" to "Plain", "throwing" to failure)
         assertEquals(expected, state(inspection(1, 1, 1)))
     }
 

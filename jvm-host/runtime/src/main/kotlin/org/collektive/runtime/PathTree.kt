@@ -83,7 +83,11 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
 
     fun slot(mask: Int) = spread(tokenHash) and mask
 
-    override fun toString(): String = FullPath(generateSequence(this, PathNode::parent).map(PathNode::token).toList().dropLast(1).asReversed()).toString()
+    override fun toString(): String {
+        // The root has no token.
+        val nodes = generateSequence(this) { it.parent }.filter { it.parent != null }
+        return FullPath(nodes.map(PathNode::token).toList().asReversed()).toString()
+    }
 
     companion object {
         fun spread(hash: Int) = hash * -0x61c88647 ushr 7

@@ -21,8 +21,11 @@ public class NodeInspection(state: NodeState) {
             "toString() failed: ${failure.javaClass.name}"
         }
         val type = value?.javaClass
-        val hasNoText = type != null && text.startsWith("${type.name}@")
-        return if (hasNoText) type.simpleName else if (text.length <= MAX_TEXT) text else text.take(MAX_TEXT) + "…"
+        return when {
+            type != null && text.startsWith("${type.name}@") -> type.simpleName
+            text.length > MAX_TEXT -> "${text.take(MAX_TEXT)}…"
+            else -> text
+        }
     }
 
     public companion object {
