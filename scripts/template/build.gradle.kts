@@ -43,14 +43,9 @@ tasks.withType<JavaCompile>().configureEach {
     options.release.set(17)
 }
 
-sourceSets.main {
-    java.setSrcDirs(listOf(generateSchemas))
-    kotlin.setSrcDirs(listOf(programs, generateSchemas))
-}
-
-sourceSets.test {
-    kotlin.setSrcDirs(listOf("tests"))
-}
+sourceSets["main"].java.setSrcDirs(listOf(generateSchemas))
+kotlin.sourceSets["main"].kotlin.setSrcDirs(listOf(programs, generateSchemas))
+kotlin.sourceSets["test"].kotlin.setSrcDirs(listOf("tests"))
 
 tasks.test {
     useJUnitPlatform()
