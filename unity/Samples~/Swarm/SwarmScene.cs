@@ -27,7 +27,7 @@ namespace CollektiveSamples.Swarm
 
         /// <summary>Simulated seconds from one shape to the next.</summary>
         [Min(1)]
-        public float shapeSeconds = 15;
+        public float shapeSeconds = 18;
 
         /// <summary>Simulated seconds after which the leader fails.</summary>
         [Min(0)]

@@ -23,7 +23,7 @@ import kotlin.math.min
     "swarm",
     parameters = [
         Parameter("radius", "20.0", "Radius of the shapes in metres. All drones must fit on a sphere of this radius."),
-        Parameter("shapeSeconds", "15.0", "Seconds between two shapes."),
+        Parameter("shapeSeconds", "18.0", "Seconds between two shapes."),
         Parameter("speed", "12.0", "Maximum speed of a drone in metres per second."),
     ],
 )
