@@ -72,10 +72,10 @@ namespace Collektive.Bridge
         internal Frame.ReloadResponse ReloadedPrograms => response.Reload.GetValueOrDefault();
 
         /// <summary>Sizes of the messages of <see cref="Nodes"/>; empty unless requested.</summary>
-        public ReadOnlySpan<MessageSize> Messages => Vector<MessageSize>(MessagesField);
+        public Span<MessageSize> Messages => Vector<MessageSize>(MessagesField);
 
         /// <summary>Ids of the nodes with an answer, ascending: on Mono faster than many calls of <see cref="Node"/>.</summary>
-        public ReadOnlySpan<int> Nodes => Vector<int>(NodesField);
+        public Span<int> Nodes => Vector<int>(NodesField);
 
         /// <summary>Number of <see cref="Metric"/>s: those of the session if requested, otherwise none.</summary>
         public int MetricCount => response.MetricsLength;
@@ -127,7 +127,7 @@ namespace Collektive.Bridge
             }
         }
 
-        private unsafe ReadOnlySpan<T> Vector<T>(int field) where T : unmanaged
+        private unsafe Span<T> Vector<T>(int field) where T : unmanaged
         {
             var place = table.__offset(field);
             return place == 0 ? default : MemoryMarshal.Cast<byte, T>(table.bb.ToSpan(table.__vector(place), table.__vector_len(place) * sizeof(T)));
