@@ -38,13 +38,21 @@ namespace Collektive.Headless
             if (key.StartsWith(Fields + ".", StringComparison.Ordinal)) field = text.Substring(Fields.Length + 1);
             else if (!Scenario.Keys.Contains(key.Split('.')[0])) field = text;
             // The type of an object's field is known only with the scene.
-            if (field != null && field.IndexOf('.') is var dot && dot >= 0 && dot < field.IndexOf('='))
+            if (field != null && NameOf(field).Contains("."))
             {
-                key = Fields + "." + field.Substring(0, field.IndexOf('='));
+                var nested = OfField(field);
                 field = null;
+                return nested;
             }
             return field == null ? new Assignment(key, Json(text.Substring(equals + 1))) : null;
         }
+
+        /// <summary>Returns the assignment of a field of the scene, <c>FIELD=VALUE</c>, whose value is JSON or a string.</summary>
+        internal static Assignment OfField(string field) =>
+            new Assignment(Fields + "." + NameOf(field), Json(field.Substring(field.IndexOf('=') + 1)));
+
+        /// <summary>Whether this one changes the value that <c>FIELD=VALUE</c> has set.</summary>
+        internal bool Changes(string field) => Key == Fields || Key.StartsWith(Fields + "." + NameOf(field) + ".", StringComparison.Ordinal);
 
         /// <summary>Puts the value into a scenario.</summary>
         internal void Apply(JObject root)
@@ -58,6 +66,8 @@ namespace Collektive.Headless
             }
             part[path[path.Length - 1]] = value;
         }
+
+        private static string NameOf(string field) => field.Substring(0, field.IndexOf('='));
 
         /// <summary>Names of programs and metrics may contain dots, those of parameters do not.</summary>
         private static string[] Path(string key)

@@ -95,8 +95,18 @@ namespace Collektive.Headless
 
         private void AddAssignment(Assignment assignment, string field)
         {
-            if (assignment == null) FieldAssignments.Add(field);
-            else Assignments.Add(assignment);
+            if (assignment == null)
+            {
+                FieldAssignments.Add(field);
+                return;
+            }
+            // Fields are set after all keys, so earlier fields that this key changes become keys.
+            foreach (var earlier in FieldAssignments.FindAll(assignment.Changes))
+            {
+                Assignments.Add(Assignment.OfField(earlier));
+                FieldAssignments.Remove(earlier);
+            }
+            Assignments.Add(assignment);
         }
 
         private bool SetFlag(string name)

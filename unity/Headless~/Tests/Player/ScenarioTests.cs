@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using System.Reflection;
 using Collektive.Unity;
 using Newtonsoft.Json.Linq;
@@ -110,6 +111,17 @@ namespace Collektive.Headless.Tests.Player
         {
             Assert.That(Assignment.Parse(text, out var found), Is.Null);
             Assert.That(found, Is.EqualTo(field));
+        }
+
+        [TestCase("area={\"size\": 1, \"depth\": 2}", "area.size=3", "{\"area\":{\"size\":3,\"depth\":2}}", "")]
+        [TestCase("area.size=3", "area={\"depth\": 2}", "{\"area\":{\"size\":3}}", "area={\"depth\": 2}")]
+        [TestCase("nodes=3", "fields={\"area\": 1}", "{\"area\":1}", "")]
+        [TestCase("nodes=3", "nodesOf.a=1", "{\"nodesOf\":{\"a\":1}}", "nodes=3")]
+        public void Later_assignments_of_fields_override_earlier_ones(string first, string second, string fields, string left)
+        {
+            var options = Options.Parse(new[] { "plan", "scenario.json", "--set", first, "--set", second });
+            Assert.That(Text(ReadText(Minimal().ToString(), options.Assignments).Fields), Is.EqualTo(fields));
+            Assert.That(string.Join(" ", options.FieldAssignments), Is.EqualTo(left));
         }
 
         [TestCase("threads=010", "'threads' is \"010\"; it must be of type whole number")]
@@ -287,11 +299,14 @@ namespace Collektive.Headless.Tests.Player
 
         private Scenario Read(JObject root, params string[] assignments) => ReadText(root.ToString(), assignments);
 
-        private Scenario ReadText(string text, params string[] assignments)
+        private Scenario ReadText(string text, params string[] assignments) =>
+            ReadText(text, Array.ConvertAll(assignments, each => Assignment.Parse(each, out _)));
+
+        private Scenario ReadText(string text, IEnumerable<Assignment> assignments)
         {
             var path = Path.Combine(folder, "scenario.json");
             File.WriteAllText(path, text);
-            return Scenario.Read(path, null, false, Array.ConvertAll(assignments, each => Assignment.Parse(each, out _)));
+            return Scenario.Read(path, null, false, assignments.ToArray());
         }
 
         private static JObject Minimal() => JObject.Parse(
