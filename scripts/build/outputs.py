@@ -90,6 +90,15 @@ def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
     return [name for name in names if os.path.lexists(folder / name)]
 
 
+def require_replaceable(file: str, beginning: bytes, option: str) -> None:
+    """Raises `Failure` if a file exists and has another beginning than the results that would replace it."""
+    if not os.path.isfile(file):
+        return
+    with open(file, "rb") as existing:
+        if existing.read(len(beginning)) not in (b"", beginning):
+            raise Failure(f"'{file}' exists and has other contents than {option} writes: name another file, or remove it")
+
+
 def require(folder: Path, outcome: str, code: int) -> None:
     """Raises `Failure` if the manifest contradicts the player's exit code: no manifest, another outcome, or an outcome that was never written."""
     try:

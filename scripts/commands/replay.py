@@ -10,7 +10,7 @@ import argparse
 import os
 from pathlib import Path
 
-from build import graph, inputs, projects, records
+from build import graph, inputs, outputs, projects, records
 from build.console import Failure
 from build.places import SAMPLES_JAR
 
@@ -29,6 +29,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.out is not None:
+        outputs.require_replaceable(arguments.out, b"CLKREC", "--out")
+        if os.path.exists(arguments.out) and os.path.exists(arguments.record) and os.path.samefile(arguments.out, arguments.record):
+            raise Failure(f"replay: --out '{arguments.out}' is the record that is read: name another file")
     graph.build("jvm", "jvm_modules")
     # The samples' programs may have run in Unity.
     projects.record_own_program(SAMPLES_JAR)

@@ -49,6 +49,8 @@ def run_scenario(scenario: str, **options: object) -> int:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if arguments.recording is not None:
+        outputs.require_replaceable(arguments.recording, b"FLR\0", "--recording")
     graph.build("runtime")
     scenario_options = [word for value in arguments.values for word in ("--set", value)]
     if arguments.folder is not None:

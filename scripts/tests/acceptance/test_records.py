@@ -53,6 +53,27 @@ class Records(Project):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertRegex(result.stdout, r"tick \d+ is the first difference.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
 
+    def test_a_replay_overwrites_neither_its_record_nor_other_files(self) -> None:
+        with open(self.a, "rb") as file:
+            before = file.read()
+        os.link(self.a, self.path("link.clkrec"))
+        os.symlink(self.a, self.path("symlink.clkrec"))
+        scenario = self.path("project", "lamps.json")
+        for out, message in ((self.a, "is the record that is read"), (self.path("link.clkrec"), "is the record that is read"),
+                             (self.path("symlink.clkrec"), "is the record that is read"), (scenario, "has other contents than --out writes")):
+            result = collektive("replay", self.a, "--out", out)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(message, last_error(result))
+        result = collektive("run", scenario, "--out", self.path("other"), "--recording", scenario)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("has other contents than --recording writes", last_error(result))
+        with open(self.a, "rb") as file:
+            self.assertEqual(file.read(), before)
+        with open(scenario, "rb") as file:
+            self.assertTrue(file.read().lstrip().startswith(b"{"))
+        for _ in range(2):
+            self.assertEqual(collektive("replay", self.a, "--out", self.path("again.clkrec")).returncode, 0)
+
     def test_two_runs_are_compared(self) -> None:
         self.assertEqual(collektive("diff", self.a, self.record("b")).returncode, 0)
         result = collektive("diff", self.a, self.record("c", "--set", "lamps=9"))
