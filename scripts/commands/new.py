@@ -12,13 +12,14 @@ from build.console import Failure
 from build.places import ROOT
 
 TEMPLATE = ROOT / "scripts/template"
-# Keywords of C# and Kotlin, and namespaces of the package and of FlatBuffers.
+# Namespaces that the generator refuses (ReservedNames.kt), and other namespaces of the package and of FlatBuffers.
 RESERVED = frozenset("""
-    abstract as base bool break byte case catch char checked class collektive const continue decimal default delegate do double else enum event explicit
-    extern false finally fixed float for foreach fun goto if implicit in int interface internal is it kotlin lock long namespace new null object
-    operator org out override package params private protected public readonly ref return sbyte sealed short sizeof stackalloc standard static string
-    struct super switch system this throw true try typealias typeof uint ulong unchecked union unity unsafe ushort using val var virtual void volatile
-    when while
+    abstract as assert async await base bool boolean break builder byte case catch char checked class collektive com const constant continue data decimal
+    default delegate depth do double dynamic else enum event explicit extends extern false fault final finally fixed float for foreach fun global goto i if
+    implements implicit import in init instanceof int interface internal is it items java javax jdk kotlin kotlinx lock long name nameof namespace native
+    new nint nuint null object operator org out override pack package params partial place private protected public readonly record ref result return
+    sbyte sealed short sizeof stackalloc standard static strictfp string struct sun super switch synchronized system target this throw throws transient
+    true try typealias typeof types uint ulong unchecked union unity unsafe ushort using val var virtual void volatile when where while yield
 """.split())
 
 

@@ -3,7 +3,8 @@ import os
 import re
 import subprocess
 
-from command import Folder, collektive, last_error
+from command import ROOT, Folder, collektive, last_error
+from commands.new import RESERVED
 
 from build import fetch
 from build.jdk import find_jdk
@@ -55,6 +56,12 @@ class NewTest(Folder):
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.assertEqual(result.returncode, 0, result.stdout)
         self.assertTrue(os.path.exists(self.path("classes", "herd", "HerdKt.class")))
+
+    def test_namespaces_that_the_generator_refuses_are_reserved(self) -> None:
+        with open(os.path.join(ROOT, "jvm-host/generator/src/main/kotlin/org/collektive/generator/ReservedNames.kt")) as file:
+            lists = re.findall(r'val (?:kotlin|reserved|roots|packages)\b[^=]*=[^"]*"""([^"]*)"""', file.read())
+        self.assertEqual(len(lists), 4)
+        self.assertEqual({word for words in lists for word in words.split() if re.fullmatch("[a-z][a-z0-9]*", word)} - RESERVED, set())
 
     def test_an_existing_folder_is_kept_and_invalid_names_are_refused(self) -> None:
         os.mkdir(self.path("herd"))
