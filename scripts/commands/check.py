@@ -52,7 +52,8 @@ def _kind(file: Path) -> str | None:
         text = file.read_text(encoding="utf-8", errors="replace")
     except OSError:
         return None
-    return next((key for key in (EXPERIMENT, SCENARIO) if re.search(rf'"{key}"\s*:', text)), None)
+    # Keys may have single quotes or none.
+    return next((key for key in (EXPERIMENT, SCENARIO) if re.search(rf"""(?m)("|(^|[{{,])\s*'?){key}["']?\s*:""", text)), None)
 
 
 def _check_scenario(file: Path, trust: list[str]) -> bool:

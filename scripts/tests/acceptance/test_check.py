@@ -1,6 +1,7 @@
 """Tests the check of scenarios and experiments before their runs."""
 import json
 import os
+import re
 
 from command import Project, collektive
 
@@ -18,11 +19,15 @@ class CheckTest(Project):
     def test_all_scenarios_and_experiments_of_a_folder_are_checked(self) -> None:
         with open(self.path("project", "sweep.json"), "w") as file:
             json.dump({"version": 1, "scenario": "lamps.json", "vary": {"fields.lamps": [5, 7], "seed": "1-2"}}, file)
+        with open(self.write("plain.json")) as file:
+            text = re.sub('"(\\w+)":', r"\1:", file.read())
+        with open(self.path("project", "plain.json"), "w") as file:
+            file.write(text)
         before = sorted(os.listdir(self.path("project")))
         result = collektive("check", "project", cwd=self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("4 runs into", result.stdout)
-        self.assertIn("project/lamps.json: valid scenario\nproject/sweep.json: valid experiment\n", result.stdout)
+        self.assertIn("project/lamps.json: valid scenario\nproject/plain.json: valid scenario\nproject/sweep.json: valid experiment\n", result.stdout)
         self.assertEqual(sorted(os.listdir(self.path("project"))), before)
 
     def test_each_invalid_file_has_an_error_and_the_others_are_checked(self) -> None:
