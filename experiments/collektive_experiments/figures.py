@@ -109,20 +109,21 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
         check(results, request)
     if experiment:
         check_labels(experiment, metrics_at_end(results))
+    shown = [] if options else list(metrics or [*results.metrics, *results.convergence_times])
+    reserved = {f"{file_name(metric)}-{kind}" for metric in shown for kind in ("time", "end")}
     drawn: dict[str, Drawing] = {}
     tables: dict[str, str] = {}
     for request in requests:
         for name, figure, caption in draw(results, request):
-            if name in drawn:
+            if name in drawn or name in reserved:
                 raise request.fail("metric", f"and the other options describe an existing figure: '{name}'; remove one")
             drawn[name] = _render(figure, caption, STYLES[request.style], request.fail)
-    if not options:
-        for metric in metrics or [*results.metrics, *results.convergence_times]:
-            if metric in results.metrics:
-                drawn[f"{file_name(metric)}-time"] = _render(*over_time(results, metric), {})
-            last = f"{file_name(metric)}-end"
-            drawn[last] = _render(*at_end(results, metric), {})
-            tables[last] = _table(results, metric)
+    for metric in shown:
+        if metric in results.metrics:
+            drawn[f"{file_name(metric)}-time"] = _render(*over_time(results, metric), {})
+        last = f"{file_name(metric)}-end"
+        drawn[last] = _render(*at_end(results, metric), {})
+        tables[last] = _table(results, metric)
     files.make(os.path.join(folder, "figures"))
     paths = [path for name, drawing in drawn.items() for path in drawing.write(os.path.join(folder, "figures", name))]
     if options:

@@ -58,6 +58,8 @@ def run_task(folder: str, index: int) -> int:
             raise ExperimentError(f"task {index} of '{folder}' is already running: wait for its job to end") from error
         with open(os.path.join(folder, "tasks.json"), encoding="utf-8") as file:
             job = json.load(file)
+        if not 0 <= index < len(job["tasks"]):
+            raise ExperimentError(f"the job has no task {index}: submit '{os.path.join(folder, 'slurm.sh')}' without --array")
         worker = Worker(store.bundle, log, job["trust"])
         failed = False
         try:

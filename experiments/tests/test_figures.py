@@ -174,6 +174,14 @@ def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
     with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe an existing figure: 'error-line-network.loss-"):
         plot(write_sweep(tmp_path / "out", 1, figures=[figure, figure]))
     assert not (tmp_path / "out/figures").exists()
+    # So are those of a requested figure and of another metric.
+    folder = write_sweep(tmp_path / "one", 3, (0.0,), figures=[{"metric": "error"}])
+    for path in (tmp_path / "one/runs.parquet", tmp_path / "one/series.parquet"):
+        table = pd.read_parquet(path).query("program == 'bellman-ford'")
+        table.insert(list(table.columns).index("error"), "error-line", table["error"])
+        table.to_parquet(path)
+    with pytest.raises(ExperimentError, match="describe an existing figure: 'error-line-time'"):
+        plot(folder)
 
 
 def test_runs_that_do_not_converge_are_censored_in_each_kind(sweep: str) -> None:

@@ -355,6 +355,9 @@ def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
         fcntl.flock(log, fcntl.LOCK_EX)
         twice = subprocess.run([script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": "2"})
         assert (twice.returncode, "task 2 of" in twice.stderr) == (1, True), twice.stderr
+    for index in ("4", "-1"):
+        unknown = subprocess.run([script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": index})
+        assert (unknown.returncode, f"the job has no task {index}" in unknown.stderr, "Traceback" in unknown.stderr) == (1, True, False), unknown.stderr
     # Runs of a missing task are repeated.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr
