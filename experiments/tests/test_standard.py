@@ -61,6 +61,7 @@ DATA = {
     "cities.geojson": json.dumps({"type": "FeatureCollection", "features": [
         {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [12, 44, 30]}},
         {"type": "Feature", "properties": {}, "geometry": {"type": "MultiPoint", "coordinates": [[12.002, 44], [12.001, 44.001]]}}]}),
+    "islands.csv": "lon,lat\n179.9999,0\n-179.9999,0\n",
     "ring.csv": "x,z\n" + "".join(f"{3 * math.cos(angle / 10 * math.pi)},{3 * math.sin(angle / 10 * math.pi)}\n" for angle in range(20)),
     "values.csv": "time,id,value\n0,0,5\n1,0,6\n0.5,1,7\n",
     "bad/cells.csv": "x,z\n1,2\n3\n",
@@ -73,6 +74,8 @@ DATA = {
     "bad/back.csv": "time,id,x,z\n1,0,0,0\n1,0,1,1\n",
     "bad/no-ids.csv": "time,x,z\n1,0,0\n",
     "bad/degrees.csv": "lon,lat\n12,144\n",
+    "bad/twice.csv": "x,z,x\n1,2,3\n",
+    "bad/large.csv": "x,z\n1,1e39\n",
     "bad/xml.gpx": "<gpx>\n<trk>\n</gpx>",
     "bad/time.gpx": '<gpx>\n<trk>\n<trkpt lat="1" lon="1"/></trk></gpx>',
     "bad/line.geojson": '{"type": "Feature",\n"geometry":\n{"type": "LineString", "coordinates": []}}',
@@ -143,6 +146,7 @@ REFUSED: list[tuple[str, Any, str]] = [
         ("columns.csv", ":1: the columns 'x' and 'z', or 'lon' and 'lat', are missing"), ("empty.csv", ":1: the file has no rows"),
         ("quote.csv", ":2: a quote is not closed"), ("ids.csv", ":3: node 1 is also in line 2"), ("id.csv", ":2: 'id' is -1"),
         ("back.csv", ":3: the time must be after that of the previous point of node 0"), ("no-ids.csv", ":1: the column 'time' needs the column 'id'"),
+        ("twice.csv", ":1: the column 'x' occurs twice"), ("large.csv", ":2: the position is too large"),
         ("degrees.csv", ":2: longitude 12 and latitude 144 are not degrees"), ("xml.gpx", ":3: not valid XML: "),
         ("line.geojson", ":3: 'type' is 'LineString': only points are possible"), ("point.geojson", ":1: 'coordinates' must be [longitude, latitude]"),
     )],
@@ -353,6 +357,8 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
       "obstacles": [{"polygon": [[1, -1], [1.5, -1], [1.5, 1], [1, 1]]}]}, 0.1, {"sum(degree)": (0, 0)}),
     ({"movement": {"kind": "RandomWaypoint", "speed": 2}}, 2, {f"max({SPEED})": (1.99, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
     ({"movement": {"kind": "LevyWalk", "speed": 2}}, 9, {f"max({SPEED})": (1.9, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
+    # The two islands are 22 m apart across the antimeridian.
+    ({"deployment": {"kind": "File", "file": "islands.csv"}}, 0.1, {"max(x) - min(x)": (22.2, 22.3), "total(x) filter (where id = 0)": (-11.2, -11.1)}),
     # The program's target is the origin.
     ({"deployment": {"nodes": 4}, "movement": {"kind": "Target", "speed": 1}}, 2, {f"max({SPEED})": (0.5, 1.01), "max(x)": (1, 2.5)}),
     ({"churn": {"failures": 0.1, "arrivals": 10}}, 5,
@@ -422,6 +428,22 @@ def test_a_run_can_be_repeated_from_its_manifest(study: Study, tmp_path: Path) -
     result = subprocess.run([COLLEKTIVE, "repeat", manifest, "--out", tmp_path / "again"], capture_output=True, text=True, timeout=300)
     assert result.returncode == 0, result.stderr
     assert "data" in result.stdout + result.stderr
+
+
+def test_an_interrupted_run_with_a_metric_in_kotlin_can_be_repeated(study: Study, tmp_path: Path) -> None:
+    values = {**SCENARIO, "metrics": {"farthest": {"function": "farthest"}}, "converged": {}, "seconds": 1e6, "outputs": {"interval": 1e6}}
+    (study.folder / "interrupted.json").write_text(json.dumps(values))
+    command = [COLLEKTIVE, "run", study.folder / "interrupted.json", "--out", tmp_path / "out"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as run:
+        assert run.stderr is not None
+        assert any("tick " in line for line in run.stderr)
+        run.terminate()
+        run.communicate(timeout=60)
+    assert run.returncode == 143
+    manifest = tmp_path / "out/manifest.json"
+    assert json.loads(manifest.read_text())["end"] == {"farthest": "NaN"}
+    result = subprocess.run([COLLEKTIVE, "repeat", manifest, "--out", tmp_path / "again"], capture_output=True, text=True, timeout=300)
+    assert result.returncode == 0, result.stderr
 
 
 def test_the_folder_of_data_cannot_contain_the_scenario(study: Study, tmp_path: Path) -> None:

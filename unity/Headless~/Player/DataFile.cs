@@ -43,7 +43,7 @@ namespace Collektive.Headless
         /// <summary>Reads numbers from a CSV file, whose first line names its columns. Ignores other columns and blank lines.</summary>
         /// <param name="columns">Names of columns.</param>
         /// <returns>A row per line, with NaN for missing columns; the last value is the line's number.</returns>
-        /// <exception cref="ScenarioException">A line has another number of cells than the first, or a cell is not a finite number.</exception>
+        /// <exception cref="ScenarioException">A column occurs twice, a line has another number of cells than the first, or a cell is not a finite number.</exception>
         public List<double[]> ReadCsv(params string[] columns)
         {
             var rows = new List<double[]>();
@@ -57,6 +57,8 @@ namespace Collektive.Headless
                 if (header == null)
                 {
                     header = cells;
+                    foreach (var name in columns)
+                        if (header.IndexOf(name) != header.LastIndexOf(name)) throw Error(number, "the column '" + name + "' occurs twice");
                     continue;
                 }
                 if (cells.Count != header.Count)

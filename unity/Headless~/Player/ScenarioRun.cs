@@ -216,7 +216,8 @@ namespace Collektive.Headless
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished && !HasConverged; frame++)
                 {
                     var before = completedTicks;
-                    runMetrics.Prepare(manager, rows.IsDue(completedTicks + 1) || frame == ticks);
+                    // A repetition of a run that ended early measures at the same ticks.
+                    runMetrics.Prepare(manager, rows.IsDue(completedTicks + 1) || frame == (options.IsCheck ? ticks : scenario.Ticks));
                     limit.Begin(completedTicks + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();

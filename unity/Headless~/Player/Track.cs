@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 using System.Xml;
 using System.Xml.Linq;
 using Newtonsoft.Json;
@@ -67,6 +68,7 @@ namespace Collektive.Headless
                 throw file.Error(
                     line, double.IsNaN(time) ? "node " + Id + " is also in line " + Line : "the time must be after that of the previous point of node " + Id);
             }
+            if (float.IsInfinity((float)x) || float.IsInfinity((float)z)) throw file.Error(line, "the position is too large");
             times.Add(time);
             this.x.Add(x);
             this.z.Add(z);
@@ -218,6 +220,14 @@ namespace Collektive.Headless
                     south = Math.Min(south, track.z[i]);
                     north = Math.Max(north, track.z[i]);
                 }
+            }
+            // The points are on both sides of the antimeridian.
+            if (east - west > 180)
+            {
+                foreach (var track in tracks)
+                    for (var i = 0; i < track.x.Count; i++) track.x[i] += track.x[i] < 0 ? 360 : 0;
+                west = tracks.Min(track => track.x.Min());
+                east = tracks.Max(track => track.x.Max());
             }
             const double Radians = Math.PI / 180;
             var metres = EarthRadius * Radians;
