@@ -4,6 +4,7 @@ import re
 import subprocess
 
 from command import ROOT, Folder, collektive, last_error
+
 from commands.new import RESERVED
 
 from build import fetch
