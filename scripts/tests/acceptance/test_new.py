@@ -5,11 +5,10 @@ import subprocess
 
 from command import ROOT, Folder, collektive, last_error
 
-from commands.new import RESERVED
-
 from build import fetch
 from build.jdk import find_jdk
 from build.places import BUILD
+from commands.new import RESERVED
 
 
 class NewTest(Folder):
