@@ -43,7 +43,7 @@ namespace Collektive.Headless
         /// <summary>Reads numbers from a CSV file, whose first line names its columns. Ignores other columns and blank lines.</summary>
         /// <param name="columns">Names of columns.</param>
         /// <returns>A row per line, with NaN for missing columns; the last value is the line's number.</returns>
-        /// <exception cref="ScenarioException">A column occurs twice, a line has another number of cells than the first, or a cell is not a finite number.</exception>
+        /// <exception cref="ScenarioException">A column occurs twice, a line has a wrong number of cells, or a cell is not a finite number.</exception>
         public List<double[]> ReadCsv(params string[] columns)
         {
             var rows = new List<double[]>();

@@ -99,7 +99,7 @@ namespace CollektiveSamples.Swarm
             var side = Mathf.CeilToInt(Mathf.Sqrt(drones));
             var field = Mathf.Max(side * Pad, 3 * radius) + 4;
             MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(field, 1, field));
-            // Their height is that of the shapes, which cameras frame.
+            // As high as the shapes, because cameras frame the obstacles.
             foreach (var x in new[] { -1, 1 })
             {
                 foreach (var z in new[] { -1, 1 })
