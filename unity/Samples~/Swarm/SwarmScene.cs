@@ -60,8 +60,8 @@ namespace CollektiveSamples.Swarm
         };
 
         /// <summary>
-        /// Writes the number of drones within a metre of their places on the shape; the number of different shapes; and the least distance in metres between the
-        /// centres of two drones at the beginning of the tick, at most 2.5.
+        /// Writes the number of drones within a metre of their places on the shape; the number of different shapes; and the least distance in metres
+        /// between the centres of two drones at the beginning of the tick, at most 2.5.
         /// </summary>
         public override void Measure(double[] values)
         {
