@@ -60,7 +60,7 @@ MAX_CELLS = 64
 
 
 class PowerFormatter(LogFormatter):
-    """Labels a logarithmic axis without the markup of formulas, which is off because names of metrics may contain it."""
+    """Labels a logarithmic axis without math text, which is disabled because metric names may contain its markup."""
 
     def __call__(self, x: float, pos: int | None = None) -> str:
         """Returns the label of a tick, which is empty for some minor ones."""

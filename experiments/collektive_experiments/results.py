@@ -86,8 +86,8 @@ def _read(folder: str, name: str) -> pd.DataFrame:
 
 def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     """
-    Compares the end values of a metric, or any other number of the runs' table, between each two values of a key, for each combination of
-    the other keys. Runs of equal seeds are paired. A row has both means, `difference` of the means with the 95 % bootstrap interval
+    Compares the end values of a metric, or any other number of the runs' table, between each pair of values of a key, for each combination of
+    the other keys. Runs with equal seeds are paired. A row has both means, `difference` of the means with the 95 % bootstrap interval
     `difference_low` to `difference_high`, and the effect size `delta` with its interval: the probability that `b` has the greater value, minus
     the probability that it has the smaller one; from -1 to 1, 0 for no effect. It compares pairs or, if no seeds are equal,
     all runs (Cliff's delta). `p` is the p-value of a permutation test of the difference, and `p_holm` the same corrected for all rows of the table.

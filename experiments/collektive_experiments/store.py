@@ -80,7 +80,7 @@ class Store:
         """Returns the settings of the sweep."""
         path = os.path.join(self.folder, "sweep.json")
         if not os.path.exists(path):
-            raise ExperimentError(f"'{self.folder}' is not a folder of a sweep: it has no sweep.json")
+            raise ExperimentError(f"'{self.folder}' is not a sweep folder: it has no sweep.json")
         settings = _object(path)
         if settings is None or settings.get("version") != VERSION:
             raise ExperimentError(f"'{path}' is damaged or of another version: repair it with ./collektive sweep EXPERIMENT.json --out {self.folder} --resume")

@@ -249,7 +249,7 @@ def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
 
 
 def _place(experiment: Experiment, worker: Worker, problem: str) -> tuple[str | int, ...]:
-    """Returns the first key whose value causes a problem, for its message."""
+    """Returns the location of the first key whose value causes a problem, for the error message."""
     given = [*(("set", key, value) for key, value in experiment.fixed.items()),
              *((part, key, values[0]) for part, varied in (("vary", experiment.product), ("zip", experiment.together)) for key, values in varied)]
     settings: dict[str, object] = {}

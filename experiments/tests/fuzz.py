@@ -1,5 +1,5 @@
 """
-Random experiments through sweep, tables and plot, compared with a model of the rows: `fuzz.py SECONDS SEED FINDINGS`. A finding is a folder of
+Runs random experiments through sweep, tables and plot, and compares them with a model of the rows: `fuzz.py SECONDS SEED FINDINGS`. A finding is a folder of
 that name and the case's number, with the experiment and the sweep's results.
 """
 import contextlib

@@ -257,7 +257,7 @@ def test_modules_in_the_current_folder_are_not_executed(tmp_path: Path) -> None:
     for name in ("argparse", "collections", "json", "pandas", "sitecustomize"):
         (tmp_path / f"{name}.py").write_text("open('executed', 'w')\n")
     result = subprocess.run([COLLEKTIVE, "plot", "."], cwd=tmp_path, capture_output=True, text=True)
-    assert "is not a folder of a sweep" in result.stderr
+    assert "is not a sweep folder" in result.stderr
     assert not (tmp_path / "executed").exists()
 
 
@@ -270,4 +270,4 @@ def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys:
 
 def test_a_folder_that_is_not_a_sweep_is_a_one_line_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(tmp_path)]) == 1
-    assert "is not a folder of a sweep" in capsys.readouterr().err
+    assert "is not a sweep folder" in capsys.readouterr().err

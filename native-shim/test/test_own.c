@@ -11,7 +11,7 @@
 void own_without_resources(void) { skip("uses limits of POSIX"); }
 void own_without_processes(void) { skip("uses limits of POSIX"); }
 void own_out_of_memory(void) { skip("uses limits of POSIX"); }
-void own_needs_no_shared_memory_folder(void) { skip("uses mounts of Linux"); }
+void own_needs_no_shared_memory_folder(void) { skip("needs Linux mounts"); }
 void own_continues_after_a_suspension(void) { skip("uses signals"); }
 
 static DWORD handles(void) {
@@ -424,7 +424,7 @@ void own_needs_no_shared_memory_folder(void) {
     CHECK_OK(step(session, GROW, 1 << 24, 60000));
 }
 #else
-void own_out_of_memory(void) { skip("limits of other processes need Linux"); }
+void own_out_of_memory(void) { skip("setting limits of another process needs Linux"); }
 void own_needs_no_shared_memory_folder(void) { skip("private mounts need Linux"); }
 #endif
 #endif

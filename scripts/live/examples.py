@@ -28,7 +28,7 @@ def is_example(scenario: Path) -> bool:
 
 
 def catalogue() -> list[dict[str, str]]:
-    """Returns the name, title, text and question of each lesson and of the samples that the page offers; a sample has no question."""
+    """Returns the name, title, text and question of each lesson and sample that the page offers. The question of a sample is empty."""
     samples = {Path(sample["path"]).name: sample for sample in json.loads((ROOT / "package.json").read_text(encoding="utf-8"))["samples"]}
     return [*map(_lesson, LESSONS), *({"name": name, "title": samples[name]["displayName"], "text": samples[name]["description"], "question": ""}
                                       for name in SAMPLES)]

@@ -101,14 +101,14 @@ class Live:
         self._changing = asyncio.Lock()
 
     def player_options(self) -> list[str]:
-        """Returns the options with which the player reads the scenario."""
+        """Returns the player's command-line options for the scenario."""
         seed = [] if self.seed is None else ["--seed", self.seed]
         return [*seed, *(word for key, value in self.values.items() for word in ("--set", f"{key}={value}")), *(["--trust-jvm"] if self.trust else [])]
 
     async def start(self) -> None:
         """Reads the scenario, compiles changed code, and starts the player."""
         plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options())
-        # Changed together, because the watch compares them.
+        # Assigned together, because the file watcher compares them.
         self.plan, self._sources = plan, self.read_sources(plan)
         self.header = self.last_frame = self.stopped = self.compiled = None
         jar, dll = await asyncio.gather(asyncio.to_thread(plan.programs_jar), asyncio.to_thread(plan.scripts_dll))

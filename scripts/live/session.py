@@ -49,13 +49,13 @@ class Compiler:
     async def compile(self, plan: player.Plan) -> Compiled:
         """Compiles the current sources of the plan's programs."""
         async with self._lock:
-            began = time.monotonic()
+            start = time.monotonic()
             programs = inputs.programs(plan.parts["programs"].path)
             words = projects.compilation(plan.parts["schema"], programs, self._work, plan.parts.get("runtimeJars"), plan.parts.get("runtimePlugin"))
             code, messages = await self._request(words)
             problems = [_problem(match, programs.path) for line in messages.splitlines() if (match := _PROBLEM.match(line))]
             return Compiled(self._work / "programs.jar" if code == 0 else None, problems, "" if code == 0 else messages,
-                            round(1000 * (time.monotonic() - began)))
+                            round(1000 * (time.monotonic() - start)))
 
     async def _request(self, words: Sequence[str | Path]) -> tuple[int, str]:
         if self._process is None or self._process.returncode is not None:
@@ -167,7 +167,7 @@ class Source:
 
 
 def sources(plan: player.Plan, folder: Path) -> dict[str, Source]:
-    """Returns the sources of the programs by their paths in their folder; none for a jar. Links must stay inside this folder or the given one."""
+    """Returns the program sources by relative path; empty for a jar. Links must stay inside the programs folder or the given one."""
     programs = plan.parts["programs"].path
     if programs.is_file():
         return {}

@@ -84,7 +84,7 @@ def write(path: str, name: str, cases: list[Case]) -> None:
 
 
 def report(path: str | None, name: str, cases: list[Case]) -> int:
-    """Prints how many tests passed and failed, writes the results if there is a path, and returns the exit code."""
+    """Prints how many tests passed and failed, writes the results if a path is given, and returns the exit code."""
     failed = sum(bool(case.failure) for case in cases)
     print(f"{len(cases) - failed} passed, {failed} failed")
     if path:

@@ -10,7 +10,7 @@ from tests.faults.places import PROBE, PROGRAMS
 
 
 def run(minutes: float, words: list[str]) -> int:
-    """Runs the scene, which exits with 0 if nothing grows, and returns its exit code."""
+    """Runs the scene and returns its exit code, which is 0 if nothing grows."""
     jar = projects.programs_jar(inputs.schema(PROBE), inputs.programs(PROGRAMS))
     command = managed.command("mono-sgen", CSHARP / "Collektive.Soak.exe", f"home={jdk.find_jdk()}", f"host={HOST_JAR}", f"jar={jar}",
                               f"seconds={60 * minutes:g}", *words)

@@ -92,7 +92,7 @@ class Folder(unittest.TestCase):
 
 
 class Project(Folder):
-    """A project outside the clone: own schema, Kotlin, C# and scenario."""
+    """A project outside the clone, with its own schema, Kotlin, C# and scenario."""
 
     def setUp(self) -> None:
         super().setUp()

@@ -99,7 +99,7 @@ class Outputs(Project):
     def test_symbolic_links_in_the_output_folder_are_replaced_and_not_followed(self) -> None:
         names = ["manifest.json", "metrics.csv", "metrics.csv.part", "replay.html", "replay.tmp"]
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
-        # When the tables are created.
+        # The scene adds the links when the tables are created.
         links = " ".join(f'System.Diagnostics.Process.Start("ln", "-sf {self.path("outside")} {self.path("out", name)}").WaitForExit();' for name in names)
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", f"Build(SimulationManager manager)\n        {{\n            {links}")
         with open(self.path("outside"), "w") as file:

@@ -11,7 +11,7 @@ RUNTIMES = ["mono-sgen", "mono-boehm", "coreclr"]
 
 
 def places(runtimes: list[str], jdks: list[Path]) -> dict[str, Any]:
-    """Returns the runtimes and JDKs of the trials and the files that they use, by name."""
+    """Returns the settings of the trials by name: runtimes, JDKs and the required files."""
     files = {"program": CSHARP / "Collektive.Faults.exe", "player": PLAYER, "shim": SHIM, "host": HOST_JAR,
              "incompatible": BUILD / "incompatible-host.jar", "schema": PROBE,
              "jar": projects.programs_jar(inputs.schema(PROBE), inputs.programs(PROGRAMS))}

@@ -144,7 +144,7 @@ namespace Collektive.Unity.Editor
             SessionState.SetString(Key, started.Id + "\n" + started.StartTime.Ticks.ToString(CultureInfo.InvariantCulture) + "\n" + tools);
         }
 
-        /// <summary>Names the tools and the project, with the time and size of each file.</summary>
+        /// <summary>Returns a text that identifies the tools and the project, with the size and modification time of each file.</summary>
         private static string TextOf(string jdk, string kotlin, IReadOnlyList<string> libraries)
         {
             var text = new StringBuilder(Path.GetFullPath(Folder)).Append('\n').Append(jdk);

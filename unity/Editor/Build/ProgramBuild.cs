@@ -36,7 +36,7 @@ namespace Collektive.Unity.Editor
 
         internal static bool IsRunning => current != null || Waiting.Count > 0;
 
-        /// <summary>Builds programs in the background. A program that is being built is built again.</summary>
+        /// <summary>Builds programs in the background. A program whose build is already running is built again afterwards.</summary>
         internal static void Start(List<SchemaProject> projects)
         {
             if (!IsRunning) isCanceled = false;

@@ -6,7 +6,7 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// Determines which metrics have converged: those whose value stayed in a band for a number of simulated seconds. The time of convergence
-    /// is when that period began. Values between two rows of the metrics do not count.
+    /// is the start of that period. Values between two rows of the metrics are ignored.
     /// </summary>
     internal sealed class Convergence
     {

@@ -31,7 +31,7 @@ namespace Collektive.Headless
 
         internal string Out { get; private set; }
 
-        /// <summary>The folder of the scenario's relative paths; null for the default.</summary>
+        /// <summary>The folder to which the scenario's paths are relative; null for the default.</summary>
         internal string Folder { get; private set; }
 
         /// <summary>Whether the scenario's JVM settings may write files, open ports and load code.</summary>

@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The recorded run of a manifest, to repeat and compare it.</summary>
+    /// <summary>The run that a manifest describes, to be repeated and compared.</summary>
     internal sealed class OriginalRun
     {
         internal const string ScenarioKey = "scenario";

@@ -180,7 +180,7 @@ namespace Collektive.Headless
             }
 
             /// <summary>Returns the number in the only row; NaN for NULL; null for zero rows.</summary>
-            /// <exception cref="SqlException">The query fails, or has another result.</exception>
+            /// <exception cref="SqlException">The query fails or returns any other result.</exception>
             internal double? Query()
             {
                 owner.clock.Restart();

@@ -146,7 +146,7 @@ namespace Collektive.Headless
                 if (child.Name.LocalName != "time") continue;
                 if (DateTimeOffset.TryParse(child.Value, CultureInfo.InvariantCulture, DateTimeStyles.AssumeUniversal, out var time))
                     return time.UtcTicks / (double)TimeSpan.TicksPerSecond;
-                throw file.Error(LineOf(child), "'time' is '" + child.Value + "'; it must be like 2026-01-31T12:00:00Z");
+                throw file.Error(LineOf(child), "'time' is '" + child.Value + "'; it must have the form 2026-01-31T12:00:00Z");
             }
             throw file.Error(LineOf(point), "the point has no time");
         }
@@ -180,7 +180,7 @@ namespace Collektive.Headless
                     foreach (var point in Items(file, part, "coordinates")) AddPoint(file, line, point, tracks);
                     break;
                 default:
-                    throw file.Error(line, "'type' is '" + (part as JObject)?["type"] + "': only points are possible, in Feature, FeatureCollection, Point, "
+                    throw file.Error(line, "'type' is '" + (part as JObject)?["type"] + "': only points are supported, in Feature, FeatureCollection, Point, "
                         + "MultiPoint and GeometryCollection");
             }
         }
@@ -204,7 +204,7 @@ namespace Collektive.Headless
         {
             if (Math.Abs(lon) <= 180 && Math.Abs(lat) <= 90) return;
             throw file.Error(line, "longitude " + lon.ToString(CultureInfo.InvariantCulture) + " and latitude " + lat.ToString(CultureInfo.InvariantCulture)
-                + " are not degrees from -180 to 180 and from -90 to 90");
+                + " are out of range; in degrees, they must be from -180 to 180 and from -90 to 90");
         }
 
         /// <summary>Converts degrees to metres around the centre of all points: equirectangular, x to the east, z to the north.</summary>

@@ -26,7 +26,7 @@ namespace Collektive.Headless
         // Coloured categories, in the order of appearance.
         private const int MaxColouredCategories = 256;
 
-        private readonly HashSet<int> known = new HashSet<int>();
+        private readonly HashSet<int> categories = new HashSet<int>();
         private readonly JArray order = new JArray();
 
         /// <param name="name">Shown in the legend; different for each field.</param>
@@ -69,7 +69,7 @@ namespace Collektive.Headless
         internal void Include(double value)
         {
             if (double.IsNaN(value)) HasMissingValues = true;
-            else if (Kind == ReplayFieldKind.Category && known.Count < MaxColouredCategories && known.Add((int)value)) order.Add((int)value);
+            else if (Kind == ReplayFieldKind.Category && categories.Count < MaxColouredCategories && categories.Add((int)value)) order.Add((int)value);
             // Both comparisons are false for NaN.
             if (value < Least) Least = value;
             if (value > Greatest) Greatest = value;

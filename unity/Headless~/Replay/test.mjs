@@ -361,7 +361,7 @@ await suite('replay page', async (page) => {
         }
       });
       if (nodes >= 9000) {
-        // Half the time of a picture in a browser with a graphics card. Drawing is not counted, because this browser uses the processor.
+        // Half of a frame's time in a browser with a graphics card. Drawing is not counted, because this browser renders on the CPU.
         await test('scripts take under 6 ms per frame at 60 frames per second', async () => {
           const { mean, greatest } = await tab.evaluate(async () => {
             let [sum, most] = [0, 0];

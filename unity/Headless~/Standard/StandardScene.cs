@@ -221,7 +221,7 @@ namespace Collektive.Standard
             {
                 track.PlaceAt(0, out var x, out var z);
                 if (!area.IsFree(new Vector3(x, 0, z)))
-                    manager.Fail("an obstacle covers node " + track.Id + " of " + deployment.file + ":" + track.Line + ": move 'obstacles', or the node");
+                    manager.Fail("an obstacle covers node " + track.Id + " of " + deployment.file + ":" + track.Line + ": move the obstacle or the node");
                 if (manager.Failure.Length > 0) return;
                 MakeNode(track.Id, new Vector3(x, 0, z));
             }
@@ -377,7 +377,7 @@ namespace Collektive.Standard
             foreach (var node in failing) Destroy(node.gameObject);
         }
 
-        /// <summary>Returns the exponentially distributed seconds to the next event of a rate.</summary>
+        /// <summary>Draws the time to the next event in seconds, which is exponentially distributed with the given rate.</summary>
         private double Pause(double rate) => -Math.Log(1 - manager.Random.NextDouble()) / rate;
     }
 }

@@ -22,7 +22,7 @@ namespace CollektiveSamples.Crowd
         private static readonly string[] Names = { "arrived", "bumps", "warned", "density" };
         private static readonly float[] PillarPlaces = { -6, -2, 2, 6 };
 
-        /// <summary>Number of walkers, half of them from each side.</summary>
+        /// <summary>Number of walkers. Half of them start on each side.</summary>
         [Min(2)]
         public int walkers = 160;
 

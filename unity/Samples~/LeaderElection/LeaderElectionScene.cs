@@ -78,7 +78,7 @@ namespace CollektiveSamples.LeaderElection
             if (nodes < 1 || !(range >= 0) || !(radius > 0))
             {
                 manager.Fail("the scene has " + nodes + " nodes with a range of " + range + " m and regions of " + radius
-                    + " m: use at least one node, regions above 0, and a range of 0 or greater");
+                    + " m: use at least one node, a region radius above 0, and a range of 0 or greater");
                 return;
             }
             this.manager = manager;
@@ -86,7 +86,7 @@ namespace CollektiveSamples.LeaderElection
             for (var i = 0; i < nodes; i++) MakeNode(new Vector3(manager.Random.Range(-50f, 50f), 0.5f, manager.Random.Range(-30f, 30f)));
         }
 
-        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        // Not in Build: recompiling scripts in Play mode removes event handlers, and Unity then calls only OnEnable.
         private void OnEnable()
         {
             manager = SimulationManager.Current;

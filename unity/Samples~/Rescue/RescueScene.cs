@@ -146,7 +146,7 @@ namespace CollektiveSamples.Rescue
             chosen.Clear();
             foreach (var node in manager.Nodes)
                 if (node != station) chosen.Add(node);
-            for (var left = Mathf.RoundToInt(failing * chosen.Count); left > 0; left--)
+            for (var remaining = Mathf.RoundToInt(failing * chosen.Count); remaining > 0; remaining--)
             {
                 var index = manager.Random.Range(0, chosen.Count);
                 chosen[index].gameObject.SetActive(false);

@@ -59,7 +59,7 @@ namespace Collektive.Unity.PublicApi.Tests
                 case ConstructorInfo constructor:
                     return IsVisible(constructor) ? "new" + Parameters(constructor.GetParameters(), "(", ")") : null;
                 case MethodInfo method:
-                    // Accessors are part of their property or event. Operators are listed.
+                    // Accessors are listed with their property or event. Operators are listed as methods.
                     if (!IsVisible(method) || method.IsSpecialName && !method.Name.StartsWith("op_", StringComparison.Ordinal)) return null;
                     var style = method.IsStatic ? "static " : method.IsAbstract ? "abstract " : method.IsVirtual && !method.IsFinal ? "virtual " : "";
                     return method.Name + Generics(method) + Parameters(method.GetParameters(), "(", ")") + " : " + style + Name(method.ReturnType);

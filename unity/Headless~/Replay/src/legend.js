@@ -121,7 +121,7 @@ export class Legend {
     element('categories').replaceChildren(...rows);
   }
 
-  /** Draws bars over the scale. Like the colours, its ends include the values beyond it. */
+  /** Draws a histogram over the scale. As with the colours, the outermost bars include values beyond the scale. */
   drawHistogram({ slots }, values) {
     const counts = new Array(BARS).fill(0);
     const scale = this.max > this.min ? BARS / (this.max - this.min) : 0;

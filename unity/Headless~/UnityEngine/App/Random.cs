@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Marsaglia's xorshift128. The numbers of a seed differ from Unity's.
+    /// Marsaglia's xorshift128. For the same seed, it returns other numbers than Unity.
     public static class Random
     {
         public struct State

@@ -45,7 +45,7 @@ final class Host {
 
     static long control(long session, ByteBuffer request, int offset, int length, long slot, ByteBuffer answer, int limitMillis)
             throws Exception {
-        if (session != 0) throw new AssertionError("control belongs to no session, but came with " + session);
+        if (session != 0) throw new AssertionError("a control call must not have a session, but came with " + session);
         return step(session, request, offset, length, slot, answer, limitMillis);
     }
 

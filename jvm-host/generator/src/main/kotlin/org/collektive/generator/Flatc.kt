@@ -54,7 +54,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         /** The exit code of a process that was ended by a signal, minus the number of the signal. */
         private const val SIGNAL = 128
 
-        /** Part of a warning about the style of names. */
+        /** Part of flatc's warning about naming style. */
         private const val STYLE = "should be lowercase snake_case"
 
         private val ERROR = Regex("""(?m)^(?:error:)?\s*(\S.*?):(\d+): (\d+): (error|warning): (.*?)(?:, originally at: (.+):(\d+))?$""")

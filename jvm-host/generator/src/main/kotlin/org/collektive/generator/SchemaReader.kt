@@ -267,7 +267,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         for (root in user.roots) visit(root, listOf(root))
         for (struct in user.structs) {
             if (slots(struct) > MAX_PARAMETERS) {
-                throw error("its numbers need more than $MAX_PARAMETERS parameters in generated code; use a table", "${struct.name}")
+                throw error("its fields need more than $MAX_PARAMETERS parameters in generated code; use a table", "${struct.name}")
             }
         }
         val fields = user.tables.sumOf { it.fields.size }

@@ -164,7 +164,7 @@ internal class RefusalTest {
         assertContains(refusal(user(wide, all)), "its tables have 3660 fields, more than 3000")
         val numbers = (0 until 200).joinToString(" ") { "f$it: long;" }
         val tooBig = refusal(user("struct Big { $numbers }", "big: Big;"))
-        assertContains(tooBig, "Big: its numbers need more than 240 parameters in generated code")
+        assertContains(tooBig, "Big: its fields need more than 240 parameters in generated code")
     }
 
     @Test

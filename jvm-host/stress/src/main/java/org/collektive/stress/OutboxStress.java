@@ -27,7 +27,7 @@ public class OutboxStress {
 
   @JCStressTest
   @Outcome(id = "1", expect = Expect.ACCEPTABLE, desc = "the export from before the tick")
-  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of the same tick, or none")
+  @Outcome(expect = Expect.FORBIDDEN, desc = "a round read an export of the same tick, or no export")
   @State
   public static class RoundsReadWhatWasSentBefore {
     private final Box box = new Box();

@@ -46,7 +46,7 @@ public class MailboxDevices(
             this.program = { program.run(this, sensors) }
             inbound = Inbound(
                 (0 until inbox.size).mapNotNull { index ->
-                    (inbox.export(index) as Envelope?)?.let { delivered(it.content, if (inbox.wasKnown(index)) id else NON_NEIGHBOUR) }
+                    (inbox.export(index) as Envelope?)?.let { deliver(it.content, if (inbox.wasKnown(index)) id else NON_NEIGHBOUR) }
                 },
             )
             return cycle()
@@ -69,7 +69,7 @@ public class MailboxDevices(
         override fun currentInbound() = inbound
     }
 
-    private fun delivered(envelope: OutboundEnvelope<Int>, receiver: Int): Message<Int, Any?> {
+    private fun deliver(envelope: OutboundEnvelope<Int>, receiver: Int): Message<Int, Any?> {
         if (json == null) return envelope.prepareMessageFor(receiver)
         val message = envelope.prepareMessageFor(receiver, SerializedMessageFactory<Int, Any?>(json)) as SerializedMessage<Int>
         val serializer = SerializedMessage.serializer(Int.serializer())

@@ -61,7 +61,7 @@ public class RoundsBenchmark {
         }
     }
 
-    /** Sets up the network as hand-written loops. */
+    /** Sets up the network for the hand-written loops. */
     @State(Scope.Benchmark)
     public static class ByHand {
         @Setup(Level.Trial)

@@ -26,7 +26,7 @@ internal class Loops(private val grid: Grid) : Workload {
 
     override fun tick() {
         tick++
-        // Nodes receive what their neighbours sent in the tick before. The two arrays take turns.
+        // Nodes receive what their neighbours sent in the previous tick, so the two arrays are swapped.
         val spare = received
         received = intensity
         intensity = spare

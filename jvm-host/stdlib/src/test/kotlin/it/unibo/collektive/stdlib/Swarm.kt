@@ -40,7 +40,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) : Ne
     fun Aggregate<Int>.lengths(): Field<Int, Double> = mapNeighborhood { if (it == localId) 0.0 else length(localId, it) }
 }
 
-/** Distance and nearest source of each device, by Dijkstra's algorithm from [sources] over devices for which [through] holds. */
+/** Returns the distance and nearest source of each device, by Dijkstra's algorithm from [sources] over devices accepted by [through]. */
 internal fun Swarm.shortestPaths(
     sources: Collection<Int>,
     through: (Int) -> Boolean = { true },

@@ -15,7 +15,7 @@ public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.co
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Int = convergeCast(local, potential, selectParent, Int::plus)
 
-/** The sum of [local] over all devices uphill, by [convergeCast]. */
+/** The sum of [local] over all devices uphill, computed with [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
     local: Int,
     potential: P,
@@ -73,7 +73,7 @@ public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.co
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Int = convergeSum(1, potential, selectParent)
 
-/** The number of devices whose nearest sink is this one, itself included, by [convergeCast]. */
+/** The number of devices whose nearest sink is this device, including itself, computed with [convergeCast]. */
 public inline fun <reified ID : Any> Aggregate<ID>.countDevices(sink: Boolean): Int = convergeSum(1, sink)
 
 @PublishedApi

@@ -29,7 +29,7 @@ public fun <E : Comparable<E>> Collapse<E>.max(base: E): E = list.fold(base) { b
 /** The neighbours' element whose [selector] is greatest; `null` without neighbours. */
 public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): E? = list.maxByOrNull(selector)
 
-/** The neighbours' element, which may be `null`, whose [selector] is greatest; [None] without neighbours. */
+/** The neighbours' element (possibly `null`) with the greatest [selector]; [None] without neighbours. */
 @JvmName("maxByOption")
 public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): Option<E?> =
     if (size == 0) None else Some(list.maxBy(selector))
@@ -68,7 +68,7 @@ public fun <E : Comparable<E>> Collapse<E>.min(base: E): E = list.fold(base) { b
 /** The neighbours' element whose [selector] is least; `null` without neighbours. */
 public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): E? = list.minByOrNull(selector)
 
-/** The neighbours' element, which may be `null`, whose [selector] is least; [None] without neighbours. */
+/** The neighbours' element (possibly `null`) with the least [selector]; [None] without neighbours. */
 @JvmName("minByOption")
 public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): Option<E?> =
     if (size == 0) None else Some(list.minBy(selector))

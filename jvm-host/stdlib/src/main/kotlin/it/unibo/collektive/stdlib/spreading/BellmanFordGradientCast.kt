@@ -19,14 +19,14 @@ import it.unibo.collektive.stdlib.util.forEachNeighborWith
  *
  * When a source or a link vanishes, the devices that relied on it rely on each other, and their distances rise only by the metric of a
  * few links per round ("count to infinity", the "rising value" problem). Two devices 0.1 apart take ten rounds to rise by 1. If no
- * source is left, the distances rise for ever.
+ * source remains, the distances rise forever.
  *
- * If a source is left, it is self-stabilising: once sources, links, data and metric stop changing, distances that are too small are
+ * While a source remains, it is self-stabilising: once sources, links, data and metric stop changing, distances that are too small are
  * correct after (greatest distance / least metric) rounds, and those that are too great after as many rounds as the longest shortest
  * path has hops.
  *
  * @param source whether this device is a source.
- * @param local what a source offers. Where no source is reached, the result is the data of a neighbour, or [local] without neighbours.
+ * @param local the data of a source. Where no source is reached, the result is the data of a neighbour, or [local] without neighbours.
  * @param bottom the distance of a source to itself, and the lower bound of [metric].
  * @param top infinity: the distance of a device before it is reached, and the upper bound of [metric].
  * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the

@@ -5,7 +5,7 @@ import it.unibo.collektive.aggregate.Field
 /**
  * This value, limited to [min]..[max].
  *
- * @throws IllegalArgumentException when [min] is greater than [max]; so do all overloads.
+ * @throws IllegalArgumentException when [min] is greater than [max]. The same applies to all overloads.
  */
 public fun <T : Comparable<T>> T.coerceIn(min: T, max: T): T {
     require(min <= max) { "the range is empty: $min is greater than $max" }
