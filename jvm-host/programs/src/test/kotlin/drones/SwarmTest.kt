@@ -47,7 +47,7 @@ class SwarmTest {
         repeat(3) { tick() }
         val (left, right) = tick().values.map { it.target }
         assertTrue(right.x - left.x > 4, "$left $right")
-        assertTrue(left.y > 10 && right.y > 10, "the sphere is above them: $left $right")
+        assertTrue(left.y > 5 && right.y > 5, "the sphere is above them: $left $right")
     }
 
     @Test
