@@ -26,7 +26,7 @@ add_custom_target(roundtrip DEPENDS TestSchemas.dll RoundTrip.exe)
 
 suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go setup:prose PYTEST "${SCRIPTS}/checks/test_lint.py" -n 2)
 suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts" "--ignore=${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
-suite(maven scripts LABELS all NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
+suite(maven scripts LABELS extra NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 UNLOCKED PARALLEL SCRIPT jvm.py RESULTS)
 # Most of these JVMs run too briefly for the second compiler.
 suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests UNLOCKED
@@ -36,7 +36,7 @@ suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests UNLOCKED
 suite(stress stress LABELS all NEEDS build:jvm_modules
   SCRIPT stress.py RESULTS/stress.xml -f 1 -fsm 1 -iters 3 -time 200 -sc false -af NONE -jvmArgs -XX:-TieredCompilation)
 
-# A run of all suites tests C# in process on the newest JDK and with the JVM in its own process on the oldest.
+# A run of all suites tests the shim and C# in process on the newest JDK, and C# with the JVM in its own process on the oldest.
 list(GET COLLEKTIVE_TEST_JDKS 0 oldest)
 list(GET COLLEKTIVE_TEST_JDKS -1 newest)
 foreach(jdk ${COLLEKTIVE_TEST_JDKS})
@@ -58,7 +58,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   endif()
   set(shim ctest --test-dir "${CMAKE_BINARY_DIR}/native-shim" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
   set(java_home ENVIRONMENT "CLK_TEST_JAVA_HOME=${jdk}")
-  suite(shim-on-${name} shim LABELS ${labels} NEEDS build:shim_test ${java_home} COMMAND ${shim} -LE slow)
+  suite(shim-on-${name} shim LABELS ${in_process} NEEDS build:shim_test ${java_home} COMMAND ${shim} -LE slow)
   suite(shim-slow-on-${name} shim LABELS ${slow} NEEDS build:shim_test PARALLEL ${java_home} COMMAND ${shim} -L slow)
   suite(sanitized-on-${name} sanitized LABELS extra NEEDS build:sanitized TIMEOUT 1800 ${java_home}
     COMMAND ctest --test-dir "${COLLEKTIVE_BUILD}/sanitized" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
@@ -70,7 +70,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
 endforeach()
 # On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
-suite(csharp-on-coreclr csharp LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --without Slow)
+suite(csharp-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --without Slow)
 suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --only Slow)
 suite(unity csharp LABELS quick all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT unity.py RESULTS)
 add_custom_target(sanitized
@@ -86,14 +86,15 @@ suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUN
 suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
-suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED PARALLEL SCRIPT pages.py page RESULTS)
-suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED PARALLEL SCRIPT pages.py live RESULTS)
+suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED SCRIPT pages.py page RESULTS)
+suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED SCRIPT pages.py live RESULTS)
 suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED PARALLEL SCRIPT pages.py site RESULTS)
 
 set(acceptance NEEDS build:runtime build:sample_code build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
-suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick" -n 2)
+suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick and not slow" -n 2)
+suite(acceptance-slow acceptance LABELS extra ${acceptance} -m slow -n 2)
 
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
 set(experiments_tests build:runtime build:failing setup:experiments-tests setup:tune UNLOCKED

@@ -4,6 +4,7 @@ import json
 import os
 import shutil
 
+import pytest
 import replay
 from command import SAMPLE, Folder, collektive
 
@@ -34,10 +35,12 @@ class SamplesTest(Folder):
             yield schedule, self.rows(sample, schedule=schedule, timing={"period": 4 * changes.get("deltaTime", 0.1)}, **changes)
             shutil.rmtree(self.path("samples"))
 
+    @pytest.mark.slow
     def test_the_leader_election_counts_all_nodes_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("LeaderElection", seconds=15, fields={"failAfter": 1000}):
             self.assertEqual(rows[-1]["led"], 400, schedule)
 
+    @pytest.mark.slow
     def test_the_channel_is_connected_and_its_replay_does_not_flicker_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("Channel", seconds=15, fields={"failAfter": 1000}, outputs={"replay": True}):
             self.assertEqual(rows[-1]["connected"], 1, schedule)
@@ -47,6 +50,7 @@ class SamplesTest(Folder):
             shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes, _ in frames[-5:]}
             self.assertEqual(shown, {rows[-1]["channel_nodes"]}, schedule)
 
+    @pytest.mark.slow
     def test_all_walkers_compute_the_density_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("Crowd", seconds=5, fields={"walkers": 60}, outputs={"replay": True}):
             _, frames = replay.read(self.path("out", "replay.html"))
@@ -54,6 +58,7 @@ class SamplesTest(Folder):
                 self.assertEqual([node for node, (*_, density) in nodes.items() if density == 0], [], schedule)
             self.assertAlmostEqual(max(density for *_, density in frames[-1][1].values()), rows[-1]["density"], 3, schedule)
 
+    @pytest.mark.slow
     def test_the_swarm_approaches_the_source_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("GradientAscent", seconds=10, deltaTime=0.05, fields={"nodes": 80}):
             self.assertLess(rows[-1]["mean_distance"], rows[0]["mean_distance"] - 3, schedule)
@@ -103,6 +108,7 @@ class SamplesTest(Folder):
         self.assertGreater(max(row["warned"] for row in rows), 20, "it was dense where they met")
         self.assertEqual(rows[-1]["warned"], 0)
 
+    @pytest.mark.slow
     def test_each_sample_has_the_same_digest_in_both_placements_of_the_jvm(self) -> None:
         for sample in ["Channel", "Crowd", "GradientAscent", "LeaderElection", "Rescue", "Swarm"]:
             digests = set()
