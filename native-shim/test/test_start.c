@@ -196,7 +196,7 @@ static void check_lost(void) {
 }
 
 void class_path_without_host(void) {
-    CHECK_CODE(CLK_HOST, own_or("lacks org.collektive.host.Main", "org/collektive/host/shim/Shim"),
+    CHECK_CODE(CLK_HOST, own_or("does not contain org.collektive.host.Main", "org/collektive/host/shim/Shim"),
                start_at(java_home(), scratch_folder(), NULL, true, 60000));
     check_lost();
 }

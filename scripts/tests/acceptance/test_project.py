@@ -144,7 +144,7 @@ class ProjectTest(Project):
 
     def test_values_out_of_range_are_reported(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 0')
-        self.refused("threads", "1..256")
+        self.refused("threads", "from 1 to 256")
 
     def test_a_file_that_is_not_json_is_refused_with_its_line(self) -> None:
         self.change("lamps.json", '"threads": 2,', '"threads": 2')
