@@ -1,5 +1,4 @@
-"""moving_picture.py REPLAY.html FILE.webp: creates the animation in the README from the replay page of a demo. With the address of
-a page of `./collektive live` instead of REPLAY.html, creates the animation of an edit.
+"""moving_picture.py REPLAY.html FILE.webp: creates the animation in the README from the replay page of a demo.
 
 Needs `./collektive setup npm site-tools`, and runs with build/site-tools/bin/python. The animation has twelve pictures per second,
 and shows the last one for two seconds.
@@ -21,8 +20,7 @@ MILLIS, LAST_MILLIS = 83, 2000
 def main(page: str, target: str) -> None:
     """Captures the frames in a browser and joins them."""
     with tempfile.TemporaryDirectory() as folder:
-        script = "live_picture.mjs" if page.startswith("http") else "moving_picture.mjs"
-        subprocess.run(["node", HERE / script, page, folder, str(FRAMES)], check=True,
+        subprocess.run(["node", HERE / "moving_picture.mjs", page, folder, str(FRAMES)], check=True,
                        env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(HERE.parents[2] / "build/npm/node_modules")})
         pictures = [Image.open(path).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS) for path in sorted(Path(folder).glob("*.png"))]
     durations = [MILLIS] * (len(pictures) - 1) + [LAST_MILLIS]
