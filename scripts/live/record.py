@@ -7,6 +7,7 @@ import zlib
 from pathlib import Path
 
 from build.console import Failure
+from live.session import new_file
 
 # Larger records are deleted.
 MAX_BYTES = 1_000_000_000
@@ -48,7 +49,7 @@ class Record:
         if self._is_deleted:
             raise Failure(self.deletion)
         end = self._end()
-        with self._path.open("rb") as source, target.open("xb") as output:
+        with self._path.open("rb") as source, new_file(target) as output:
             shutil.copyfileobj(source, output)
             output.truncate(end)
             output.seek(end)

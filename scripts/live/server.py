@@ -217,11 +217,11 @@ class Live:
                     "files": self.files, "editable": self.is_editable, "examples": self.examples, **self.identity()})
 
     async def receive(self, page: Page) -> None:
-        began, count = time.monotonic(), 0
+        start, count = time.monotonic(), 0
         async for text in page.connection:
             now = time.monotonic()
-            if now - began > 1:
-                began, count = now, 0
+            if now - start > 1:
+                start, count = now, 0
             count += 1
             if count > MAX_COMMANDS:
                 await page.connection.close(1008, "too many commands")
@@ -335,9 +335,8 @@ class Live:
                 target = target.setdefault(part, {})
             target[path[-1]] = _value(value)
         try:
-            # Does not follow a link.
-            with file.open("x", encoding="utf-8") as output:
-                output.write(json.dumps(values, indent=2) + "\n")
+            with session.new_file(file) as output:
+                output.write((json.dumps(values, indent=2) + "\n").encode())
         except FileExistsError:
             return f"'{file.name}' already exists: enter another name"
         except OSError as error:

@@ -11,10 +11,10 @@ import struct
 import tempfile
 import time
 import uuid
-from collections.abc import Awaitable, Callable, Sequence
+from collections.abc import Awaitable, Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from build import inputs, managed, player, projects
 from build.jdk import find_jdk
@@ -188,6 +188,18 @@ def _source(path: Path, roots: list[Path]) -> Source:
     ends = text.count("\r\n")
     newline = "\r\n" if 2 * ends > text.count("\n") else "\n"
     return Source(path, re.sub("\r\n?", "\n", text), problem, mark, newline)
+
+
+@contextlib.contextmanager
+def new_file(path: Path) -> Iterator[BinaryIO]:
+    """Opens a new file, and removes it after an error. Raises `FileExistsError` for an existing file or link."""
+    with path.open("xb") as output:
+        try:
+            yield output
+            output.flush()
+        except BaseException:
+            path.unlink()
+            raise
 
 
 def replace(jar: Path, new: Path) -> None:

@@ -48,6 +48,13 @@ def test_a_saved_record_replaces_no_file(tmp_path: Path) -> None:
     assert not (tmp_path / "elsewhere").exists()
 
 
+def test_a_file_that_cannot_be_written_completely_is_removed(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="the disk is full"), session.new_file(tmp_path / "new.json") as output:
+        output.write(b"half")
+        raise OSError("the disk is full")
+    assert not (tmp_path / "new.json").exists()
+
+
 def test_a_large_record_is_deleted_while_the_player_writes_it(tmp_path: Path) -> None:
     source = tmp_path / "run.clkrec"
     record = Record(source, maximum=100_000)

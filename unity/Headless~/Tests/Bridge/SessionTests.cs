@@ -42,7 +42,7 @@ namespace Collektive.Headless.Tests.Bridge
                 var actuators = (ActuatorBuffer<ActuatorData>)session.Answer.Actuators;
                 for (var i = 0; i < Nodes; i++)
                 {
-                    Assert.That(session.Answer.Node(i), Is.EqualTo(i));
+                    Assert.That(session.Answer.Nodes[i], Is.EqualTo(i));
                     var left = (i + Nodes - 1) % Nodes + tick - 1;
                     var right = (i + 1) % Nodes + tick - 1;
                     Assert.That(actuators[i].Value, Is.EqualTo(tick == 0 ? 0 : left + right), "tick " + tick + ", node " + i);

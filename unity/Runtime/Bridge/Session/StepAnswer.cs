@@ -25,7 +25,7 @@ namespace Collektive.Bridge
             Actuators = actuators;
         }
 
-        /// <summary>The actuator data; element i belongs to <see cref="Node"/>(i).</summary>
+        /// <summary>The actuator data; element i belongs to node i of <see cref="Nodes"/>.</summary>
         public ActuatorBuffer Actuators { get; }
 
         /// <summary>Number of rounds that produced an answer.</summary>
@@ -74,7 +74,7 @@ namespace Collektive.Bridge
         /// <summary>Sizes of the messages of <see cref="Nodes"/>; empty unless requested.</summary>
         public Span<MessageSize> Messages => Vector<MessageSize>(MessagesField);
 
-        /// <summary>Ids of the nodes with an answer, ascending: on Mono faster than many calls of <see cref="Node"/>.</summary>
+        /// <summary>Ids of the nodes with an answer, ascending. As a block, because a call for each one takes longer on Mono.</summary>
         public Span<int> Nodes => Vector<int>(NodesField);
 
         /// <summary>Number of <see cref="Metric"/>s: those of the session if requested, otherwise none.</summary>
@@ -102,9 +102,6 @@ namespace Collektive.Bridge
             var entry = response.Inspection.GetValueOrDefault().State(index).GetValueOrDefault();
             return (entry.Path, entry.Value);
         }
-
-        /// <summary>The id of a node with an answer; ascending in <paramref name="index"/>.</summary>
-        public int Node(int index) => response.Nodes(index);
 
         /// <summary>The node, the program and the text of a failed round. Allocates.</summary>
         public (int Node, string Program, string Message) Error(int index)

@@ -29,7 +29,7 @@ namespace Collektive.Unity
         [Tooltip("Increase of the link's attenuation for each obstructing collider. Without colliders the attenuation is 0.")]
         private float attenuation = 1;
 
-        // The near nodes: the lines to them from the queries of the tick on, and the obstacles on these from the rule's call on.
+        // The near nodes, with the lines to them (set when the queries begin) and the obstacles on these lines (set when the rule is called).
         private readonly GrowingArray<(NearNode Near, int Line, int Obstacles)> near = new GrowingArray<(NearNode Near, int Line, int Obstacles)>();
 
         /// <summary>The radius in metres, 0 or greater.</summary>
@@ -82,7 +82,7 @@ namespace Collektive.Unity
 
         internal override void Prepare(TickContext tick)
         {
-            // Not in a batch in the tick that added the rule.
+            // A rule is not in the batch of the tick that added it.
             var isBatched = tick.SightLines.Rules.Has(this);
             if (!isBatched) FindNear(tick);
             for (var i = 0; i < near.Count; i++)

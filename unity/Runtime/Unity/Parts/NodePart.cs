@@ -68,7 +68,7 @@ namespace Collektive.Unity
         {
         }
 
-        /// <summary>Does what a ready part needs the tick for, in <see cref="Run"/> before the part's public method is called.</summary>
+        /// <summary>Reads what a ready-made part needs from the tick. <see cref="Run"/> calls it before the part's public method.</summary>
         internal virtual void Prepare(TickContext tick)
         {
         }

@@ -484,14 +484,15 @@ namespace Collektive.Unity
         {
             // Answers and due nodes are both ascending; due nodes without an answer failed.
             var answer = session.Answer;
-            var count = answer.NodeCount;
+            var answered = answer.Nodes;
+            var count = answered.Length;
             var allAnswered = count == due.Count;
             AllRoundsFailed = count == 0 && !allAnswered;
             for (int i = 0, place = 0; i < count && IsOpen; i++, place++)
             {
                 if (!allAnswered)
                 {
-                    while (due.Items[place].Id != answer.Node(i)) place++;
+                    while (due.Items[place].Id != answered[i]) place++;
                 }
                 var (node, id) = due.Items[place];
                 // An earlier actuator may have made the node leave, or leave and come back.
