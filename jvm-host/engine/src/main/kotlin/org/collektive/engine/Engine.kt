@@ -90,7 +90,7 @@ public class Engine @JvmOverloads constructor(
     }
 
     /**
-     * Runs [work], which errors call [name], once on a round thread. It must catch the exceptions of users' code.
+     * Runs [work] once on a round thread. It must catch the exceptions of users' code. Errors refer to it as [name].
      *
      * @throws RoundTimeoutException when it still runs at the [deadline] of [step]; the engine must then be closed.
      */
@@ -133,7 +133,11 @@ public class Engine @JvmOverloads constructor(
         tick.globals?.let { clock.globals = it }
         removeNodes(tick)
         addNodes(tick)
-        for (change in tick.nodesChanged) existing(change.id).change(change)
+        // By index: an iterator is allocated unless the compiler removes it.
+        for (index in tick.nodesChanged.indices) {
+            val change = tick.nodesChanged[index]
+            existing(change.id).change(change)
+        }
         for (index in 0 until tick.linksRemoved.size / 2) {
             unlink(existing(tick.linksRemoved[2 * index]), existing(tick.linksRemoved[2 * index + 1]))
         }
@@ -279,14 +283,14 @@ public class Engine @JvmOverloads constructor(
             val node = result.node(index)
             thread.begin(node)
             val isInspected = node.id == inspected
-            val began = if (isInspected) System.nanoTime() else 0
+            val start = if (isInspected) System.nanoTime() else 0
             try {
                 result.answered(index, answer(node, data, worker, index))
             } catch (failure: Throwable) {
                 // Any exception of a program, including errors of the JVM, fails only its round.
                 result.failed(index, describe(node, failure))
             }
-            if (isInspected) inspectedNanos = System.nanoTime() - began
+            if (isInspected) inspectedNanos = System.nanoTime() - start
             thread.end()
         }
     }
@@ -319,7 +323,7 @@ public class Engine @JvmOverloads constructor(
     }
 }
 
-/** A node's stored values by their paths, and the duration of its last round since it is inspected; 0 nanoseconds without one. */
+/** A node's stored values by their paths, and the duration of its last round since the inspection began; 0 nanoseconds without one. */
 public class NodeState(public val id: Int, public val roundNanos: Long, public val values: Map<String, Any?>)
 
 /** Thrown when the answer of a program cannot be written; the message states the reason. */

@@ -29,7 +29,10 @@ internal class TickValidator(private val nodes: NodeList) {
         checkTime(tick, expectedNumber)
         checkNodesRemoved(tick)
         checkNodesAdded(tick)
-        for (change in tick.nodesChanged) remaining(change.id) ?: reject(tick, "node ${change.id} cannot be changed: unknown node")
+        for (index in tick.nodesChanged.indices) {
+            val id = tick.nodesChanged[index].id
+            remaining(id) ?: reject(tick, "node $id cannot be changed: unknown node")
+        }
         checkLinksRemoved(tick)
         checkLinks(tick)
         checkDue(tick)
