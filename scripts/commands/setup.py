@@ -2,12 +2,12 @@
 runtimes, PhysX for runs without Unity, and the C# compiler."""
 import argparse
 
-from build import fetch, graph, lock, system
+from build import fetch, graph, lock, platforms, system
 from build.console import print_progress
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("tools", nargs="*", metavar="TOOL", help="fetch only these tools: " + ", ".join([*fetch.FETCHERS, "nunit"]))
+    parser.add_argument("tools", nargs="*", metavar="TOOL", help="fetch only these tools: " + ", ".join([*fetch.FETCHERS, "nunit", "platforms"]))
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -20,6 +20,8 @@ def run(arguments: argparse.Namespace) -> int:
     for tool in arguments.tools:
         if tool == "nunit":
             system.setup_nunit()
+        elif tool == "platforms":
+            platforms.setup_tests()
         else:
             fetch.fetch(tool)
     return 0

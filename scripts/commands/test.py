@@ -1,6 +1,7 @@
 """Builds everything and runs all test suites, or the named ones. Areas of suites: lint, scripts, jvm, stress, shim, platforms, csharp, assets,
 faults, exits, soak, roundtrip, page, site, acceptance, experiments, chaos, fuzz, bench, gradle. These suites run only if named: platforms-all,
-ray (a cluster), maven, acceptance-slow, csharp-on-coreclr, and the suites of other JDKs than the newest. cmake/Tests.cmake declares the suites.
+ray (a cluster), maven, acceptance-slow, experiments-slow, csharp-on-coreclr, and the suites of other JDKs than the newest. cmake/Tests.cmake
+declares the suites.
 
 gradle needs Gradle on the PATH or in COLLEKTIVE_GRADLE, and is skipped otherwise. platforms tests the native library for Linux and macOS on ARM64,
 and platforms-all also for Windows, under qemu and Wine if these can be installed. csharp runs on Mono, and on CoreCLR if named.

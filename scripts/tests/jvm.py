@@ -5,13 +5,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build import lock, maven
+from build import maven
 from build.places import JVM
 
 
 def run(results: Path, options: list[str]) -> int:
     """Collects the reports of all modules and returns Maven's exit code."""
-    lock.exclusive()
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         report.unlink()
     modules = list(maven.read_modules().values())

@@ -6,8 +6,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from build import fetch, jdk, lock, platforms, processes
-from build.console import Failure
+from build import jdk, lock, platforms, processes
 from build.places import ROOT
 from tests import junit
 
@@ -20,30 +19,17 @@ NOT_EMULATED = "^own_([^o]|o[^w]|own_(ends_with_its_parent|with_a_bad_launcher|o
 
 def run(results: Path, names: list[str]) -> int:
     """Runs the tests and returns the exit code. Notes list the tests that cannot run here."""
-    notes = results / "notes"
     lock.shared()
-    try:
-        platforms.setup_emulators()
-    except Failure as failure:
-        notes.write_text(f"the emulators cannot be installed: {failure}\n")
-    try:
-        fetch.fetch("zig")
-    except Failure as failure:
-        notes.write_text(f"nothing was built, as zig cannot be fetched: {failure}\n")
-        return 0
-    platforms.build_platforms(names)
+    platforms.setup_tests(names)
     code, java = 0, {}
-    with notes.open("a") as file:
+    with (results / "notes").open("w") as file:
         for name in names:
             reason = platforms.unavailable_reason(name)
             if reason is None:
-                try:
-                    code = run_shim(name, results) or code
-                    java[name] = platforms.java_command(name)
-                    file.writelines(describe(name, results / f"{name}.xml"))
-                except Failure as failure:
-                    reason = f"its JRE cannot be fetched: {failure}"
-            if reason:
+                code = run_shim(name, results) or code
+                java[name] = platforms.java_command(name)
+                file.writelines(describe(name, results / f"{name}.xml"))
+            else:
                 file.write(f"{name}: not run: {reason}\n")
     # The tests run scenes, which lock the outputs by themselves.
     lock.release()
