@@ -1,4 +1,4 @@
-# CMake toolchain file for cross compiling with zig. COLLEKTIVE_ZIG is the path of zig, COLLEKTIVE_TARGET zig's name of the target.
+# CMake toolchain file for cross-compiling with zig. COLLEKTIVE_ZIG is the path of zig, and COLLEKTIVE_TARGET is zig's name for the target platform.
 set(CMAKE_TRY_COMPILE_PLATFORM_VARIABLES COLLEKTIVE_ZIG COLLEKTIVE_TARGET)
 if(COLLEKTIVE_TARGET MATCHES windows)
   set(CMAKE_SYSTEM_NAME Windows)
