@@ -7,7 +7,7 @@
 
 #define ERROR_CAPACITY 4096
 
-/* Sets the calling thread's last error, truncated after a whole character if it is too long, and returns `code`. */
+/* Sets the calling thread's last error and returns `code`. A text that is too long is truncated after a whole character. */
 __attribute__((format(printf, 2, 3))) int32_t error_set(int32_t code, const char *format, ...);
 
 /* Returns the calling thread's last error, or "" if it had none. Valid until the thread's next error. */

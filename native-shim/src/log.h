@@ -1,4 +1,4 @@
-/* The log ring, which any thread writes and clk_log_read polls. A full ring drops lines, so writers never wait for readers. */
+/* The log ring. Any thread can write lines, and clk_log_read removes them. When the ring is full, lines are dropped, so writers never wait. */
 #ifndef COLLEKTIVE_LOG_H
 #define COLLEKTIVE_LOG_H
 
@@ -10,30 +10,32 @@
 #define LOG_LINE_CAPACITY 8192 /* bytes of one line, including NUL; longer ones are truncated after a whole character */
 #define LOG_RING_BYTES (256 * 1024)
 
-/* Records between two positions, which count all bytes ever written, modulo 2^32. A writer that dies leaves only whole records. */
+/* Records between two positions. A position is the number of all bytes before it since the start, modulo 2^32. The tail moves after a record was
+ * written, so a process that dies while it writes leaves only whole records. */
 struct log_ring {
     _Atomic uint32_t head; /* of the oldest record */
-    _Atomic uint32_t tail;
+    _Atomic uint32_t tail; /* after the latest record */
     _Atomic uint64_t dropped;
     char bytes[LOG_RING_BYTES];
 };
 
-/* Uses a zeroed ring in memory shared by both processes. Only the child writes to it; the parent also reads it. Call it once. */
+/* Adds a ring, which must be zeroed, in memory that both processes share. The child writes all its lines to it, and the parent only reads it. Call
+ * this function once in each process. */
 void log_share(struct log_ring *ring, bool is_child);
 
-/* Adds a line. Any thread, including those of the JVM: does not call JNI, and holds one lock only while it copies. */
+/* Adds a line. Any thread may call it, even a thread of the JVM, because it does not call JNI and holds a lock only while it copies the line. */
 void log_write(int32_t level, const char *text, int32_t length);
 __attribute__((format(printf, 2, 3))) void log_format(int32_t level, const char *format, ...);
 
-/* Logs a piece of the JVM's output. Only whole lines are written to the ring; a line that contains "warning" has
- * at least that level. Any thread. */
+/* Logs a piece of the JVM's output. A line is written to the ring once it is complete. The level of a line that contains "warning" is at least
+ * CLK_LOG_WARNING. Any thread. */
 void log_jvm_text(int32_t level, const char *text);
 
-/* Copies the JVM's last lines, joined by "; ". */
+/* Copies the last lines of the JVM's output, joined by "; ". */
 #define LOG_LAST_CAPACITY 2048
 void log_jvm_last(char *buffer, int32_t capacity);
 
-/* Clears these lines before another JVM starts. */
+/* Clears the JVM's output, before another JVM starts. */
 void log_jvm_clear(void);
 
 /* Returns the number of lines that did not fit into the ring. */

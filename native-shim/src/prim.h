@@ -1,6 +1,6 @@
 /*
- * Platform functions. Only the files prim_* depend on the operating system: prim_posix.c, prim_semaphore_posix.c and prim_signals_posix.c serve
- * Linux and macOS, prim_windows.c serves Windows. Paths, names and texts are UTF-8 on all platforms.
+ * Platform functions. Only the files prim_* contain code that depends on the operating system: prim_windows.c is for Windows, and prim_posix.c,
+ * prim_semaphore_posix.c and prim_signals_posix.c are for Linux and macOS. Paths, names and texts are UTF-8 on all platforms.
  * Any thread may call these functions, unless stated otherwise.
  */
 #ifndef COLLEKTIVE_PRIM_H
@@ -11,7 +11,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* SYSTEM and ARCHITECTURE are OS_NAME and OS_ARCH in the file `release` of a JVM. FOREIGN_TEXT is the error text for an undecodable path. */
+/* PRIM_SYSTEM and PRIM_ARCHITECTURE are the values of OS_NAME and OS_ARCH in the file `release` of a JVM. PRIM_FOREIGN_TEXT is the error text for a
+ * path that the JVM cannot decode. */
 #if defined(_WIN32)
 #define PRIM_PATH_SEPARATOR ';'
 #define PRIM_LIBJVM "bin/server/jvm.dll"
@@ -59,7 +60,7 @@ typedef struct {
 #endif
 #define PRIM_PLATFORM PRIM_SYSTEM " on " PRIM_ARCHITECTURE
 
-/* ---- Time: monotonic nanoseconds, also as deadlines ------------------------------------------------------------------ */
+/* ---- Time, and deadlines, in monotonic nanoseconds -------------------------------------------------------------------- */
 
 #define PRIM_MILLI INT64_C(1000000)
 
@@ -71,20 +72,20 @@ void prim_lock(prim_mutex *mutex);
 void prim_unlock(prim_mutex *mutex);
 
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
-/* Initialises with 0 a semaphore in zeroed shared memory that a child also uses. Call it again only after the child has ended. */
+/* Sets a semaphore that this process shares with a child to 0. It must be in zeroed shared memory. Call it again only after the child has ended. */
 void prim_semaphore_share(prim_semaphore *semaphore);
 void prim_semaphore_post(prim_semaphore *semaphore);
 bool prim_semaphore_try(prim_semaphore *semaphore);
-/* Sleeps without spinning. False if the deadline passed first; INT64_MAX means no deadline. */
+/* Waits without spinning. False if the deadline passes first; INT64_MAX means no deadline. */
 bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline);
-/* Both waits spin for half a millisecond before they sleep. */
+/* Spins for half a millisecond, then sleeps. */
 void prim_semaphore_wait(prim_semaphore *semaphore);
-/* False if the deadline passed first. */
+/* Does the same until the deadline. False if it passes first. */
 bool prim_semaphore_wait_until(prim_semaphore *semaphore, int64_t deadline);
 
 /* ---- Threads --------------------------------------------------------------------------------------------------------- */
 
-/* Starts a detached thread. `name` has at most 15 bytes and must stay valid. False if the system cannot create the thread. */
+/* Starts a detached thread. `name` may have at most 15 bytes and must stay valid. False if the system cannot create the thread. */
 bool prim_thread_start(void (*body)(void), const char *name, size_t stack_bytes);
 
 /* Yields the processor to another thread. */
@@ -93,42 +94,42 @@ void prim_yield(void);
 /* Blocks the calling thread for ever, with all signals masked. */
 _Noreturn void prim_park(void);
 
-/* Registers a function to be called in the only thread of each process that is forked later. */
+/* Registers a function that is called in each process that is forked later, on its only thread. */
 void prim_at_fork(void (*child)(void));
 
 /* ---- Signal handlers -------------------------------------------------------------------------------------------------
- * HotSpot replaces the process's handlers in JNI_CreateJavaVM, and forwards to them the signals that it does not handle. On Windows the handler
- * is the filter of unhandled exceptions; vectored handlers of other libraries stay and must pass on unknown exceptions. */
+ * In JNI_CreateJavaVM, HotSpot replaces the handlers of the process. It forwards the signals that it does not handle to them. On Windows, the only
+ * handler is the filter of unhandled exceptions. Vectored handlers of other libraries remain, and must pass on exceptions that they do not know. */
 
-/* Remembers the process's handlers. Call it before JNI_CreateJavaVM. */
+/* Saves the handlers of the process. Call it before JNI_CreateJavaVM. */
 void prim_signals_save(void);
 
-/* Restores the process's handlers after a failed start of the JVM. */
+/* Restores the handlers of the process after a failed start of the JVM. */
 void prim_signals_restore(void);
 
-/* Corrects HotSpot's handlers for this process and remembers them. Call it after JNI_CreateJavaVM. */
+/* Corrects the flags of HotSpot's handlers for this process, and saves the handlers. Call it after JNI_CreateJavaVM. */
 void prim_signals_adopt(void);
 
-/* Restores HotSpot's handlers that another library has replaced and returns their number. Only after prim_signals_adopt. */
+/* Restores the handlers of HotSpot that another library has replaced, and returns their number. Call it only after prim_signals_adopt. */
 int32_t prim_signals_repair(void);
 
 /* ---- Memory ---------------------------------------------------------------------------------------------------------- */
 
-/* Allocates memory aligned to 64 bytes; the caller frees it with prim_free. NULL if out of memory. `bytes` must be a multiple of 64. */
+/* Allocates memory that is aligned to 64 bytes, which the caller frees with prim_free. NULL if out of memory. `bytes` must be a multiple of 64. */
 void *prim_allocate(size_t bytes);
 void prim_free(void *memory);
 
-/* Memory that this process shares with its child: one mapping without a name, of which only the committed parts need memory. */
+/* The memory that this process shares with its child. It is one mapping without a name, in which only committed parts use memory. */
 #if defined(_WIN32)
 #define PRIM_SHARED_BYTES (UINT64_C(4) << 30) /* a reserved page costs 8 bytes */
 #else
 #define PRIM_SHARED_BYTES (UINT64_C(16) << 30)
 #endif
 
-/* Reserves the mapping, or returns the one of an earlier call. From one thread at a time. NULL on failure, with the reason in `why`. */
+/* Reserves the mapping, or returns the mapping of an earlier call. Only one thread at a time may call it. NULL on failure, with the reason in `why`. */
 uint8_t *prim_shared_reserve(char *why, size_t why_size);
-/* Commits memory, so that no later access fails; new memory is zero. Or returns it to the system until it is committed again. False if out of
- * memory, or if the system cannot return it: it stays committed. Offset and size are multiples of 4096. */
+/* Commits a part of the mapping, or returns its memory to the system. Accesses to committed memory do not fail, and new memory is zero. False if out
+ * of memory, or if the system cannot return memory, which then stays committed. Offset and size are multiples of 4096. */
 bool prim_shared_commit(uint64_t offset, uint64_t bytes, bool committed);
 
 /* ---- Files and libraries --------------------------------------------------------------------------------------------- */
@@ -137,7 +138,7 @@ enum prim_file { PRIM_MISSING, PRIM_UNREADABLE, PRIM_FILE, PRIM_DIRECTORY };
 enum prim_file prim_file_kind(const char *path);
 bool prim_executable(const char *path);
 
-/* Returns the free bytes on the disk of a file, which need not exist; INT64_MAX if unknown. */
+/* Returns the free bytes on the disk of a file; INT64_MAX if unknown. The file need not exist, but its folder must. */
 int64_t prim_disk_free(const char *file);
 
 /* Locks the folder of a file against other processes. Returns the lock, or a negative number if it is not available by the deadline. */
@@ -147,7 +148,7 @@ void prim_folder_unlock(int lock);
 /* Opens a text file for reading. NULL if it cannot be opened. */
 FILE *prim_file_read(const char *path);
 
-/* Returns whether the JVM, which decodes its options by the locale or the code page, can decode a text. */
+/* Returns whether the JVM can decode a text. It decodes its options by the locale or the code page. */
 bool prim_jvm_can_decode(const char *text);
 
 /* Returns the text in the JVM's encoding; the caller frees it. NULL if out of memory. */
@@ -162,27 +163,28 @@ bool prim_library_path(char *path, size_t size);
 
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
-/* Hides a variable from getenv and child processes until prim_environment_show(hidden). Meanwhile other threads may read other variables, but
- * must not hide any. `name` has at most 62 bytes. False if it is not set. */
+/* Hides a variable from getenv and from child processes until prim_environment_show(hidden) is called. Meanwhile, other threads may read other
+ * variables, but must not hide any. `name` may have at most 62 bytes. False if the variable is not set. */
 bool prim_environment_hide(const char *name, char **hidden);
 void prim_environment_show(char *hidden);
 
-/* A child process without input. It may share the memory of prim_shared_reserve, and then ends with this process. It inherits only that and its
- * output, neither of which has a name. The thread that starts such a child must not end before it. Only that thread calls prim_child_read and
- * prim_child_reap. */
+/* A child process has no input. With `shares`, it shares the memory of prim_shared_reserve, and ends when this process ends. It inherits only this
+ * memory, its output and the means to detect the parent's end, so no other process can open them by a name. The thread that starts such a child must
+ * not end before the child does, and only this thread may call prim_child_read and prim_child_reap. */
 
 /* Starts a program and returns its process id. 0 on failure, with the reason in `why`. */
 int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size);
-/* Waits for output or errors and reads them, NUL-terminated. False if the child ended and all was read, or if the deadline passed first. */
+/* Waits for text on standard output or standard error, and reads it, NUL-terminated. False if the child has ended and everything was read, or if the
+ * deadline passes first. */
 bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size);
-/* Frees the child's resources if it ends by the deadline, and sets `status` to its exit code, or to -signal. False otherwise. */
+/* Waits for the child to end, frees its resources, and sets `status` to its exit code, or to -signal. False if the deadline passes first. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status);
-/* Kills a child and its children. Does nothing if prim_child_reap has freed it. Do not call it during prim_child_reap. */
+/* Kills the child and its children. Does nothing after prim_child_reap has freed the child. Do not call it during prim_child_reap. */
 void prim_child_kill(prim_child *child);
 
-/* The argument by which the child finds the memory. */
+/* Writes the argument with which the child finds the memory. */
 void prim_child_token(char *text, size_t size);
-/* In the child: maps the memory, and ends this process when the parent ends. NULL if this process is not such a child. */
+/* Called in the child. Maps the memory, and ends this process when the parent ends. NULL if this process is not such a child. */
 uint8_t *prim_child_attach(const char *token);
 
 #endif

@@ -1,6 +1,6 @@
 /*
- * The pool of native memory. A slot is a handle with a generation; it owns one block of memory, which growing replaces.
- * Any thread may call these functions, unless stated otherwise.
+ * The pool of native memory. A slot is a handle that owns one block of memory. When a slot grows, it gets another block. The generation in the handle
+ * distinguishes a slot from earlier ones. Any thread may call these functions, unless stated otherwise.
  */
 #ifndef COLLEKTIVE_SLOTS_H
 #define COLLEKTIVE_SLOTS_H
@@ -21,22 +21,23 @@ struct block {
     struct block *next;  /* the next block of the pool's list, or of the retired blocks of a call */
 };
 
-/* Returns the slot's block, which stays valid until slots_unpin; NULL for a stale handle, with the last error set. */
+/* Returns the slot's block, which stays valid until slots_unpin. For a stale handle, sets the last error and returns NULL. */
 struct block *slots_pin(clk_slot slot);
 void slots_unpin(struct block *block); /* NULL does nothing */
 
-/* Replaces the slot's block with one of at least `capacity` bytes and returns it pinned; NULL on failure, with the last error set. The old block,
- * which the caller has pinned, stays valid until slots_unpin. */
+/* Gives the slot another block of at least `capacity` bytes, and returns this block pinned. The old block, which the caller has pinned, stays valid
+ * until slots_unpin. On failure, sets the last error and returns NULL. */
 struct block *slots_exchange(clk_slot slot, int32_t capacity);
 
-/* From now on, allocates all memory from the mapping that a child inherits, after its first `reserved` bytes. Returns the start of the mapping;
- * NULL on failure, with the last error set. Blocks that slots own already stay where they are. */
+/* From now on, allocates all memory from the mapping that a child inherits, after its first `reserved` bytes. Blocks that slots already own stay where
+ * they are. Returns the start of the mapping. On failure, sets the last error and returns NULL. */
 uint8_t *slots_share(uint64_t reserved);
 
-/* Unpins all shared blocks, once the process that used them has ended. No call may run. */
+/* Unpins all shared blocks. Call it after the process that used them has ended, when no call is running. */
 void slots_unpin_shared(void);
 
-/* Removes a surplus block from the pool; NULL if none. The caller deletes its wrapper and then frees it with slots_free. Engine thread only. */
+/* Removes a block from the pool whose memory must be returned to the system; NULL if none. The caller deletes the block's wrapper and then calls
+ * slots_free. Engine thread only. */
 struct block *slots_take_surplus(void);
 void slots_free(struct block *block);
 
