@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* Makes room for `needed` items of `size` bytes in the array that `items` points to. Returns false if out of memory. */
+/* Makes room for `needed` items of `size` bytes each. `items` is the address of the pointer to the array. Returns false if out of memory. */
 static inline bool reserve(void *items, int32_t *capacity, int64_t needed, size_t size) {
     if (needed <= *capacity) return true;
     int64_t larger = 2 * (int64_t)*capacity > needed ? 2 * (int64_t)*capacity : needed;

@@ -4,12 +4,12 @@
 #include <string.h>
 #include "array.h"
 
-/* With more cells, the number of a cell would not fit into an int32_t. */
+/* Largest coordinate of a cell, which must fit in an int32_t. */
 #define MAX_CELLS (1 << 30)
-/* With more rows, several have the same number. */
+/* Largest number of rows in a search. With more rows, several would have the same number. */
 #define MAX_ROWS 0xFFFF
 #define MIN_RADIUS 1e-3f
-/* Length of the runs that insertion sort handles. */
+/* Length of the runs that are sorted by insertion before they are merged. */
 enum { RUN = 16 };
 
 static inline int32_t min(int32_t a, int32_t b) { return a < b ? a : b; }
@@ -26,7 +26,7 @@ static inline int32_t cell_of(const struct grid *grid, double coordinate) {
 /* Returns the number of a row of cells along x, unique among the rows of one search. */
 static inline int32_t row_of(int32_t y, int32_t z) { return (int32_t)((uint32_t)y << 16 | ((uint32_t)z & MAX_ROWS)); }
 
-/* Returns the bucket of a cell. Adjacent cells along x have adjacent buckets, so a row of cells is one range of entries. */
+/* Returns the bucket of a cell. Cells that are adjacent along x have adjacent buckets, so the entries of a row of cells are one range. */
 static inline uint32_t bucket_of(const struct grid *grid, int32_t x, int32_t row) {
     uint32_t mixed = (uint32_t)row * 0x9E3779B1u;
     return ((uint32_t)x + (mixed ^ mixed >> 15)) & grid->mask;
@@ -80,7 +80,7 @@ bool grid_place(struct grid *grid, const clk_point *points, int32_t count, float
         grid->entries[place] = (struct entry){points[i].x, points[i].y, points[i].z, i};
         grid->rows[place] = grid->row_of[i];
     }
-    /* Each starts[bucket + 1] is now the beginning of its bucket: move them back by one. */
+    /* Each starts[bucket + 1] is now the beginning of `bucket`, so all are moved back by one. */
     memmove(starts, starts + 1, (grid->mask + 1) * sizeof *starts);
     starts[grid->mask + 1] = count;
     return true;
@@ -95,7 +95,8 @@ void grid_free(struct grid *grid) {
     free(grid->row_of);
 }
 
-/* Appends the entries of a range whose squared distances are in a band. Checks their row unless `any_row`: other rows may share its buckets. */
+/* Appends the entries of a range whose squared distances are in a band. Unless `any_row` is set, omits the entries of other rows, which may be in the same
+ * buckets. */
 static bool append_hits(const struct grid *grid, int32_t start, int32_t end, const float place[3], const float band[2], bool any_row,
                         int32_t row, struct hits *hits) {
     if (start >= end) return true;
@@ -113,7 +114,7 @@ static bool append_hits(const struct grid *grid, int32_t start, int32_t end, con
             float value;
             uint32_t bits;
         } squared = {.value = dx * dx + dy * dy + dz * dz};
-        /* Branchless, because the processor cannot predict which points are near. */
+        /* Every key is written, and only hits are counted. A branch would be slow, because the processor cannot predict which points are near. */
         keys[found] = (uint64_t)(uint32_t)entries[i].index << 32 | squared.bits;
         found += (squared.value <= most) & (squared.value >= least) & (any_row | (rows[i] == row));
     }
@@ -121,12 +122,12 @@ static bool append_hits(const struct grid *grid, int32_t start, int32_t end, con
     return true;
 }
 
-/* Replaces the hits with those of a search, with squared distances. */
+/* Replaces the hits with the points between two distances. Their keys contain squared distances. */
 static bool collect(const struct grid *grid, const float place[3], float inner, float outer, struct hits *hits) {
     hits->count = 0;
     if (!(outer >= 0) || !(inner <= outer)) return true;
     float band[2] = {inner > 0 ? inner * inner : 0, outer * outer};
-    /* Slightly more, because distances are rounded. */
+    /* The cells must reach slightly farther than `outer`, because distances are rounded. */
     double reach = outer * (1 + 1e-6);
     struct cell first = {max(cell_of(grid, place[0] - reach), grid->least.x), max(cell_of(grid, place[1] - reach), grid->least.y),
                          max(cell_of(grid, place[2] - reach), grid->least.z)};
@@ -135,7 +136,7 @@ static bool collect(const struct grid *grid, const float place[3], float inner, 
     int64_t length = (int64_t)last.x - first.x + 1;
     int64_t rows = ((int64_t)last.y - first.y + 1) * ((int64_t)last.z - first.z + 1);
     if (length <= 0) return true;
-    /* A double: the number of cells may exceed the range of int64_t. */
+    /* If there are more cells than points, all points are checked. The number of cells may exceed the range of int64_t, so it is a double. */
     if ((double)length * (double)rows > grid->count || rows > MAX_ROWS)
         return append_hits(grid, 0, grid->count, place, band, true, 0, hits);
     for (int32_t y = first.y; y <= last.y; y++) {
@@ -167,7 +168,7 @@ bool grid_within(const struct grid *grid, const float place[3], float inner, flo
     return true;
 }
 
-/* Exchanges the halves of a key. The result ascends by distance, then by index. */
+/* Exchanges the halves of a key, so that keys are ordered by distance, then by index. */
 static inline uint64_t by_distance(uint64_t key) { return key << 32 | key >> 32; }
 
 bool grid_nearest(const struct grid *grid, const float place[3], int32_t limit, int32_t except, float *radius, struct hits *hits) {
@@ -188,7 +189,7 @@ bool grid_nearest(const struct grid *grid, const float place[3], int32_t limit, 
         key = by_distance(key);
         if (sorted == limit && (limit == 0 || key >= hits->keys[sorted - 1])) continue;
         int32_t at = sorted < limit ? sorted++ : sorted - 1;
-        /* The replaced key was already checked, or is the farthest of the requested ones. */
+        /* Inserts the key into the sorted keys. The place that is overwritten contains a key that was already read, or the farthest key so far. */
         for (; at > 0 && key < hits->keys[at - 1]; at--) hits->keys[at] = hits->keys[at - 1];
         hits->keys[at] = key;
     }

@@ -1,4 +1,4 @@
-/* Points in cubic cells: a search around a place costs as much as there are points near it. */
+/* A grid of points in cubic cells. The time of a search depends only on the number of points near the place. */
 #ifndef NEIGHBOURS_GRID_H
 #define NEIGHBOURS_GRID_H
 
@@ -6,7 +6,7 @@
 #include <stdint.h>
 #include "collektive_neighbours.h"
 
-/* Searches need no larger radius, and its square fits a float. */
+/* Largest radius of a search by growing radius, and largest size of a cell. Its square fits in a float. */
 #define MAX_RADIUS 1e18f
 
 struct cell {
@@ -22,22 +22,22 @@ struct grid {
     clk_point *points;
     int32_t count;
     double cells_per_unit;
-    struct cell least, most; /* the range of cells with points: a swarm on the ground has one layer */
-    uint32_t mask;           /* number of buckets - 1 */
+    struct cell least, most; /* the range of cells that contain points; searches skip all other cells */
+    uint32_t mask;           /* number of buckets - 1; a bucket contains the points of one or more cells */
 
-    /* By bucket: the points of one cell are adjacent, ascending by index. */
+    /* The points in the order of their buckets. In a bucket, they are in ascending order of their index. */
     struct entry *entries;
-    int32_t *rows;
-    int32_t *starts; /* by bucket, plus the end of the last one */
+    int32_t *rows;   /* number of the row of each entry */
+    int32_t *starts; /* first entry of each bucket, and the end of the last bucket */
 
-    /* By index. */
+    /* Bucket and row of each point, by its index. */
     int32_t *bucket_of;
     int32_t *row_of;
 
     int32_t point_capacity, bucket_capacity;
 };
 
-/* Results of a search: the index in the high half, the bits of the distance in the low half. */
+/* The points that a search has found. A key has the point's index in its high half, and the bits of the distance in its low half. */
 struct hits {
     uint64_t *keys;
     uint64_t *spare; /* for sorting */
@@ -57,12 +57,12 @@ static inline float hit_distance(uint64_t key) {
 bool grid_place(struct grid *grid, const clk_point *points, int32_t count, float cell);
 void grid_free(struct grid *grid);
 
-/* Replaces the hits with the points at inner <= distance <= outer, unordered. Returns false if out of memory. */
+/* Replaces the hits with the points at inner <= distance <= outer, in no particular order. Returns false if out of memory. */
 bool grid_within(const struct grid *grid, const float place[3], float inner, float outer, struct hits *hits);
 
 /*
- * Replaces the hits with the nearest points other than `except` (an index or -1), ordered by distance and index. `radius` is the initial search
- * radius, and is set to the last one. Returns false if out of memory.
+ * Replaces the hits with the nearest points, in the order of distance and index. Omits the point with the index `except`; -1 omits none. `radius` is
+ * the radius with which the search begins, and is set to the radius with which it ends. Returns false if out of memory.
  */
 bool grid_nearest(const struct grid *grid, const float place[3], int32_t limit, int32_t except, float *radius, struct hits *hits);
 

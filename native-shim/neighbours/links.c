@@ -12,7 +12,7 @@ static uint32_t bucket_of(const struct links *links, int32_t low, int32_t high) 
     return (mixed ^ mixed >> 15) & ((uint32_t)links->capacity - 1);
 }
 
-/* The next free pair is stored as a number below -1, which distinguishes free pairs from chained ones. */
+/* In a free pair, `next` encodes the next free pair as a number below -1, by which free pairs are distinguished from those in a chain. */
 static int32_t free_link(int32_t next) { return -3 - next; }
 
 static bool is_free(const clk_pair *pair) { return pair->next < NONE; }
@@ -197,7 +197,7 @@ void links_drop_gone(struct links *links) {
         if (is_free(pair) || (!links_is_gone(links, pair->low) && !links_is_gone(links, pair->high))) continue;
         drop(links, &pair->up);
         drop(links, &pair->down);
-        /* links_flush frees dirty pairs. */
+        /* A dirty pair is freed later, by links_flush. */
         if (!pair->up.is_dirty && !pair->down.is_dirty) free_pair(links, index);
     }
 }

@@ -1,4 +1,4 @@
-/* All links with their reference counts, and the changes that are not flushed yet. */
+/* All links with their reference counts, and the changes that have not been flushed yet. */
 #ifndef NEIGHBOURS_LINKS_H
 #define NEIGHBOURS_LINKS_H
 
@@ -6,35 +6,35 @@
 #include <stdint.h>
 #include "collektive_neighbours.h"
 
-/* A flag for each id, in pages that are allocated on first use, because ids may be far apart. */
+/* A flag for each id. Ids may be far apart, so the flags are in pages that are allocated on first use. */
 struct flags {
     uint8_t **pages;
     int32_t capacity; /* of pages */
 };
 
-/* Most links come and go in pairs, so the two links of a pair are adjacent, and one reference may cover both. */
+/* Most links exist in both directions. Therefore the table contains pairs of links, and one reference may cover both links of a pair. */
 struct links {
     clk_pair *pairs;
-    int32_t *buckets; /* as many as the capacity of pairs, a power of two */
+    int32_t *buckets; /* hash table of the pairs; its size is `capacity`, a power of two */
     int32_t used, capacity, first_free;
     int32_t count; /* of links */
 
-    int32_t *dirty; /* pairs with a changed direction */
+    int32_t *dirty; /* pairs in which a direction has changed */
     int32_t dirty_count, dirty_capacity;
 
-    struct flags known;
-    struct flags gone; /* all 0 between calls */
+    struct flags known; /* ids that the receiver of links_flush knows */
+    struct flags gone;  /* ids that are being dropped; all flags are 0 between calls */
 
     clk_link *set;
     clk_link_ends *removed;
     int32_t set_capacity, removed_capacity;
 };
 
-/* A reference to the links of a pair: its number, and the directions. */
+/* A reference to one or both links of a pair: the number of the pair, shifted by 2, and the directions. */
 typedef int32_t reference;
 enum { UP = 1, DOWN = 2, DIRECTIONS = 3 };
 
-/* Adds a reference to a link, or to both links of a pair, and returns it; negative if out of memory. */
+/* Adds a reference to a link, or to both links of a pair, and sets their values. Returns the reference, or a negative number if out of memory. */
 reference links_add(struct links *links, int32_t from, int32_t to, bool both, float length, float attenuation);
 bool links_set(struct links *links, reference link, float length, float attenuation);
 bool links_release(struct links *links, reference link);
@@ -43,12 +43,12 @@ bool links_release(struct links *links, reference link);
 static inline void links_prefetch(const struct links *links, reference link) { __builtin_prefetch(&links->pairs[link >> 2], 1); }
 
 bool links_hold(struct links *links, const clk_link *link);
-/* Returns 0 if scripts have no reference, otherwise 1; negative if out of memory. */
+/* Returns 0 if scripts did not reference the link, otherwise 1; a negative number if out of memory. */
 int32_t links_release_script(struct links *links, int32_t from, int32_t to);
 bool links_has(const struct links *links, int32_t from, int32_t to);
 
 bool links_know(struct links *links, int32_t id, bool known);
-/* Marks ids as gone, or as present. */
+/* Marks ids as gone, so that links_drop_gone removes their links, or removes the marks. */
 bool links_mark_gone(struct links *links, const int32_t *ids, int32_t count, bool gone);
 bool links_is_gone(const struct links *links, int32_t id);
 void links_drop_gone(struct links *links);

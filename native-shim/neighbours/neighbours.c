@@ -11,9 +11,9 @@
 
 /* Number of searches that a thread claims at a time. */
 #define CHUNK 64
-/* One thread runs fewer searches: they take less than half a millisecond, and waiting until another thread is scheduled can take longer. */
+/* With fewer searches, only one thread is used. They take less than half a millisecond, and the scheduling of another thread can take longer. */
 #define MIN_SEARCHES 2048
-/* Number of new links after which threads stop and the links are updated. Limits the memory of a tick in which all links are new. */
+/* After this number of changes, the threads stop and the links are updated. This limits the memory of a tick in which all links are new. */
 #define MAX_NEW_LINKS (1 << 18)
 
 /* A link that a rule references. */
@@ -24,34 +24,33 @@ struct held {
     reference link;
 };
 
-/* The rule's links, ascending by id. */
 struct rule {
-    struct held *held;
+    struct held *held; /* links of the rule, in ascending order of id */
     int32_t count, capacity;
     int32_t next_free; /* number + 1 of the next removed rule; -1 if the rule is in use */
     int32_t centre;    /* id */
     uint32_t update;   /* number of the last update that contained the rule */
-    float reach;       /* distance of the last search for the nearest points */
+    float reach;       /* distance of the farthest point that the last search for nearest points found */
 };
 
 enum change_kind { ADD, ADD_BOTH, SET, RELEASE };
 
-/* Distance of prefetches, in items: links and rules are far apart in memory. */
+/* Number of items by which prefetches are ahead. Links and rules are far apart in memory, so loading them takes long. */
 enum { AHEAD = 8 };
 
 struct change {
     enum change_kind kind;
-    int32_t target; /* place in `held` to add, otherwise the reference */
+    int32_t target; /* for a new link, its place in `held`; otherwise the reference */
     float length;
     float attenuation;
 };
 
-/* The changes of a search, in the memory of the thread that ran it. */
+/* The changes of a search. They are in the memory of the thread that ran it. */
 struct changes {
     int32_t thread, first, count;
 };
 
-/* Memory of a thread, padded to separate cache lines. */
+/* Memory of a thread. The padding separates the cache lines of different threads. */
 struct thread_memory {
     struct hits hits;
     clk_neighbour *requested;
@@ -68,11 +67,11 @@ struct clk_neighbours {
     struct links links;
     struct workers *workers;
     struct rule *rules;
-    int32_t rule_count, rule_capacity, free_rule; /* free_rule: number + 1 */
+    int32_t rule_count, rule_capacity, free_rule; /* free_rule: number + 1 of the first removed rule */
     float cell;
     clk_near *found;
     int32_t found_capacity;
-    struct changes *changes; /* by search */
+    struct changes *changes; /* of each search */
     int32_t changes_capacity;
 
     /* The update in progress. */
@@ -122,7 +121,7 @@ static void count_search(struct thread_memory *memory, float radius) {
     memory->searches++;
 }
 
-/* Returns the mean and not the maximum, so that one rule with a long reach does not put all points into one cell. */
+/* Returns the mean radius of the searches. With the maximum, one rule with a long reach would put all points into one cell. */
 static float mean_radius(const clk_neighbours *neighbours) {
     double sum = 0;
     int64_t searches = 0;
@@ -225,14 +224,14 @@ static bool keep(struct thread_memory *memory, struct held *held, float length, 
 }
 
 /*
- * Replaces the rule's links with those to `requested`, ascending by id, and appends the changes. apply() updates the links themselves, so
- * threads can run this function for different rules.
+ * Replaces the rule's links with links to `requested`, which is in ascending order of id. Only appends the changes: apply() updates the link table
+ * later, so several threads can run this function for different rules.
  */
 static bool merge(struct thread_memory *memory, struct rule *rule, const clk_neighbour *requested, int32_t count, float tolerance,
                   bool both) {
     struct held *held = rule->held;
     int32_t same = 0;
-    /* Usually, most links are unchanged. */
+    /* This loop handles the beginning, because usually most links are the same as before. */
     while (same < count && same < rule->count && held[same].id == requested[same].id) {
         if (!keep(memory, &held[same], requested[same].length, requested[same].attenuation, tolerance)) return false;
         same++;
@@ -259,7 +258,7 @@ static bool merge(struct thread_memory *memory, struct rule *rule, const clk_nei
     return true;
 }
 
-/* Updates the links of a rule that was merged. `end` is the end of the changes of all rules in this memory. */
+/* Applies the changes of a rule to the link table. `end` is the end of the changes of all rules in the same memory, which limits prefetches. */
 static bool apply(clk_neighbours *neighbours, struct rule *rule, const struct change *changes, int32_t count, const struct change *end) {
     struct links *links = &neighbours->links;
     for (int32_t i = 0; i < count; i++) {
@@ -278,7 +277,7 @@ static bool apply(clk_neighbours *neighbours, struct rule *rule, const struct ch
     return true;
 }
 
-/* Runs a search, and merges its results. */
+/* Runs a search and merges its results into the links of its rule. */
 static bool search(clk_neighbours *neighbours, struct thread_memory *memory, const clk_search *search) {
     const struct grid *grid = &neighbours->grid;
     struct rule *rule = &neighbours->rules[search->rule];
@@ -289,7 +288,7 @@ static bool search(clk_neighbours *neighbours, struct thread_memory *memory, con
         count_search(memory, search->outer);
         if (!grid_within(grid, place, search->inner, search->outer, hits)) return false;
     } else {
-        /* The result of the last search is a good guess. */
+        /* The next search probably needs about the same radius as the last one. */
         float radius = rule->reach > 0 ? 1.25f * rule->reach : neighbours->cell;
         if (!grid_nearest(grid, place, search->nearest, search->centre, &radius, hits)) return false;
         count_search(memory, radius);
@@ -306,7 +305,7 @@ static bool search(clk_neighbours *neighbours, struct thread_memory *memory, con
     return merge(memory, rule, memory->requested, count, search->tolerance, search->both != 0);
 }
 
-/* Runs searches until none are left or enough links are new. */
+/* Runs searches until none are left, or until MAX_NEW_LINKS is reached. */
 static void run_searches(void *context, int32_t number) {
     clk_neighbours *neighbours = context;
     struct thread_memory *memory = &neighbours->threads[number];
@@ -317,7 +316,7 @@ static void run_searches(void *context, int32_t number) {
         int32_t end = neighbours->search_count - first < CHUNK ? neighbours->search_count : first + CHUNK;
         for (int32_t i = first; i < end; i++) {
             int32_t start = memory->change_count;
-            /* Not beyond this chunk: the next one belongs to another thread. */
+            /* The prefetch stays in this chunk, because the next chunk may belong to another thread. */
             if (i + AHEAD < end) __builtin_prefetch(neighbours->rules[neighbours->searches[i + AHEAD].rule].held, 1);
             if (!search(neighbours, memory, &neighbours->searches[i])) neighbours->is_out_of_memory = true;
             neighbours->changes[i] = (struct changes){number, start, memory->change_count - start};
@@ -340,7 +339,7 @@ static bool check_searches(clk_neighbours *neighbours, const clk_search *searche
 }
 
 int32_t clk_neighbours_update(clk_neighbours *neighbours, const clk_search *searches, int32_t count, int32_t threads, int32_t max_links) {
-    /* The counter of searches must not overflow. */
+    /* With more searches, the counter that threads increase could overflow. */
     if (count < 0 || count > INT32_MAX / 2 || !check_searches(neighbours, searches, count)) return CLK_NEIGHBOURS_ARGUMENT;
     if (!reserve(&neighbours->changes, &neighbours->changes_capacity, count, sizeof *neighbours->changes)) return CLK_NEIGHBOURS_MEMORY;
     neighbours->searches = searches;

@@ -44,7 +44,7 @@ typedef pthread_t thread;
 #define THREAD_FUNCTION static void *
 #define THREAD_RESULT NULL
 
-/* Blocks all signals in the thread: their handlers expect the caller's threads. */
+/* Starts a thread in which all signals are blocked, because signal handlers expect to run on the caller's threads. */
 static bool begin(thread *started, void *(*run)(void *), void *context) {
     sigset_t all, before;
     sigfillset(&all);
@@ -81,7 +81,7 @@ struct workers {
     thread threads[MAX_WORKERS - 1];
     int32_t started;
     int32_t next;    /* number of the next call */
-    int32_t limit;   /* of numbers */
+    int32_t limit;   /* calls have numbers below it */
     int32_t running; /* calls that have not returned */
     bool is_ending;
     void (*work)(void *context, int32_t number);
@@ -137,7 +137,7 @@ void workers_run(struct workers *workers, int32_t threads, void (*work)(void *co
     work(context, 0);
     if (threads <= 1) return;
     enter(&workers->mutex);
-    /* A thread that wakes up late finds nothing to do. */
+    /* Threads that wake up later must not begin a call. */
     workers->limit = 0;
     while (workers->running > 0) await(&workers->is_done, &workers->mutex);
     leave(&workers->mutex);

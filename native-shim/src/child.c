@@ -15,20 +15,20 @@
 #define STACK_BYTES ((size_t)256 * 1024)
 #define MAIN_CLASS "org.collektive.host.Main"
 #define OUTPUT_SHOWN 600
-#define REAP_LIMIT_MS 1000 /* from the end of the connection to the end of the child */
+#define REAP_LIMIT_MS 1000 /* maximum time from the end of the connection to the end of the child */
 #define KILL_LIMIT_MS 10000
 
-/* Guarded by the turn, except atomics, semaphores and the fields that the child's thread writes before it posts them. */
+/* Guarded by the turn, except atomics, semaphores, and the fields that the child's thread writes before it posts a semaphore. */
 static struct {
     struct channel *channel; /* NULL before the first start */
-    char **arguments;        /* of the child; NULL without one */
+    char **arguments;        /* command line of the child; NULL without a child */
     atomic_bool used;
     atomic_bool alive;
     prim_semaphore ended; /* posted when the child has ended, or cannot start */
     prim_mutex killing;   /* held to kill or reap `process` */
     prim_child process;
     _Atomic int32_t id;          /* 0 if the child could not start */
-    char reason[ERROR_CAPACITY]; /* reason for the failed start, or for the end */
+    char reason[ERROR_CAPACITY]; /* why the child did not start, or why it ended */
 } child = {.killing = PRIM_MUTEX_INIT};
 
 bool child_is_used(void) { return atomic_load_explicit(&child.used, memory_order_relaxed); }
@@ -39,7 +39,8 @@ int32_t child_process(void) { return child_is_used() ? atomic_load(&child.id) : 
 
 /* ---- The child's thread ---------------------------------------------------------------------------------------------- */
 
-/* HotSpot prints "# An error report file with more information is saved as:", and its path after "# " in the next line. */
+/* Sets the reason why the child ended. If HotSpot has crashed, its output contains "# An error report file with more information is saved as:", and in
+ * the next line "# " and the path of the report. */
 static void describe_end(int status) {
     static const char announcement[] = "is saved as:; # ";
     char last[LOG_LAST_CAPACITY];
@@ -57,7 +58,7 @@ static void describe_end(int status) {
              shown[0] != '\0' ? shown : "nothing");
 }
 
-/* Waits for a child to exit that has closed its connection. Normally, the connection closes only when the child exits. */
+/* Waits until a child that has closed its connection exits, and kills it at a limit. Normally, the connection closes only because the child exits. */
 static int reap(void) {
     int status = 0;
     int64_t limit = prim_now() + REAP_LIMIT_MS * PRIM_MILLI;
@@ -80,8 +81,8 @@ bool child_is_alive(void) {
     return alive;
 }
 
-/* Announces the loss before `alive` changes, so that a call that sees a dead child also sees the reason. Announces it again afterwards, because
- * the start may have set the state in the meantime. */
+/* The child's thread. It announces the loss before it clears `alive`, so that a call that sees a dead child also sees the reason. It announces the loss
+ * again afterwards, because the start may have set the state to running in the meantime. */
 static void child_main(void) {
     char output[4096];
     int32_t id = prim_child_start(child.arguments, true, &child.process, child.reason, sizeof child.reason);
@@ -113,7 +114,8 @@ int32_t child_end(void) {
     return CLK_OK;
 }
 
-/* The child's own options come first: a crash leaves a report but no dump, and Main may load the shim. */
+/* Fills in the command line of the child. Two options come first: with the first, a crash leaves a report but no core dump. The second allows Main to
+ * load the shim. */
 static int32_t fill_arguments(const struct launch *launch) {
     static char java[4096], library[4096], token[64];
     static char main_class[] = MAIN_CLASS, no_core[] = "-XX:-CreateCoredumpOnCrash";
@@ -152,13 +154,13 @@ static int32_t prepare_channel(void) {
     return CLK_OK;
 }
 
-/* Returns the child's text, which it may have left without an end. */
+/* Returns the text in the channel. Terminates it, because a child that crashed may have left it without a NUL. */
 static const char *channel_text(void) {
     child.channel->text[ERROR_CAPACITY - 1] = '\0';
     return child.channel->text;
 }
 
-/* The first answer reports the start. */
+/* Waits for the child's first answer, which reports the result of the start. */
 static int32_t await_start(int64_t deadline) {
     if (!prim_semaphore_sleep_until(&child.channel->done, deadline)) {
         char last[LOG_LAST_CAPACITY];

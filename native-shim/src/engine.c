@@ -9,14 +9,14 @@
 #include "prim.h"
 #include "text.h"
 
-/* Enough for deeply nested class loading and static initialisers. */
+/* Large enough for deeply nested class loading and static initialisers. */
 #define STACK_BYTES ((size_t)16 * 1024 * 1024)
 
 static struct {
-    prim_semaphore turn;    /* one token: the right to use the data that the turn guards */
+    prim_semaphore turn;    /* 1 while no caller has the turn, which is the right to use the data that the turn guards */
     prim_semaphore request; /* posted when `work` is set */
     prim_semaphore done;    /* posted when `work` or the JVM has ended */
-    bool started;           /* the engine thread; guarded by the turn, as is `work` */
+    bool started;           /* the engine thread has been started; guarded by the turn, like `work` */
     engine_work *work;
     int32_t result;
     char error[ERROR_CAPACITY];
@@ -31,7 +31,8 @@ static struct {
 
 static _Thread_local bool is_engine;
 
-/* A forked child has no engine thread. This must not lock anything: a thread that exists only in the parent may hold the lock. */
+/* Sets the state to lost in a forked child, which has no engine thread. Must not lock anything, because a thread that exists only in the parent may
+ * hold the lock. */
 static void lose_in_child(void) {
     atomic_store(&engine.forked, true);
     if (engine_state() != CLK_STATE_RUNNING || atomic_flag_test_and_set(&engine.losing)) return;
@@ -39,7 +40,7 @@ static void lose_in_child(void) {
     engine_set_state(CLK_STATE_LOST);
 }
 
-/* When the library is loaded. */
+/* Runs when the library is loaded. */
 __attribute__((constructor)) static void init(void) {
     prim_semaphore_init(&engine.turn, 1);
     prim_semaphore_init(&engine.request, 0);
@@ -57,12 +58,12 @@ void engine_set_state(int32_t state) {
     int before = atomic_load(&engine.state);
     while (before != CLK_STATE_LOST && !atomic_compare_exchange_weak(&engine.state, &before, state)) {
     }
-    /* The caller that waits for work then leaves its turn, which wakes the callers that wait for the turn one by one. */
+    /* Wakes the caller that waits for work. When it leaves its turn, the callers that wait for the turn wake up one after the other. */
     if (state != CLK_STATE_RUNNING) prim_semaphore_post(&engine.done);
 }
 
 void engine_reset(void) {
-    while (prim_semaphore_try(&engine.done)) { /* of a loss that no work waited for */
+    while (prim_semaphore_try(&engine.done)) { /* engine_set_state may have posted it when no caller was waiting */
     }
     atomic_store(&engine.state, CLK_STATE_NONE);
     atomic_flag_clear(&engine.losing);
@@ -123,7 +124,7 @@ static void engine_main(void) {
 
 uint64_t engine_signal_repairs(void) { return atomic_load_explicit(&engine.signal_repairs, memory_order_relaxed); }
 
-/* Without HotSpot's signal handlers, Java code can end the process. The check costs four system calls, less than a microsecond. */
+/* Restores HotSpot's signal handlers, without which Java code can end the process. The check needs four system calls, less than a microsecond. */
 static void repair_signals(void) {
     int32_t repaired = prim_signals_repair();
     if (repaired == 0) return;

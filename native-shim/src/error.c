@@ -24,7 +24,7 @@ const char *clk_error_name(int32_t code) { return is_error(code) ? errors[-code]
 const char *clk_error_text(int32_t code) { return is_error(code) ? errors[-code].text : "unknown error code"; }
 
 int32_t error_set(int32_t code, const char *format, ...) {
-    /* A copy, because the arguments may include the last error. */
+    /* The text is composed in a copy, because the arguments may include the last error. */
     char text[ERROR_CAPACITY + 4];
     va_list arguments;
     va_start(arguments, format);

@@ -8,7 +8,7 @@
 
 #define COUNT(array) ((jint)(sizeof(array) / sizeof(array)[0]))
 
-/* Engine thread only, except `security_exception`, which does not change after the start. */
+/* Used on the engine thread only, except `security_exception`, which does not change after the start. */
 static struct {
     JNIEnv *env; /* of the engine thread */
     jclass host;
@@ -30,7 +30,7 @@ void host_share(struct host_state *shared) { state = shared; }
 
 /* ---- Exceptions ------------------------------------------------------------------------------------------------------ */
 
-/* JNI's "UTF" functions use modified UTF-8. */
+/* Does not use JNI's "UTF" functions, because they return modified UTF-8. */
 void host_text(JNIEnv *env, jstring string, char *buffer, int32_t capacity) {
     jchar units[1024];
     jsize count = (*env)->GetStringLength(env, string);
@@ -39,7 +39,7 @@ void host_text(JNIEnv *env, jstring string, char *buffer, int32_t capacity) {
     text_from_utf16(units, count, buffer, capacity);
 }
 
-/* Copies the string that object.method() returns. False if it throws or returns null. */
+/* Copies the string that object.method() returns. False if the method throws an exception or returns null. */
 static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffer, int32_t capacity) {
     jstring string = (*env)->CallObjectMethod(env, object, method);
     bool good = !(*env)->ExceptionCheck(env) && string != NULL;
@@ -52,7 +52,7 @@ static bool string_of(JNIEnv *env, jobject object, jmethodID method, char *buffe
     return good;
 }
 
-/* Clears the pending exception and describes it by toString() or, if the heap is too full for that, by its class. */
+/* Clears the pending exception and describes it by toString(). If the heap is too full for that, describes it by its class. */
 static void describe_exception(JNIEnv *env, char *buffer, int32_t capacity) {
     jthrowable exception = (*env)->ExceptionOccurred(env);
     (*env)->ExceptionClear(env);
@@ -80,7 +80,7 @@ static void throw_new(JNIEnv *env, const char *class_name, const char *message) 
 
 /* ---- Memory ---------------------------------------------------------------------------------------------------------- */
 
-/* Creates the block's ByteBuffer unless it has one. False with a pending exception. */
+/* Creates the block's ByteBuffer unless it exists. On failure, leaves an exception pending and returns false. */
 static bool wrap(JNIEnv *env, struct block *block) {
     if (block->wrapper != NULL) return true;
     jobject buffer = (*env)->NewDirectByteBuffer(env, block->address, block->capacity);
@@ -95,7 +95,7 @@ static bool wrap(JNIEnv *env, struct block *block) {
     return true;
 }
 
-/* Frees the surplus blocks that have a wrapper, which only the engine thread can delete. */
+/* Frees the surplus blocks. They have wrappers, which only the engine thread can delete. */
 static void free_surplus(JNIEnv *env) {
     for (struct block *block; (block = slots_take_surplus()) != NULL;) {
         (*env)->DeleteGlobalRef(env, block->wrapper);
@@ -120,7 +120,7 @@ static jobject JNICALL shim_grow(JNIEnv *env, jclass class, jlong slot, jint cap
     return wrap(env, call->answer) ? call->answer->wrapper : NULL;
 }
 
-/* Copies as many bytes as fit, and a NUL. The caller must not hold a lock: JNI may wait for a safepoint here. */
+/* Copies as many bytes as fit, and a NUL. The caller must not hold a lock, because JNI may wait for a safepoint here. */
 static int32_t bytes_text(JNIEnv *env, jbyteArray bytes, char *buffer, int32_t capacity) {
     jsize length = bytes != NULL ? (*env)->GetArrayLength(env, bytes) : 0;
     if (length > capacity - 1) length = capacity - 1;
@@ -170,7 +170,7 @@ static void JNICALL shutdown_halt(JNIEnv *env, jclass class, jint status) {
 
 /* ---- Binding --------------------------------------------------------------------------------------------------------- */
 
-/* JNI declares names as writable strings, and functions as object pointers. */
+/* The array literals and casts are needed because JNI declares names as writable strings, and functions as object pointers. */
 #define NATIVE(function_name, type, function) \
     {.name = (char[]){function_name}, .signature = (char[]){type}, .fnPtr = (void *)(uintptr_t)(function)}
 
@@ -208,7 +208,7 @@ static int32_t bind(JNIEnv *env) {
     java.to_string = (*env)->GetMethodID(env, object, "toString", "()Ljava/lang/String;");
     java.get_name = (*env)->GetMethodID(env, class, "getName", "()Ljava/lang/String;");
     (*env)->DeleteLocalRef(env, object);
-    /* Class.getName() caches its result; the first call allocates, which fails on a full heap. */
+    /* The first call of Class.getName() allocates, which would fail on a full heap. Later calls return the same string. */
     string_of(env, full, java.get_name, (char[64]){0}, 64);
     (*env)->DeleteLocalRef(env, class);
     (*env)->DeleteLocalRef(env, full);
@@ -258,7 +258,7 @@ int32_t host_start(JNIEnv *env, char *version, int32_t capacity) {
     return CLK_OK;
 }
 
-/* The host may return only these (docs/boundary.md); the other codes report the shim's own state. */
+/* Returns whether the host may return the code (docs/boundary.md). The other codes report the state of the shim. */
 static bool is_host_code(jlong code) {
     static const int32_t codes[] = {CLK_ARGUMENT, CLK_HANDLE, CLK_HOST, CLK_FRAME, CLK_SCHEMA, CLK_PROGRAM, CLK_SESSION_FAILED, CLK_JAVA};
     bool found = false;

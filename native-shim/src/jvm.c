@@ -18,7 +18,7 @@
 #include "slots.h"
 #include "text.h"
 
-#define HALT_LIMIT_MS 10000 /* halting waits for a collection to end, and the heap may be large */
+#define HALT_LIMIT_MS 10000 /* long, because halting waits for a garbage collection to end, and the heap may be large */
 #define HALT_STACK_BYTES ((size_t)1024 * 1024)
 #define DETACH_LIMIT_MS 1000
 
@@ -37,10 +37,10 @@ static struct {
     atomic_bool creating; /* JNI_CreateJavaVM was called */
     atomic_bool created;  /* JNI_CreateJavaVM succeeded */
     atomic_bool stopping; /* clk_jvm_stop was called */
-    atomic_bool parked;   /* the JVM ended itself: one of its threads is parked in a hook */
+    atomic_bool parked;   /* the JVM ended itself, and one of its threads is parked in a hook */
 
-    halt_function *halt;      /* NULL when this JVM has none */
-    atomic_bool halt_thread;  /* started, and not detached */
+    halt_function *halt;      /* JVM_Halt; NULL if this JVM lacks it */
+    atomic_bool halt_thread;  /* the halt thread was started, and need not detach yet */
     atomic_bool halting;      /* the halt thread halts the JVM when it wakes; otherwise it detaches */
     prim_semaphore halt_wake; /* posted to wake it */
     prim_semaphore detached;  /* posted when it has left the JVM */
@@ -55,12 +55,13 @@ static jint JNICALL __attribute__((format(printf, 2, 0))) hook_print(FILE *file,
     char text[LOG_LINE_CAPACITY + 4];
     int length = vsnprintf(text, sizeof text, format, arguments);
     if (length >= 0) log_jvm_text(level, text);
-    if (length >= (int)sizeof text) log_jvm_text(level, "\n"); /* the rest was truncated, including the end of the line */
+    if (length >= (int)sizeof text) log_jvm_text(level, "\n"); /* the text was truncated, so its line break is missing */
     return length;
 }
 
-/* Parks a thread of the JVM that would end the process if it returned. If the start failed, the JVM's signal handlers are removed. A JVM that
- * crashed has installed handlers that report a crash; with these, every null reference in the process's own language would hang its thread. */
+/* Sets the state to lost, and parks a thread of the JVM that would end the process if it returned. If the JVM had not started, restores the signal
+ * handlers of the process. Otherwise, restores HotSpot's normal handlers: during a crash, HotSpot installs other handlers, with which every null
+ * reference in the process's own language would hang its thread. */
 static _Noreturn void lose_and_park(const char *what) {
     char why[LOG_LAST_CAPACITY] = "";
     atomic_store(&jvm.parked, true);
@@ -103,7 +104,7 @@ static int32_t load(create_function **create) {
     if (*create == NULL || created == NULL)
         return error_set(CLK_JVM_NOT_FOUND, "%s is not a JVM library: it lacks JNI_CreateJavaVM; reinstall the JVM", path);
     *(void **)&jvm.halt = prim_library_symbol(library, "JVM_Halt");
-    /* Called before JNI_CreateJavaVM: after a second JNI_CreateJavaVM the count is 0. */
+    /* This check must come before JNI_CreateJavaVM, because after a second JNI_CreateJavaVM the count is 0. */
     JavaVM *other;
     jsize count = 0;
     if (created(&other, 1, &count) == JNI_OK && count > 0) {
@@ -121,7 +122,7 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
     options[0] = (JavaVMOption){(char[]){"vfprintf"}, (void *)(uintptr_t)hook_print};
     options[1] = (JavaVMOption){(char[]){"exit"}, (void *)(uintptr_t)hook_exit};
     options[2] = (JavaVMOption){(char[]){"abort"}, (void *)(uintptr_t)hook_abort};
-    /* Not freed: the JVM reads these strings until it ends. */
+    /* The strings are not freed, because the JVM reads them until it ends. */
     for (int32_t i = 0; i < jvm.launch.option_count; i++) {
         options[HOOKS + i] = (JavaVMOption){prim_jvm_text(jvm.launch.options[i]), NULL};
         if (options[HOOKS + i].optionString == NULL) return error_set(CLK_MEMORY, "out of memory for %d JVM options", count);
@@ -142,11 +143,12 @@ static int32_t create(create_function *create_vm, JNIEnv **env) {
                          last[0] != '\0' ? last : "the JVM did not state a reason");
     }
     prim_signals_adopt();
-    atomic_store(&jvm.created, true); /* only now may lose_and_park repair signal handlers */
+    atomic_store(&jvm.created, true); /* from now on, lose_and_park may repair signal handlers */
     return CLK_OK;
 }
 
-/* Halts a JVM that does not shut down. The thread attaches at the start because a full heap has no room for another thread. */
+/* The halt thread, which halts a JVM that does not shut down. It attaches to the JVM at the start, because a full heap has no room for another
+ * thread. */
 static void halt_main(void) {
     JNIEnv *env;
     JavaVMAttachArgs arguments = {.version = JNI_VERSION_10, .name = (char[]){"collektive-halt"}};
@@ -173,11 +175,11 @@ static int32_t work_start(void) {
 
 /* ---- Start ----------------------------------------------------------------------------------------------------------- */
 
-/* Environment variables whose options the JVM would use unchecked. */
+/* Environment variables from which the JVM would read options that were not checked. */
 static const char *const option_variables[] = {"JAVA_TOOL_OPTIONS", "_JAVA_OPTIONS", "JDK_JAVA_OPTIONS"};
 enum { OPTION_VARIABLES = sizeof option_variables / sizeof option_variables[0] };
 
-/* Takes over the text, which may be NULL. */
+/* Sets the description and takes ownership of the text, which may be NULL. */
 static void describe(char *description) {
     prim_lock(&jvm.describing);
     free(jvm.description);
@@ -185,22 +187,22 @@ static void describe(char *description) {
     prim_unlock(&jvm.describing);
 }
 
-/* Needs the turn. The child may end before the state is RUNNING. */
+/* Starts the JVM in a child process. Needs the turn. */
 static int32_t start_child(int64_t deadline) {
     int32_t result = child_start(&jvm.launch, deadline, jvm.version, sizeof jvm.version);
     if (result != CLK_OK) {
         char why[ERROR_CAPACITY];
         text_export(error_last(), why, sizeof why);
-        child_end(); /* a start that finds this child still there reports it */
+        child_end(); /* if the child does not end, the next start reports it */
         return error_set(result, "%s", why);
     }
     describe(launch_description(&jvm.launch, jvm.version));
     engine_set_state(CLK_STATE_RUNNING);
-    child_is_alive(); /* otherwise its end is the loss */
+    child_is_alive(); /* if the child has already ended, this sets the state to lost */
     return CLK_OK;
 }
 
-/* Needs the turn, and state NONE. */
+/* Starts the JVM in this process. Needs the turn and the state NONE. */
 static int32_t start_in_process(int64_t deadline, int32_t limit_ms) {
     int32_t result = engine_run(work_start, deadline);
     if (result == CLK_TIMEOUT) {
@@ -210,13 +212,13 @@ static int32_t start_in_process(int64_t deadline, int32_t limit_ms) {
     } else if (result != CLK_OK && atomic_load(&jvm.creating)) {
         engine_lose("its start failed: %s", error_last());
     }
-    /* When the start failed, the engine thread may still write the version. */
+    /* After a failed start, the version is not used, because the engine thread may still write it. */
     if (atomic_load(&jvm.creating)) describe(launch_description(&jvm.launch, result == CLK_OK ? jvm.version : ""));
     if (result == CLK_OK) engine_set_state(CLK_STATE_RUNNING);
     return result;
 }
 
-/* Needs the turn, and state NONE. */
+/* Checks the configuration and starts the JVM. Needs the turn and the state NONE. */
 static int32_t start(const clk_jvm_config *config, int64_t deadline) {
     launch_free(&jvm.launch);
     child_use(config->placement == CLK_OWN_PROCESS);
@@ -261,14 +263,14 @@ static int32_t reject_configuration(void) {
                      "a JVM is already running with another home, class path or options; restart the process to change them");
 }
 
-/* Locks the folder of the class archive. A JVM replaces its archive under the same name, so two that end at once could write to one file.
- * Negative if the archive does not exist or the lock is not available. */
+/* Locks the folder of the class archive, because two JVMs that end at the same time could write to the same file. Returns a negative number if the JVM
+ * does not write an archive, or if the lock is not available. */
 static int lock_archive(int32_t limit_ms) {
     const char *archive = options_archive(jvm.launch.options, jvm.launch.option_count);
     return archive == NULL ? -1 : prim_folder_lock(archive, prim_now() + limit_ms / 4 * PRIM_MILLI);
 }
 
-/* Ends the child, if there is one, and removes what it left behind, so that another JVM can start. Needs the turn. */
+/* Ends the child, if one exists, and removes its sessions, pins and state, so that another JVM can start. Needs the turn. */
 static int32_t end_child(void) {
     int32_t result = child_end();
     if (result != CLK_OK) return result;
@@ -278,12 +280,12 @@ static int32_t end_child(void) {
     return CLK_OK;
 }
 
-/* Needs the turn, and a running child. After an error the child was killed. */
+/* Stops a running child. After an error, the child was killed. Needs the turn. */
 static int32_t stop_child(int32_t limit_ms) {
     int64_t deadline = prim_now() + limit_ms * PRIM_MILLI;
     int lock = lock_archive(limit_ms);
     int32_t result = session_complete(deadline);
-    engine_set_state(CLK_STATE_STOPPED); /* the end of the child is expected */
+    engine_set_state(CLK_STATE_STOPPED); /* set in advance, so that the end of the child does not count as a loss */
     if (result == CLK_OK) result = child_stop(limit_ms, deadline);
     int32_t ended = end_child();
     if (lock >= 0) prim_folder_unlock(lock);
@@ -327,16 +329,16 @@ int32_t clk_jvm_description(char *buffer, int32_t capacity) {
 
 /* ---- Stop ------------------------------------------------------------------------------------------------------------ */
 
-/* DestroyJavaVM waits up to 300 ms for attached threads that are not in Java. */
+/* Detaches the halt thread, because DestroyJavaVM waits up to 300 ms for attached threads that are not in Java. */
 static void detach_halt_thread(void) {
     if (!atomic_exchange(&jvm.halt_thread, false)) return;
     prim_semaphore_post(&jvm.halt_wake);
     prim_semaphore_wait_until(&jvm.detached, prim_now() + DETACH_LIMIT_MS * PRIM_MILLI);
 }
 
-/* DestroyJavaVM waits for non-daemon threads of programs. If some do not end, this runs the shutdown hooks itself and halts the JVM:
- * JVM_Halt stops all threads at a safepoint and calls hook_exit, which does not return. So no Java thread still runs when the process
- * removes its signal handlers. */
+/* Ends the JVM. DestroyJavaVM would wait for non-daemon threads of programs. If some do not end, this function runs the shutdown hooks itself and halts
+ * the JVM: JVM_Halt stops all threads at a safepoint and calls hook_exit, which does not return. No Java thread is then running when the process removes
+ * its signal handlers. */
 static int32_t work_stop(void) {
     bool idle = host_stop(jvm.stop_limit_ms / 2);
     session_remove_all();
@@ -349,15 +351,15 @@ static int32_t work_stop(void) {
     return CLK_OK;
 }
 
-/* Halts a JVM that does not shut down. False if that is impossible: while JNI_CreateJavaVM runs, after the JVM ended itself, while a debugger may
- * have suspended its threads, and in a forked child, which has none of them. */
+/* Halts a JVM that does not shut down. False if it cannot be halted: while JNI_CreateJavaVM runs, after the JVM has ended itself, while a debugger may
+ * have suspended its threads, or in a forked child, in which its threads do not exist. */
 static bool halt(void) {
     if (!atomic_load(&jvm.created) || jvm.halt == NULL || atomic_load(&jvm.parked) || host_is_debugged() || engine_is_forked())
         return false;
     atomic_store(&jvm.stopping, true);
     atomic_store(&jvm.halting, true);
     if (!atomic_load(&jvm.halt_thread)) start_halt_thread();
-    prim_signals_repair(); /* without HotSpot's handlers its threads do not survive a safepoint */
+    prim_signals_repair(); /* without HotSpot's handlers, its threads could not stop at a safepoint */
     prim_semaphore_post(&jvm.halt_wake);
     if (!prim_semaphore_wait_until(&jvm.halted, prim_now() + HALT_LIMIT_MS * PRIM_MILLI)) return false;
     prim_semaphore_post(&jvm.halted); /* for the next clk_jvm_stop */

@@ -9,7 +9,7 @@
 #include "options.h"
 #include "prim.h"
 
-#define ARCHIVE_BYTES (INT64_C(32) << 20) /* required free space; an archive has 5 to 10 MB */
+#define ARCHIVE_BYTES (INT64_C(32) << 20) /* free space that is required to write an archive, which has 5 to 10 MB */
 #define OLDEST_JAVA 17
 
 /* ---- The caller's configuration -------------------------------------------------------------------------------------- */
@@ -17,7 +17,7 @@
 int32_t launch_check_config(const clk_jvm_config *config) {
     if (config == NULL) return error_set(CLK_ARGUMENT, "config is NULL");
     if (config->size < sizeof *config) return error_set(CLK_ARGUMENT, "config->size is %u; set it to sizeof(clk_jvm_config)", config->size);
-    /* Fields of a newer header must be 0. */
+    /* This version does not know the additional fields of a newer header, so they must be 0. */
     for (const uint8_t *at = (const uint8_t *)config + sizeof *config; at < (const uint8_t *)config + config->size; at++) {
         if (*at != 0) return error_set(CLK_ARGUMENT, "config has fields that this version of the shim does not support; update the shim");
     }
@@ -38,7 +38,7 @@ int32_t launch_check_config(const clk_jvm_config *config) {
     return CLK_OK;
 }
 
-/* Joins all texts, one per line. */
+/* Returns all texts, one per line. NULL if out of memory. */
 static char *join(const char *first, const char *second, const char *const *others, int32_t count) {
     size_t size = strlen(first) + strlen(second) + 2;
     for (int32_t i = 0; i < count; i++) size += strlen(others[i]) + 1;
@@ -73,7 +73,7 @@ static bool add_option(struct launch *launch, const char *prefix, const char *re
     return option != NULL;
 }
 
-/* Removes the options that write a class archive if the disk is almost full or the JVM cannot decode the path: the JVM would abort. */
+/* Removes the options that write a class archive if the disk is almost full or the JVM cannot decode the path. The JVM would abort otherwise. */
 static void check_archive(struct launch *launch) {
     const char *archive = options_archive(launch->options, launch->option_count);
     if (archive == NULL) return;
@@ -96,9 +96,11 @@ static void check_archive(struct launch *launch) {
     launch->option_count = kept;
 }
 
-/* The shim's own options come first, so that the caller's can override them. -Xrs leaves signals such as SIGTERM to the process.
- * The log option suppresses a warning about replace_exit() in host.c. Conditional card marks avoid false sharing of the card table, which doubles the
- * processor time of two host threads. */
+/* Fills in the command line. The shim's options come first, so that the caller's options can override them:
+ *   -Xrs                       leaves signals such as SIGTERM to the process
+ *   -Djava.awt.headless=true   prevents Java from opening windows
+ *   -Xlog:jni+resolve=error    suppresses a warning about replace_exit() in host.c
+ *   -XX:+UseCondCardMark       avoids false sharing of the card table, which would double the processor time of two host threads */
 static int32_t fill(struct launch *launch, const clk_jvm_config *config) {
     static const char *const own[] = {"-Xrs", "-Djava.awt.headless=true", "-Xlog:jni+resolve=error", "-XX:+UseCondCardMark"};
     enum { OWN = sizeof own / sizeof own[0] };
@@ -146,7 +148,7 @@ static int32_t check_release(const char *home, int version, const char *system, 
                      architecture);
 }
 
-/* A property that the file `release` lacks, or a home without this file, is accepted. */
+/* Checks version and platform of the JVM in its file `release`. Accepts a JVM without this file, and a file without these properties. */
 static int32_t check_version(const char *home) {
     char line[4096], system[32] = PRIM_SYSTEM, architecture[32] = PRIM_ARCHITECTURE;
     snprintf(line, sizeof line, "%s/release", home);
@@ -161,7 +163,7 @@ static int32_t check_version(const char *home) {
     return check_release(home, version, system, architecture);
 }
 
-/* Without these files JNI_CreateJavaVM ends the process before it reads the exit hook. */
+/* Checks the files without which JNI_CreateJavaVM would end the process before it reads the exit hook. */
 static int32_t check_home(const char *home) {
     switch (prim_file_kind(home)) {
         case PRIM_DIRECTORY: break;
@@ -170,7 +172,7 @@ static int32_t check_home(const char *home) {
         case PRIM_UNREADABLE: return error_set(CLK_JVM_NOT_FOUND, "cannot read the JVM's home %s; " PRIM_READ_ADVICE, home);
         default: return error_set(CLK_JVM_NOT_FOUND, "the JVM's home %s is not a folder; set it to the root of a JRE or JDK", home);
     }
-    /* Before the files, which differ between platforms. */
+    /* The version comes first, because a JVM for another platform has other files. */
     int32_t result = check_version(home);
     if (result == CLK_OK) result = check_home_file(home, PRIM_LIBJVM);
     return result != CLK_OK ? result : check_home_file(home, "lib/modules");
@@ -195,14 +197,14 @@ static int32_t check_class_path(const char *class_path) {
     return CLK_OK;
 }
 
-/* A JVM that decodes a path incorrectly does not find its files, and on Windows it then ends the process. */
+/* Checks that the JVM can decode a path. Otherwise, it would not find its files, and on Windows it would then end the process. */
 static int32_t check_characters(int32_t code, const char *path) {
     return prim_jvm_can_decode(path) ? CLK_OK : error_set(code, PRIM_FOREIGN_TEXT, path);
 }
 
 /* ---- The whole check ------------------------------------------------------------------------------------------------- */
 
-/* Tries the options in a child process, unless the last configuration that passed is equal. */
+/* Tries the options in a child process, unless the configuration is equal to the last one that passed. */
 static int32_t try_options(const struct launch *launch, int64_t deadline) {
     static char *passed;
     if (passed != NULL && strcmp(passed, launch->configuration) == 0) return CLK_OK;

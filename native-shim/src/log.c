@@ -6,7 +6,7 @@
 #include "prim.h"
 #include "text.h"
 
-/* A record is this header and the text without NUL. Records follow each other in the ring; one may wrap around its end. */
+/* A record consists of this header and the text without NUL. Records follow each other in the ring, and a record may wrap around its end. */
 struct record {
     int32_t level;
     int32_t length;
@@ -14,7 +14,7 @@ struct record {
 
 static struct log_ring own;
 static _Atomic(struct log_ring *) written = &own, shared;
-static prim_mutex copying = PRIM_MUTEX_INIT; /* held for copies only, never during a call that may wait */
+static prim_mutex copying = PRIM_MUTEX_INIT; /* locked only while a line is copied, never during a call that may wait */
 
 _Static_assert((LOG_RING_BYTES & (LOG_RING_BYTES - 1)) == 0, "positions wrap by masking");
 
@@ -68,7 +68,7 @@ void log_format(int32_t level, const char *format, ...) {
     log_write(level, text, (size_t)length < sizeof text ? length : (int32_t)sizeof text - 1);
 }
 
-/* Removes the oldest record. False if the ring is empty. Checks what it reads, because a child that crashes may have overwritten its ring. */
+/* Removes the oldest record. False if the ring is empty. Checks the record, because a child may have overwritten its ring when it crashed. */
 static bool ring_take(struct log_ring *ring, struct record *record, char *text) {
     uint32_t head = atomic_load_explicit(&ring->head, memory_order_relaxed), used = atomic_load(&ring->tail) - head;
     if (used == 0) return false;
@@ -114,7 +114,7 @@ static void keep_last(const char *line, int32_t length) {
     int32_t capacity = sizeof jvm_output.last;
     int32_t used = (int32_t)strlen(jvm_output.last);
     if (length > capacity / 2) length = capacity / 2;
-    if (used + length + 3 > capacity) { /* drops the older half */
+    if (used + length + 3 > capacity) { /* drop the older half */
         char *kept = text_next_character(jvm_output.last + used / 2);
         used -= (int32_t)(kept - jvm_output.last);
         memmove(jvm_output.last, kept, (size_t)used + 1);

@@ -9,9 +9,9 @@
 #include "prim.h"
 #include "text.h"
 
-/* ---- By their text --------------------------------------------------------------------------------------------------- */
+/* ---- Checks of the text ---------------------------------------------------------------------------------------------- */
 
-/* A rule whose text ends in '*' matches all options that begin with the rest. */
+/* A text that ends in '*' matches all options that begin with the part before it. */
 struct rule {
     const char *text;
     const char *reason;
@@ -57,7 +57,8 @@ static bool matches(const char *option, const char *text) {
 
 #define JDWP "-agentlib:jdwp=transport=dt_socket,server=y,suspend=n,address=127.0.0.1:"
 
-/* Other options of the debugger agent open its port to other machines, run commands, write files, end the process or wait for a debugger. */
+/* Only options of the form JDWP and a port are safe. Other options of the debugger agent can open its port to other machines, run commands, write
+ * files, end the process or wait for a debugger. */
 static bool is_unsafe_debugger(const char *option) {
     bool is_debugger = matches(option, "-agentlib:jdwp*") || matches(option, "-Xrunjdwp*") ||
                        (matches(option, "-agentpath:*") && strstr(option, "jdwp") != NULL);
@@ -83,7 +84,7 @@ static int32_t check_one(const char *option) {
     return reject(option, "an embedded JVM does not support it; write each option as one word, with '=' before its value");
 }
 
-/* Longer options could not be tried in a child process: Windows limits a command line to 32 KiB. */
+/* Windows limits a command line to 32 KiB, so longer options could not be tried in a child process. */
 enum { OPTION_BYTES = 8 << 10, ALL_BYTES = 24 << 10 };
 
 int32_t options_check(const char *const options[], int32_t count) {
@@ -101,9 +102,9 @@ int32_t options_check(const char *const options[], int32_t count) {
     return result;
 }
 
-/* ---- In a child process ---------------------------------------------------------------------------------------------- */
+/* ---- Checks in a child process --------------------------------------------------------------------------------------- */
 
-/* Joins the JVM's output into one line, without the launcher's general message. */
+/* Joins the lines of the JVM's output, without the launcher's general message at the end. */
 static void join_lines(char *text) {
     char *general = strstr(text, "Error: Could not create the Java Virtual Machine");
     if (general != NULL) *general = '\0';
@@ -131,7 +132,8 @@ const char *options_archive(char *const options[], int32_t count) {
 
 enum run { EXITED, NOT_STARTED, TIMED_OUT };
 
-/* Runs a program and kills it at the deadline. `output` receives its output; if it does not fit, at least the last quarter of `size`. */
+/* Runs a program and kills it at the deadline. Copies its output to `output`. If the output does not fit, keeps the end, at least a quarter of
+ * `size`. */
 static enum run run(char *const argv[], int64_t deadline, char *output, size_t size, int *status) {
     prim_child child;
     size_t used = 0;
@@ -153,7 +155,7 @@ static enum run run(char *const argv[], int64_t deadline, char *output, size_t s
 
 int32_t options_try(const char *home, char *const options[], int32_t count, int64_t deadline) {
     char java[4096];
-    char output[16384]; /* some options make the JVM write a lot before the error */
+    char output[16384]; /* with some options, the JVM prints a lot before the error */
     int status = 0;
     static char version[] = "-version";
     static char no_report[] = "-XX:ErrorFile=" PRIM_NULL_FILE; /* a child that crashes must not write a report */
@@ -167,7 +169,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[0] = java;
     int32_t used = 1;
     for (int32_t i = 0; i < count; i++) {
-        /* The child would replace the archive with one that contains few classes. */
+        /* The child must not write the class archive, because its archive would contain few classes. */
         if (!options_write_archive(options[i])) arguments[used++] = options[i];
     }
     arguments[used++] = no_report;
@@ -175,7 +177,7 @@ int32_t options_try(const char *home, char *const options[], int32_t count, int6
     arguments[used] = NULL;
     enum run end = run(arguments, deadline, output, sizeof output, &status);
     free(arguments);
-    /* Some options end the JVM with exit code 0 during its start, before it prints its version. */
+    /* The exit code is not enough: some options end the JVM with exit code 0 before it prints its version. */
     bool has_started = strstr(output, " version \"") != NULL;
     size_t length = strlen(output);
     char *last = length > OUTPUT_SHOWN ? text_next_character(output + length - OUTPUT_SHOWN) : output;

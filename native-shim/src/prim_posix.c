@@ -26,7 +26,7 @@
 #if defined(__APPLE__)
 #include <crt_externs.h>
 #include <xlocale.h>
-#define CLOSE_ON_EXEC 0 /* until move_up: a process that another thread spawns meanwhile delays the end of the output */
+#define CLOSE_ON_EXEC 0 /* macOS sets it in move_up; a process that another thread spawns before that delays the end of the output */
 #define make_pipe(ends) pipe(ends)
 #define environ (*_NSGetEnviron())
 #else
@@ -110,7 +110,7 @@ void *prim_allocate(size_t bytes) {
 
 void prim_free(void *memory) { free(memory); }
 
-/* The child receives some descriptors as 3 and 4. In this process, they are at least this number, so that none overwrites another. */
+/* Smallest number of our descriptors in this process. The child receives them as 1 to 4, so no descriptor may overwrite another one. */
 #define FIRST_DESCRIPTOR 10
 
 static int move_up(int descriptor) {
@@ -128,13 +128,13 @@ static uint8_t *map_shared(int memory) {
 
 static int make_shared(void) {
 #if defined(__APPLE__)
-    char name[32]; /* until it is unlinked below; only this user may open it */
+    char name[32]; /* exists until shm_unlink; only this user may open it */
     snprintf(name, sizeof name, "/clk-%d-%llx", getpid(), (unsigned long long)prim_now());
     int memory = shm_open(name, O_RDWR | O_CREAT | O_EXCL, 0600);
     if (memory >= 0) shm_unlink(name);
     return move_up(memory);
 #else
-    return move_up((int)syscall(SYS_memfd_create, "collektive", MFD_CLOEXEC)); /* glibc has a function since 2.27 */
+    return move_up((int)syscall(SYS_memfd_create, "collektive", MFD_CLOEXEC)); /* glibc before 2.27 lacks memfd_create() */
 #endif
 }
 
@@ -143,7 +143,7 @@ uint8_t *prim_shared_reserve(char *why, size_t why_size) {
     struct rlimit limit;
     if (address != NULL) return address;
     shared = make_shared();
-    /* Beyond this limit ftruncate would end the process by SIGXFSZ. */
+    /* If the size exceeded this limit, ftruncate would end the process by SIGXFSZ. */
     if (shared >= 0 && getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur < PRIM_SHARED_BYTES) {
         errno = EFBIG;
     } else if (shared >= 0 && ftruncate(shared, (off_t)PRIM_SHARED_BYTES) == 0) {
@@ -156,7 +156,7 @@ uint8_t *prim_shared_reserve(char *why, size_t why_size) {
     return NULL;
 }
 
-/* macOS commits a page at its first access. */
+/* macOS commits a page at its first access and cannot return it. */
 bool prim_shared_commit(uint64_t offset, uint64_t bytes, bool committed) {
 #if defined(__APPLE__)
     return committed && offset + bytes <= PRIM_SHARED_BYTES;
@@ -254,7 +254,8 @@ bool prim_library_path(char *path, size_t size) {
 
 /* ---- Environment and processes --------------------------------------------------------------------------------------- */
 
-/* Replaces one pointer of environ, because unsetenv and setenv could move or free the array while other threads read it. */
+/* A hidden variable is replaced by this entry. unsetenv and setenv are not used, because they could move or free the array while other threads read
+ * it. */
 static char hidden_entry[] = "COLLEKTIVE_HIDDEN=";
 
 static bool swap_environment(const char *from, size_t from_length, char *to, char **previous) {
@@ -294,7 +295,7 @@ static bool close_others(posix_spawn_file_actions_t *actions, int first) {
 }
 #else
 #define ONLY_LISTED 0
-/* glibc has the function since 2.34. Before, the child inherits descriptors that another library opened without O_CLOEXEC. */
+/* Closes the other descriptors in the child. With glibc before 2.34, the child inherits those that another library opened without O_CLOEXEC. */
 static bool close_others(posix_spawn_file_actions_t *actions, int first) {
     int (*close_from)(posix_spawn_file_actions_t *, int);
     *(void **)&close_from = dlsym(RTLD_DEFAULT, "posix_spawn_file_actions_addclosefrom_np");
@@ -302,7 +303,7 @@ static bool close_others(posix_spawn_file_actions_t *actions, int first) {
 }
 #endif
 
-/* Starts a program with these descriptors as 1, 2, ... and no others. Returns 0, or the error number. */
+/* Starts a program that inherits only these descriptors, as 1, 2 and so on. Returns 0, or an error number. */
 static int spawn(char *const argv[], const int descriptors[], int count, pid_t *child) {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -316,7 +317,7 @@ static int spawn(char *const argv[], const int descriptors[], int count, pid_t *
     sigemptyset(&defaults);
     sigaddset(&defaults, SIGPIPE);
     sigaddset(&defaults, SIGCHLD);
-    /* A separate process group, so that kill also reaches the child's children. */
+    /* The child gets its own process group, so that kill() also reaches its children. */
     const short flags = POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | ONLY_LISTED;
     bool good = posix_spawnattr_setpgroup(&attributes, 0) == 0 && posix_spawnattr_setsigmask(&attributes, &none) == 0 &&
                 posix_spawnattr_setsigdefault(&attributes, &defaults) == 0 && posix_spawnattr_setflags(&attributes, flags) == 0 &&
@@ -329,10 +330,11 @@ static int spawn(char *const argv[], const int descriptors[], int count, pid_t *
     return error;
 }
 
-/* The descriptors of the child after its two outputs. Its end of the connection `life` closes when it ends, and the parent's when that ends. */
+/* Descriptors of the child, in addition to its two outputs. CHILD_LIFE is its end of the connection `life`, on which each process detects when the
+ * other one ends. */
 enum { CHILD_LIFE = 3, CHILD_MEMORY = 4 };
 
-/* Creates a pipe, or a connection whose ends detect when the other closes. No end is one of the child's descriptors. */
+/* Creates a pipe, or a connection on which each end detects when the other end closes. */
 static bool make_ends(int ends[2], bool is_pipe) {
     if ((is_pipe ? make_pipe(ends) : socketpair(AF_UNIX, SOCK_STREAM | CLOSE_ON_EXEC, 0, ends)) != 0) return false;
     ends[0] = move_up(ends[0]);
@@ -363,17 +365,17 @@ int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, cha
 bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t size) {
     for (bool ended = false;;) {
         struct pollfd waits[] = {{.fd = child->output, .events = POLLIN}, {.fd = ended ? -1 : child->life, .events = POLLIN}};
-        /* After the child has ended, a process that it started may keep the output open, so read only the available data. */
+        /* After the child has ended, a process that it started may keep the output open. Then only the available data is read. */
         int ready = poll(waits, 2, ended ? 0 : poll_limit(deadline));
         if (ready < 0 && errno == EINTR) continue;
-        if (ready == 0 && !ended && prim_now() < deadline) continue; /* poll has a lower limit */
+        if (ready == 0 && !ended && prim_now() < deadline) continue; /* the limit of poll is lower than some deadlines */
         if (ready <= 0) return false;
         ssize_t count = waits[0].revents != 0 ? read(child->output, buffer, size - 1) : -1;
         if (count > 0) {
             buffer[count] = '\0';
             return true;
         }
-        if (count == 0) { /* closed before the end of the child */
+        if (count == 0) { /* the child has closed its output but may still be running */
             close(child->output);
             child->output = -1;
         }
@@ -381,7 +383,7 @@ bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t s
     }
 }
 
-/* In a process that ignores SIGCHLD or reaps every child, the status is unknown and set to 0. */
+/* If this process ignores SIGCHLD or reaps every child, the status is unknown, and `status` is set to 0. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
     int state = 0;
     for (pid_t reaped; (reaped = waitpid(child->process, &state, WNOHANG)) != child->process;) {
@@ -408,7 +410,8 @@ static void end_with_parent(void) {
     _exit(1);
 }
 
-/* The death signal also ends a suspended child. The connection also ends a child whose parent ended before the signal was requested. */
+/* Two mechanisms end the child. The death signal also ends a suspended child. The connection also ends a child whose parent ended before the signal
+ * was requested. */
 uint8_t *prim_child_attach(const char *token) {
     struct stat memory;
     if (strcmp(token, "inherited") != 0 || fstat(CHILD_MEMORY, &memory) != 0 || (uint64_t)memory.st_size != PRIM_SHARED_BYTES) return NULL;

@@ -2,7 +2,7 @@
 
 #define SPIN_NANOS INT64_C(500000)
 
-/* Spins briefly, because waking an idle core of a virtual machine takes longer than a small tick. Yields to other threads. */
+/* Spins for a short time, because waking an idle core of a virtual machine takes longer than a small tick. Yields to other threads meanwhile. */
 static bool spin(prim_semaphore *semaphore, int64_t deadline) {
     int64_t end = prim_now() + SPIN_NANOS < deadline ? prim_now() + SPIN_NANOS : deadline;
     while (!prim_semaphore_try(semaphore)) {

@@ -1,11 +1,11 @@
-/* A semaphore on a futex, which macOS calls ulock, for threads of any process. macOS has no unnamed POSIX semaphores, and glibc's only wait on
- * the monotonic clock, sem_clockwait, needs glibc 2.30. */
+/* A semaphore for threads of any process, based on a futex, which macOS calls ulock. POSIX semaphores are not used because macOS lacks unnamed ones, and
+ * because only sem_clockwait, which needs glibc 2.30, waits on the monotonic clock. */
 #define _GNU_SOURCE /* syscall */
 #include <stdatomic.h>
 #include "prim.h"
 
 #if defined(__APPLE__)
-/* The system's own locks use these functions; the public os_sync_wait_on_address needs macOS 14.4. */
+/* These functions are private, but the locks of macOS use them too. The public os_sync_wait_on_address needs macOS 14.4. */
 int __ulock_wait(uint32_t operation, void *address, uint64_t value, uint32_t timeout_us);
 int __ulock_wake(uint32_t operation, void *address, uint64_t value);
 #define COMPARE_AND_WAIT_SHARED 3
@@ -15,7 +15,7 @@ static void wake(prim_semaphore *semaphore) { __ulock_wake(COMPARE_AND_WAIT_SHAR
 
 static void sleep_while_zero(prim_semaphore *semaphore, int64_t deadline) {
     int64_t left = deadline - prim_now();
-    if (left <= 0) return; /* 0 would mean no limit */
+    if (left <= 0) return; /* for __ulock_wait, 0 means no limit */
     int64_t wait = left < LONGEST_WAIT_NANOS ? left : LONGEST_WAIT_NANOS;
     __ulock_wait(COMPARE_AND_WAIT_SHARED, &semaphore->count, 0, (uint32_t)(wait / 1000 + 1));
 }
@@ -56,7 +56,7 @@ bool prim_semaphore_try(prim_semaphore *semaphore) {
     return false;
 }
 
-/* The system call returns at once when the count is no longer 0, so no post is missed. */
+/* If another thread posts before this thread sleeps, the system call returns at once, because the count is no longer 0. So no post is missed. */
 bool prim_semaphore_sleep_until(prim_semaphore *semaphore, int64_t deadline) {
     bool taken;
     atomic_fetch_add(&semaphore->waiting, 1);

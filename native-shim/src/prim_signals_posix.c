@@ -4,7 +4,7 @@
 
 #include <signal.h>
 
-/* HotSpot uses the first FAULTS for implicit null checks, stack overflows and safepoint polls. */
+/* The signals whose handlers HotSpot installs. It uses the first FAULTS for implicit null checks, stack overflows and safepoint polls. */
 static const int watched[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGPIPE, SIGXFSZ, SIGTRAP, SIGUSR2};
 enum { FAULTS = 4, COUNT = sizeof watched / sizeof watched[0] };
 
@@ -19,8 +19,8 @@ void prim_signals_restore(void) {
     for (int i = 0; i < COUNT; i++) sigaction(watched[i], &before[i], NULL);
 }
 
-/* HotSpot's SIGSEGV handler lacks SA_ONSTACK, so a stack overflow in the process's own code could not be handled and would end the process
- * without a message. The other signals keep their previous flag. */
+/* HotSpot installs its SIGSEGV handler without SA_ONSTACK. A stack overflow in the process's own code could then not be handled, and would end the
+ * process without a message, so the flag is added. For the other signals, the flag stays as it was before the start. */
 void prim_signals_adopt(void) {
     for (int i = 0; i < FAULTS; i++) {
         int on_stack = watched[i] == SIGSEGV ? SA_ONSTACK : before[i].sa_flags & SA_ONSTACK;

@@ -15,12 +15,12 @@ _Static_assert(sizeof(prim_mutex) == sizeof(SRWLOCK), "prim.h does not include w
 
 /* ---- Text ------------------------------------------------------------------------------------------------------------ */
 
-/* False if the text does not fit or is not UTF-8. */
+/* Converts UTF-8 to UTF-16. False if the text does not fit or is not UTF-8. */
 static bool to_wide(const char *text, wchar_t *wide, int units) {
     return MultiByteToWideChar(CP_UTF8, MB_ERR_INVALID_CHARS, text, -1, wide, units) > 0;
 }
 
-/* Returns the text in UTF-16; the caller frees it. NULL if out of memory, or if the text is not in the code page. */
+/* Converts text in a code page to UTF-16. The caller frees the result. NULL if out of memory, or if the text is not valid in the code page. */
 static wchar_t *wide_of(UINT code_page, const char *text) {
     int units = MultiByteToWideChar(code_page, 0, text, -1, NULL, 0);
     wchar_t *wide = units > 0 ? malloc((size_t)units * sizeof *wide) : NULL;
@@ -28,9 +28,9 @@ static wchar_t *wide_of(UINT code_page, const char *text) {
     return wide;
 }
 
-/* Returns the text in a code page; the caller frees it. NULL if out of memory. Sets `lost` if the code page lacks a character. */
+/* Converts UTF-16 to text in a code page. The caller frees the result. NULL if out of memory. Sets `lost` if the code page lacks a character. */
 static char *narrow_of(UINT code_page, const wchar_t *wide, BOOL *lost) {
-    BOOL *flag = code_page == CP_UTF8 ? NULL : lost; /* not allowed for UTF-8 */
+    BOOL *flag = code_page == CP_UTF8 ? NULL : lost; /* must be NULL for UTF-8 */
     DWORD exact = code_page == CP_UTF8 ? 0 : WC_NO_BEST_FIT_CHARS;
     int bytes = WideCharToMultiByte(code_page, exact, wide, -1, NULL, 0, NULL, flag);
     char *text = bytes > 0 ? malloc((size_t)bytes) : NULL;
@@ -93,7 +93,7 @@ void prim_semaphore_init(prim_semaphore *semaphore, unsigned count) { *semaphore
 void prim_semaphore_post(prim_semaphore *semaphore) { ReleaseSemaphore(*semaphore, 1, NULL); }
 
 static SECURITY_ATTRIBUTES inheritable = {.nLength = sizeof inheritable, .bInheritHandle = TRUE};
-/* The memory and two semaphores of this process and its child, in which they have the same values. Inherited only by that child. */
+/* The handles of the shared memory and of two semaphores. Only the child that shares them inherits them, and their values are the same in the child. */
 enum { SHARED_HANDLES = 3 };
 static HANDLE shared_handles[SHARED_HANDLES];
 static DWORD shared_count;
@@ -132,7 +132,7 @@ static unsigned __stdcall thread_main(void *argument) {
     return 0;
 }
 
-/* Pins this library: threads, native methods and hooks of the JVM use it until the process ends. */
+/* Prevents Windows from unloading this library, because threads, native methods and hooks of the JVM use it until the process ends. */
 static void pin_library(void) {
     HMODULE self;
     GetModuleHandleExW(GET_MODULE_HANDLE_EX_FLAG_PIN | GET_MODULE_HANDLE_EX_FLAG_FROM_ADDRESS, (LPCWSTR)(uintptr_t)&pin_library, &self);
@@ -172,7 +172,8 @@ void prim_signals_save(void) {
 
 void prim_signals_restore(void) { SetUnhandledExceptionFilter(before); }
 
-/* HotSpot handles its exceptions by tables that no library can replace, and passes unhandled exceptions on to the previous filter. */
+/* Does nothing. HotSpot handles its exceptions with tables that other libraries cannot replace, and passes unhandled exceptions to the previous
+ * filter. */
 void prim_signals_adopt(void) {}
 
 int32_t prim_signals_repair(void) { return 0; }
@@ -210,7 +211,7 @@ uint8_t *prim_shared_reserve(char *why, size_t why_size) {
     return section_view;
 }
 
-/* Windows cannot decommit parts of a section. */
+/* Windows cannot return the memory of parts of a section. */
 bool prim_shared_commit(uint64_t offset, uint64_t bytes, bool committed) {
     return committed && VirtualAlloc(section_view + offset, bytes, MEM_COMMIT, PAGE_READWRITE) != NULL;
 }
@@ -232,7 +233,7 @@ enum prim_file prim_file_kind(const char *path) {
 
 bool prim_executable(const char *path) { return prim_file_kind(path) == PRIM_FILE; }
 
-/* Writes the path of `name` in the folder of a file to `folder`. False if the file's path has no folder or is too long. */
+/* Writes the path of `name`, in the folder that contains `file`, to `folder`. False if the path of the file has no folder or is too long. */
 static bool path_in_folder(const char *file, const wchar_t *name, wchar_t *folder) {
     if (!to_wide(file, folder, PATH_UNITS)) return false;
     wchar_t *end = folder + wcslen(folder);
@@ -251,7 +252,7 @@ int64_t prim_disk_free(const char *file) {
 
 #define LOCK_POLL_MS 5
 
-/* Windows cannot lock a folder, so the lock is a file in it, which only one process can open and which is deleted when it is closed. */
+/* Windows cannot lock a folder. The lock is a file in the folder, which only one process at a time can open, and which is deleted when it is closed. */
 int prim_folder_lock(const char *file, int64_t deadline) {
     wchar_t path[PATH_UNITS];
     if (!path_in_folder(file, L".collektive-lock", path)) return -1;
@@ -272,7 +273,7 @@ FILE *prim_file_read(const char *path) {
     return to_wide(path, wide, PATH_UNITS) ? _wfopen(wide, L"r") : NULL;
 }
 
-/* jvm.dll is in bin/server and depends on libraries in bin. Windows searches bin only if it is added, with backslashes. */
+/* jvm.dll is in bin/server and depends on libraries in bin. Windows searches bin only if AddDllDirectory adds it, as a path with backslashes. */
 void *prim_library_open(const char *path, char *why, size_t why_size) {
     wchar_t wide[PATH_UNITS], full[PATH_UNITS], bin[PATH_UNITS];
     DWORD units = to_wide(path, wide, PATH_UNITS) ? GetFullPathNameW(wide, PATH_UNITS, full, NULL) : 0;
@@ -324,7 +325,7 @@ void prim_environment_show(char *hidden) {
     free(hidden);
 }
 
-/* Adds a word of a command line by the rules of CommandLineToArgvW. False when it does not fit. */
+/* Appends a word to a command line, quoted by the rules of CommandLineToArgvW. False if it does not fit. */
 static bool add_word(const char *word, wchar_t *line, size_t units) {
     wchar_t *wide = wide_of(CP_UTF8, word);
     size_t used = wcslen(line), backslashes = 0;
@@ -338,7 +339,7 @@ static bool add_word(const char *word, wchar_t *line, size_t units) {
         if (*at == L'\\') {
             backslashes++;
         } else {
-            /* Backslashes count twice before a quote, and only there. */
+            /* Backslashes must be doubled before a quote, and only there. */
             if (*at == L'"' || *at == L'\0') {
                 for (size_t i = 0; i < backslashes; i++) line[used++] = L'\\';
             }
@@ -356,7 +357,7 @@ static bool add_word(const char *word, wchar_t *line, size_t units) {
 
 enum { LINE_UNITS = 32767 };
 
-/* Returns the command line, which the caller frees. NULL if it is longer than Windows allows, or if out of memory. */
+/* Returns the command line, which the caller frees. NULL if out of memory, or if the command line is longer than Windows allows. */
 static wchar_t *command_line(char *const argv[]) {
     wchar_t *line = malloc(LINE_UNITS * sizeof *line);
     if (line != NULL) line[0] = L'\0';
@@ -369,8 +370,8 @@ static wchar_t *command_line(char *const argv[]) {
     return line;
 }
 
-/* Starts a program in a job, which includes its children, and lets it inherit only these handles: its input, its output and others. NULL if it
- * does not start. */
+/* Starts a program in a job, which also includes its children. The program inherits only the handles in the array, of which the first is its input and
+ * the second its output. NULL if the program does not start. */
 static HANDLE spawn(wchar_t *line, HANDLE handles[], DWORD count, HANDLE job) {
     STARTUPINFOEXW startup = {.StartupInfo = {.cb = sizeof startup,
                                               .dwFlags = STARTF_USESTDHANDLES,
@@ -398,7 +399,7 @@ static HANDLE spawn(wchar_t *line, HANDLE handles[], DWORD count, HANDLE job) {
     return child.hProcess;
 }
 
-/* Creates an unnamed job that ends its processes when its handle is closed. NULL on failure. */
+/* Creates an unnamed job, which ends its processes when its last handle is closed. NULL on failure. */
 static HANDLE make_job(void) {
     JOBOBJECT_EXTENDED_LIMIT_INFORMATION limits = {.BasicLimitInformation = {.LimitFlags = JOB_OBJECT_LIMIT_KILL_ON_JOB_CLOSE}};
     HANDLE job = CreateJobObjectW(NULL, NULL);
@@ -418,7 +419,7 @@ static void inherit_shared(DWORD flag) {
     for (DWORD i = 0; i < shared_count; i++) SetHandleInformation(shared_handles[i], HANDLE_FLAG_INHERIT, flag);
 }
 
-/* The job ends the child when this process ends, which closes its only handle. */
+/* When this process ends, Windows closes the only handle of the job, and the job ends the child. */
 int32_t prim_child_start(char *const argv[], bool shares, prim_child *child, char *why, size_t why_size) {
     HANDLE to = NULL;
     HANDLE input = CreateFileW(L"NUL", GENERIC_READ, FILE_SHARE_READ | FILE_SHARE_WRITE, &inheritable, OPEN_EXISTING, 0, NULL);
@@ -445,7 +446,7 @@ bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t s
     for (bool ended = false;; ended = WaitForSingleObject(child->process, OUTPUT_POLL_MS) == WAIT_OBJECT_0) {
         DWORD ready = 0, count = 0;
         if (PeekNamedPipe(child->output, NULL, 0, NULL, &ready, NULL) && ready > 0 &&
-            ReadFile(child->output, buffer, (DWORD)size / 4, &count, NULL) && count > 0) { /* UTF-8 may be longer */
+            ReadFile(child->output, buffer, (DWORD)size / 4, &count, NULL) && count > 0) { /* the text may be longer in UTF-8 */
             buffer[count] = '\0';
             to_utf8_in_place(GetACP(), buffer, size);
             return true;
@@ -454,7 +455,7 @@ bool prim_child_read(prim_child *child, int64_t deadline, char *buffer, size_t s
     }
 }
 
-/* The codes of crashes exceed INT_MAX. */
+/* Removes the highest bit of the exit code, because the codes of crashes exceed INT_MAX. */
 bool prim_child_reap(prim_child *child, int64_t deadline, int *status) {
     DWORD code;
     if (WaitForSingleObject(child->process, limit_of(deadline)) != WAIT_OBJECT_0 || !GetExitCodeProcess(child->process, &code))

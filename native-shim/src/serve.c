@@ -1,4 +1,4 @@
-/* The JVM's own process: serves the calls that arrive through the shared memory, on its engine thread. */
+/* The JVM's own process. Its engine thread serves the calls that arrive through the shared memory. */
 #include <jni.h>
 #include <stdlib.h>
 #include "channel.h"
@@ -14,10 +14,11 @@
 static struct {
     uint8_t *memory;
     struct channel *channel;
-    struct block **blocks; /* by offset / CHANNEL_ALIGNMENT, created at their first use */
+    struct block **blocks; /* by offset / CHANNEL_ALIGNMENT; NULL before their first use */
 } serve;
 
-/* Returns this process's view of a block, whose ByteBuffer is created once. NULL if out of memory, with the last error set. */
+/* Returns the block of this process for a block of the parent. The same block is returned each time, so its ByteBuffer is created only once. If out
+ * of memory, sets the last error and returns NULL. */
 static struct block *block_at(const struct block *place) {
     struct block **block = &serve.blocks[place->offset / CHANNEL_ALIGNMENT];
     if (*block != NULL) return *block;
@@ -30,7 +31,7 @@ static struct block *block_at(const struct block *place) {
     return *block;
 }
 
-/* The parent must never see a stale result, so the fields are set before each `done`. */
+/* Sends a result to the parent. Posts `done` last, because the parent reads the result after it. */
 static void answer(int32_t result) {
     serve.channel->result = result;
     if (result < 0) text_export(error_last(), serve.channel->text, ERROR_CAPACITY);
@@ -64,12 +65,14 @@ static int32_t run(void) {
     return call->request != NULL && call->answer != NULL ? host_run(call) : CLK_MEMORY;
 }
 
-/* When it returns, DestroyJavaVM waits for the other threads. If some of a program's do not end, this ends the process after the hooks. */
+/* Stops the host. After the return of serve(), DestroyJavaVM waits for the other threads. If threads of programs do not end, runs the shutdown hooks
+ * and ends the process here. */
 static void stop(int32_t limit_ms) {
     if (!host_stop(limit_ms / 2) && host_run_exit_hooks()) _Exit(0);
 }
 
-/* org.collektive.host.Main.serve(token): returns when the JVM must end. CLK_API replaces JNIEXPORT, which belongs to another platform (CMakeLists.txt). */
+/* org.collektive.host.Main.serve(token), which returns when the JVM must end. Uses CLK_API instead of JNIEXPORT, because jni_md.h may be that of
+ * another platform (see CMakeLists.txt). */
 CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass class, jstring token);
 
 CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass class, jstring token) {

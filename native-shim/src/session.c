@@ -12,23 +12,23 @@
 
 #define MAX_SESSIONS 256
 #define FIRST_ANSWER_BYTES (64 * 1024)
-#define DEBUG_CALL_MS 100   /* until an open or step is pending, if a debugger is attached */
-#define DEBUG_LIMIT_MS 1000 /* until other calls give up */
+#define DEBUG_CALL_MS 100   /* with a debugger, an open or step that takes longer is pending */
+#define DEBUG_LIMIT_MS 1000 /* with a debugger, other calls that take longer give up */
 
 struct session {
     uint32_t generation; /* 0 before the first use */
     bool open;
-    bool closing; /* closed by the caller, while a debugger stopped the JVM */
+    bool closing; /* the caller has closed it while a debugger stopped the JVM, and the host has not closed it yet */
     clk_slot answer;
 };
 
 /* Guarded by the turn, except the counters. */
 static struct {
     struct session all[MAX_SESSIONS];
-    struct session control;  /* never opened by a caller: it owns the answer slot of clk_control */
-    struct host_call call;   /* the call that the host runs */
-    struct session *caller;  /* its session, and not NULL while a debugger may stop the call after its function has returned */
-    int64_t limit, deadline; /* of the call, with the grace period */
+    struct session control;  /* owns the answer slot of clk_control; no caller opens it */
+    struct host_call call;   /* the call that the host runs, or ran last */
+    struct session *caller;  /* session of a call that returned CLK_PENDING and has not been completed; otherwise NULL */
+    int64_t limit, deadline; /* of the call, including the grace period */
     atomic_int count;
     _Atomic uint64_t steps;
 } sessions;
@@ -60,7 +60,7 @@ static int32_t session_begin(struct session *session) {
     return result;
 }
 
-/* Returns a free session, with a new generation. NULL if out of memory, with the last error set. */
+/* Returns a free session with a new generation. Without a free session or memory, sets the last error and returns NULL. */
 static struct session *session_take(void) {
     struct session *session = sessions.all;
     while (session < sessions.all + MAX_SESSIONS && session->open) session++;
@@ -71,7 +71,7 @@ static struct session *session_take(void) {
     return session;
 }
 
-/* The caller has closed the session, but the host has not yet. */
+/* Marks a session that the caller has closed, but not yet the host. */
 static void session_mark_closing(struct session *session) {
     session->closing = true;
     atomic_fetch_sub(&sessions.count, 1);
@@ -108,11 +108,11 @@ static int32_t check_call(int32_t offset, int32_t length, int32_t limit_ms, cons
 
 static int32_t work_call(void) { return host_run(&sessions.call); }
 
-/* Waits for sessions.call. CLK_PENDING if `until` has passed and a debugger is or was attached. If the call has not ended at its deadline, which
- * a debugger postpones, the JVM is lost. */
+/* Waits for sessions.call. Returns CLK_PENDING after `until` if a debugger is or was attached. A debugger postpones the call's deadline. If the call
+ * has not ended at the deadline, the JVM is lost. */
 static int32_t await_call(int64_t until) {
     for (int64_t end = until;;) {
-        int64_t longest = prim_now() + DEBUG_CALL_MS * PRIM_MILLI; /* a debugger may attach meanwhile */
+        int64_t longest = prim_now() + DEBUG_CALL_MS * PRIM_MILLI; /* short waits, because a debugger may attach meanwhile */
         if (end > longest) end = longest;
         int32_t result = child_is_used() ? child_await(&sessions.call, end) : engine_await(end);
         if (result != CLK_TIMEOUT) return result;
@@ -128,7 +128,7 @@ static int32_t await_call(int64_t until) {
     return engine_check_running();
 }
 
-/* Runs sessions.call for a session, which the host should end by the deadline. CLK_PENDING if a debugger has stopped it. */
+/* Runs sessions.call for a session. The host should end the call by the deadline. Returns CLK_PENDING if a debugger has stopped it. */
 static int32_t run(struct session *session, int64_t deadline) {
     int64_t now = prim_now();
     bool may_wait = sessions.call.entry == HOST_OPEN || sessions.call.entry == HOST_STEP;
@@ -141,7 +141,7 @@ static int32_t run(struct session *session, int64_t deadline) {
     return result;
 }
 
-/* Replaces the answer's block. The old block is still in use. */
+/* Replaces the answer's block. The host may still use the old block during the call. */
 static bool grow_answer(struct host_call *call, int32_t capacity) {
     struct block *block = slots_exchange(call->slot, capacity);
     if (block == NULL) return false;
@@ -151,8 +151,8 @@ static bool grow_answer(struct host_call *call, int32_t capacity) {
     return true;
 }
 
-/* Unpins the blocks of sessions.call. After a loss or failure, Java threads that did not end may still read or write them: they stay pinned and
- * are not reused while the JVM lives. */
+/* Fills in the answer and unpins the blocks of sessions.call. After a loss or failure, the blocks stay pinned, because Java threads that did not end
+ * may still read or write them. They are not reused while the JVM lives. */
 static int32_t end_call(int32_t result, clk_answer *answer) {
     struct host_call *call = &sessions.call;
     if (result == CLK_JVM_LOST || result == CLK_SESSION_FAILED || call->entry >= HOST_CALLS) return result;
@@ -171,7 +171,7 @@ static int32_t end_call(int32_t result, clk_answer *answer) {
     return result;
 }
 
-/* Runs one call of the host and fills `answer`. CLK_PENDING if a debugger has stopped it. Needs the turn. */
+/* Runs one call of the host and fills in `answer`. Returns CLK_PENDING if a debugger has stopped the call. Needs the turn. */
 static int32_t call_host(enum host_entry entry, struct session *session, clk_slot slot, int32_t offset, int32_t length, int64_t deadline,
                          clk_answer *answer) {
     struct block *own = slots_pin(session->answer), *request = slots_pin(slot);
@@ -197,7 +197,7 @@ static int32_t call_host(enum host_entry entry, struct session *session, clk_slo
     return result == CLK_PENDING ? result : end_call(result, answer);
 }
 
-/* Closes a session in the host. If a debugger has stopped the JVM, a later call completes it. */
+/* Closes a session in the host. If a debugger has stopped the JVM, a later call of session_complete releases the session. */
 static int32_t close_session(struct session *session, int64_t deadline) {
     sessions.call = (struct host_call){.entry = HOST_CLOSE, .session = session_handle(session)};
     int32_t result = run(session, deadline);
@@ -228,14 +228,14 @@ int32_t session_complete(int64_t deadline) {
 }
 
 static int32_t take_turn(int64_t deadline) {
-    int32_t result = engine_check_running(); /* without waiting */
+    int32_t result = engine_check_running(); /* if no JVM runs, do not wait for the turn */
     if (result == CLK_OK) result = engine_enter(deadline);
-    int32_t running = engine_check_running(); /* a JVM lost meanwhile is the more useful error, even after a time-out */
+    int32_t running = engine_check_running(); /* a loss in the meantime is a more useful error than a time-out */
     if (running != CLK_OK && result == CLK_OK) engine_leave();
     return running != CLK_OK ? running : result;
 }
 
-/* Takes the turn if a JVM runs and no debugger has stopped it, and sets the deadline of the whole call. */
+/* Takes the turn if a JVM is running and no debugger has stopped it, and sets the deadline of the whole call. */
 static int32_t enter(int32_t limit_ms, int64_t *deadline) {
     *deadline = prim_now() + limit_ms * PRIM_MILLI;
     int32_t result = take_turn(*deadline);

@@ -28,11 +28,11 @@ static struct {
     uint64_t bytes;
     uint64_t unused_bytes;
     struct block *unused[MAX_CLASS + 1]; /* by class */
-    struct block *surplus;               /* to be freed, once the engine thread has deleted their wrappers */
+    struct block *surplus;               /* blocks to be freed once the engine thread has deleted their wrappers */
 
-    uint8_t *shared; /* NULL until slots_share; then all blocks come from there, and their ranges are never split */
+    uint8_t *shared; /* NULL until slots_share; after that, all new blocks are ranges of this memory, which are never split */
     uint64_t shared_end;
-    struct block *newest; /* of the shared blocks, which are never freed */
+    struct block *newest; /* the newest shared block; shared blocks are never freed */
 } pool = {.mutex = PRIM_MUTEX_INIT};
 
 /* ---- Blocks (under the mutex) ---------------------------------------------------------------------------------------- */
@@ -43,7 +43,7 @@ static int class_of(int32_t capacity) {
     return class;
 }
 
-/* Returns a new block, of which a shared one has only its address. NULL if out of memory. */
+/* Returns a new block. The memory of a shared block is not committed yet. NULL if out of memory. */
 static struct block *block_create(int class) {
     uint64_t bytes = (uint64_t)1 << class;
     struct block *block = malloc(sizeof *block);
@@ -92,7 +92,7 @@ static struct block *block_take(int32_t capacity) {
     return block;
 }
 
-/* Keeps the block, or returns its memory to the system. A shared block keeps its address. */
+/* Keeps the block for another slot, or returns its memory to the system. A shared block keeps its address in both cases. */
 static void block_release(struct block *block) {
     bool is_shared = block->offset != 0;
     bool fits = pool.unused_bytes + (uint64_t)block->capacity <= MAX_UNUSED_BYTES && is_shared == (pool.shared != NULL);

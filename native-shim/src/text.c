@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* Returns whether the byte is a UTF-8 continuation byte. */
+/* Returns whether the byte is a continuation byte of UTF-8. */
 static bool continues(char byte) { return ((unsigned char)byte & 0xC0) == 0x80; }
 
 char *text_next_character(char *text) {
