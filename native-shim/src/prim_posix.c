@@ -110,7 +110,7 @@ void *prim_allocate(size_t bytes) {
 
 void prim_free(void *memory) { free(memory); }
 
-/* Smallest number of our descriptors in this process. The child receives them as 1 to 4, so no descriptor may overwrite another one. */
+/* The smallest number of descriptors that a child receives. The child receives them as 1 to 4, so with smaller numbers one could overwrite another. */
 #define FIRST_DESCRIPTOR 10
 
 static int move_up(int descriptor) {

@@ -1,4 +1,4 @@
-/* A benchmark: measures an empty step, back to back and with pauses. */
+/* Benchmark that measures the time of an empty step, without and with pauses between steps. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* Random calls in random order, with valid, stale and random handles, offsets and sizes. The seed determines the sequence. */
+/* Makes random calls in random order, with valid, stale and random handles, offsets and sizes. The seed determines the sequence. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,10 +8,10 @@
 #define CALLS 300
 #define LIMIT_MS 60000
 
-/* Seeds that `calls_in_any_order` repeats, including those that found a defect. */
+/* Seeds that calls_in_any_order repeats. Add each seed that has found an error. */
 static const uint64_t corpus[] = {1, 2, 3};
 
-/* The commands of the host after which the session continues. */
+/* The commands of the test host after which the session continues. */
 static const enum command commands[] = {EMPTY, ECHO,    GROW,         THROW,          FAIL,         FAIL_SILENTLY,
                                         LOG,   OUTSIDE, GROW_FOREIGN, GROW_TOO_LARGE, IMPLICIT_NULL};
 
@@ -21,7 +21,7 @@ static clk_session sessions[HANDLES];
 
 static int below(int count) { return (int)(random_next() % (uint64_t)count); }
 
-/* Returns a handle of the table, or sometimes a random number. */
+/* Returns a handle of the table or, in one of eight calls, a random number. */
 static uint64_t any_handle(const uint64_t *table) { return below(8) == 0 ? random_next() : table[below(HANDLES)]; }
 
 static int32_t any_number(int32_t usual) {
@@ -32,7 +32,7 @@ static int32_t any_number(int32_t usual) {
 /* Writes a random command to the memory of a slot. */
 static void write_command(int place) {
     enum command command = commands[below((int)(sizeof commands / sizeof commands[0]))];
-    /* The log has room for this number of lines. */
+    /* The log must have room for all lines, so their number is limited. */
     int32_t words[] = {(int32_t)command, command == LOG ? below(100) : any_number(100000)};
     if (memories[place].address != NULL && memories[place].capacity >= (int32_t)sizeof words) {
         memcpy(memories[place].address, words, sizeof words);
@@ -54,7 +54,7 @@ static void release(int place) {
 }
 
 static void acquire(int place) {
-    /* Otherwise the slot would leak. */
+    /* Each place has only one slot, so an earlier one would leak. */
     if (memories[place].address != NULL) release(place);
     clk_memory memory = {.size = sizeof memory};
     clk_slot slot;
@@ -69,7 +69,7 @@ static void grow(int place) {
     clk_memory memory = {.size = sizeof memory};
     if (clk_slot_grow(any_handle(slots), any_number(200000), any_number(1000), &memory) == CLK_OK) {
         for (int i = 0; i < HANDLES; i++) {
-            /* Updates the address of the slot that grew. */
+            /* Asking for 1 byte returns the current address, which has changed for the slot that grew. */
             clk_memory same = {.size = sizeof same};
             if (memories[i].address != NULL && clk_slot_grow(slots[i], 1, 0, &same) == CLK_OK) memories[i] = same;
         }
@@ -140,7 +140,6 @@ static void run_sequence(uint64_t seed) {
 static void warm_up(void) {
     clk_session session;
     start_plain();
-    /* The first call of control acquires a slot for its answers. */
     CHECK_OK(open_session(&session));
     CHECK_OK(clk_session_close(session, LIMIT_MS));
 }
@@ -161,7 +160,7 @@ void fuzz(void) {
     uint64_t count = 0;
     warm_up();
     for (; now_ns() < end; count++) {
-        /* Shows the seed after a crash. */
+        /* Printed in advance, so that the seed is known after a crash. */
         printf("\rseed %llu", (unsigned long long)(first + count));
         fflush(stdout);
         run_sequence(first + count);

@@ -56,7 +56,7 @@ void check_code(const char *file, int line, const char *call, int32_t expected, 
 
 /* ---- Paths ---------------------------------------------------------------------------------------------------------- */
 
-/* Returns the variable CLK_TEST_JAVA_HOME in UTF-8, or NULL if it is not set. */
+/* Returns the value of CLK_TEST_JAVA_HOME in UTF-8, or NULL if the variable is not set. */
 static const char *named_java_home(void) {
 #if defined(_WIN32)
     static char home[4096];
@@ -165,7 +165,7 @@ int32_t step(clk_session session, enum command command, int32_t argument, int32_
 
 /* ---- Utilities ---------------------------------------------------------------------------------------------------- */
 
-/* SplitMix64 */
+/* The generator SplitMix64. */
 uint64_t random_next(void) {
     uint64_t z = random_state += 0x9E3779B97F4A7C15;
     z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9;
@@ -183,7 +183,7 @@ int64_t now_ns(void) {
 
 void sleep_ms(int ms) { nanosleep(&(struct timespec){.tv_nsec = ms * 1000000L}, NULL); }
 
-/* Returns the processor time of this process; on Windows, clock() measures wall time. */
+/* Returns the processor time of this process. On Windows, clock() would return the wall time. */
 static int64_t processor_ms(void) {
 #if defined(_WIN32)
     FILETIME started, ended, kernel, user;
@@ -227,10 +227,11 @@ int main(int argument_count, char **arguments) {
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         if (argument_count >= 2 && strcmp(arguments[1], cases[i].name) == 0) {
             if (argument_count == 3 && strcmp(arguments[2], "own") == 0) placement = CLK_OWN_PROCESS;
-            if (placement == CLK_OWN_PROCESS && strncmp(cases[i].name, "slot", 4) == 0) CHECK_OK(start(NULL)); /* shared slots */
+            /* The first start in a separate process makes slots use shared memory. */
+            if (placement == CLK_OWN_PROCESS && strncmp(cases[i].name, "slot", 4) == 0) CHECK_OK(start(NULL));
             cases[i].run();
             fflush(NULL);
-            /* Not exit(): threads of a lost JVM still run. */
+            /* exit() is not possible, because threads of a lost JVM are still running. */
             _exit(0);
         }
     }

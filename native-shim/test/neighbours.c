@@ -1,4 +1,5 @@
-/* Compares collektive_neighbours with brute force. `neighbours_test CASE` runs a case, `neighbours_test bench POINTS THREADS` measures. */
+/* Compares the results of collektive_neighbours with those of brute force. `neighbours_test CASE` runs a case, and `neighbours_test bench POINTS THREADS`
+ * measures times. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -15,7 +16,7 @@
         }                                                                            \
     } while (0)
 
-/* C# mirrors these: a change here is a change of the ABI. */
+/* C# contains copies of these structs, so a change of their layout is a change of the ABI. */
 _Static_assert(sizeof(clk_point) == 16 && sizeof(clk_near) == 12 && sizeof(clk_search) == 28, "points and searches");
 _Static_assert(sizeof(clk_neighbour) == 12 && sizeof(clk_link) == 16 && sizeof(clk_link_ends) == 8, "links");
 _Static_assert(sizeof(clk_changes) == 24 && sizeof(clk_direction) == 16 && sizeof(clk_pair) == 44 && sizeof(clk_pairs) == 24, "pairs");
@@ -29,7 +30,7 @@ static uint32_t next_random(void) {
 
 static float uniform(float low, float high) { return low + (high - low) * (float)(next_random() % 1000000) / 1e6f; }
 
-/* Swarms: on the ground, in space, in one place, in one cell, far away, on a line with equal distances, one point, none. */
+/* The swarms of the tests: on the ground, in space, all at one place, all in one cell, far away, on a line with equal distances, one point, and empty. */
 enum swarm { GROUND, SPACE, PLACE, CELL, FAR, LINE, ONE, NONE, SWARMS };
 #define MOST 400
 
@@ -107,7 +108,7 @@ static void nearest_points_equal_a_sorted_scan(void) {
     clk_near model[MOST];
     const clk_near *found;
     for (int32_t turn = 0; turn < SWARMS * CELLS; turn++) {
-        if (turn % SWARMS == FAR) continue; /* see the next test */
+        if (turn % SWARMS == FAR) continue; /* tested by nearest_points_are_found_up_to_the_largest_radius */
         int32_t count = scatter((enum swarm)(turn % SWARMS));
         CHECK(clk_neighbours_place(neighbours, points, count, cells[turn / SWARMS]) == 0);
         for (int32_t probe = 0; probe < 100; probe++) {
@@ -150,7 +151,7 @@ static void wrong_arguments_are_refused(void) {
     CHECK(clk_neighbours_place(neighbours, &negative, 1, 1) == CLK_NEIGHBOURS_ARGUMENT);
     CHECK(clk_neighbours_place(neighbours, two, -1, 1) == CLK_NEIGHBOURS_ARGUMENT);
     CHECK(clk_neighbours_place(neighbours, two, 2, NAN) == CLK_NEIGHBOURS_ARGUMENT);
-    CHECK(clk_neighbours_within(neighbours, 0, 0, 0, 0, 5, &found) == 2); /* nothing was changed */
+    CHECK(clk_neighbours_within(neighbours, 0, 0, 0, 0, 5, &found) == 2); /* the rejected calls have changed nothing */
     CHECK(clk_neighbours_nearest(neighbours, 0, 0, 0, -1, 5, &found) == CLK_NEIGHBOURS_ARGUMENT);
     int32_t rule = clk_neighbours_add_rule(neighbours);
     clk_search good = {rule, 0, -1, 0, 5, 0, 1};
@@ -186,7 +187,7 @@ static void wrong_arguments_are_refused(void) {
 #define IDS 24
 #define RULES (2 * IDS)
 
-/* The references of a rule, by the id at the other end. */
+/* A rule of the model: for each id, whether the rule references the link to it, and whether in both directions. */
 static struct model_rule {
     int32_t number, centre;
     bool references[IDS];
@@ -211,17 +212,17 @@ static void flush_to_engine(clk_neighbours *neighbours) {
     CHECK(clk_neighbours_flush(neighbours, &changes) == 0);
     for (int32_t i = 0; i < changes.removed_count; i++) {
         clk_link_ends link = changes.removed[i];
-        CHECK(engine[link.from][link.to]); /* only links that were sent are removed */
+        CHECK(engine[link.from][link.to]); /* only links that were reported before are removed */
         engine[link.from][link.to] = false;
     }
     for (int32_t i = 0; i < changes.set_count; i++) {
         clk_link link = changes.set[i];
-        CHECK(known[link.from] && known[link.to]); /* links of unknown ids wait */
+        CHECK(known[link.from] && known[link.to]); /* links of unknown ids are not reported yet */
         engine[link.from][link.to] = true;
         engine_length[link.from][link.to] = link.length;
     }
     CHECK(clk_neighbours_flush(neighbours, &changes) == 0);
-    CHECK(changes.set_count == 0 && changes.removed_count == 0); /* each change once */
+    CHECK(changes.set_count == 0 && changes.removed_count == 0); /* each change is reported only once */
 }
 
 static void drop_id(clk_neighbours *neighbours, int32_t id) {
@@ -276,7 +277,7 @@ static void take_one(clk_neighbours *neighbours, struct model_rule *rule) {
     for (int32_t i = 0; i < 2 * IDS; i++) {
         int32_t id = (int32_t)(next_random() % IDS);
         if (id == rule->centre || next_random() % 3 > 0) continue;
-        list[count++] = (clk_neighbour){id, now[id] ? 77.0f : 5.0f, 0}; /* the first counts */
+        list[count++] = (clk_neighbour){id, now[id] ? 77.0f : 5.0f, 0}; /* of neighbours with the same id, the first counts */
         now[id] = true;
     }
     CHECK(clk_neighbours_take(neighbours, rule->number, rule->centre, list, count, 0, both) == 0);
@@ -337,7 +338,7 @@ static void links_exist_while_referenced_and_changes_are_sent_once(void) {
                     break;
                 case 3:
                     drop_id(neighbours, from);
-                    present[from] = next_random() % 2 == 0; /* it left, or left and came back */
+                    present[from] = next_random() % 2 == 0; /* the node has left, or has left and come back */
                     break;
                 case 4:
                     present[from] = known[from] = true;
@@ -385,7 +386,7 @@ static void lengths_are_sent_when_they_leave_the_tolerance(void) {
     clk_neighbours_destroy(neighbours);
 }
 
-/* Bytes of address space in use; 0 on systems without /proc. */
+/* Returns the size of this process's address space in bytes, or 0 on systems without /proc. */
 static uint64_t memory_used(void) {
     unsigned long long pages = 0;
     FILE *file = fopen("/proc/self/statm", "r");
@@ -395,7 +396,7 @@ static uint64_t memory_used(void) {
     return pages * 4096;
 }
 
-/* Arrays by id would need 4 GB. */
+/* An array that has an element for each id would need gigabytes. */
 static void links_between_the_largest_ids_need_little_memory(void) {
     int32_t last = INT32_MAX - 1;
     clk_neighbours *neighbours = clk_neighbours_create();
@@ -435,7 +436,7 @@ static struct swarm_of make_swarm(int32_t count, float spacing, float radius) {
         float angle = uniform(0, 6.283185f);
         swarm.ways[i][0] = 0.1f * cosf(angle);
         swarm.ways[i][1] = 0.1f * sinf(angle);
-        /* Two of three search by distance, one of them in a band. */
+        /* With radius 0, a third of the rules search for nearest points, a third in a band, and a third within a distance. */
         swarm.searches[i] = (clk_search){clk_neighbours_add_rule(swarm.neighbours),
                                          i,
                                          radius > 0   ? -1
@@ -490,7 +491,7 @@ static void any_number_of_threads_has_equal_results(void) {
 
 static void an_update_stops_at_the_limit_of_links(void) {
     for (int32_t threads = 1; threads <= 2; threads++) {
-        struct swarm_of swarm = make_swarm(3000, 0, 1); /* all at one place */
+        struct swarm_of swarm = make_swarm(3000, 0, 1); /* all points are at one place, so all are neighbours */
         CHECK(clk_neighbours_place(swarm.neighbours, swarm.points, swarm.count, 0) == 0);
         int32_t done = clk_neighbours_update(swarm.neighbours, swarm.searches, swarm.count, threads, 1000000);
         clk_pairs pairs;
@@ -510,7 +511,7 @@ static int ascending(const void *a, const void *b) {
     return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
 }
 
-/* Points two metres apart that move at 2 m/s, in ticks of 0.05 s, each with about seven others within 3 m. Prints median times. */
+/* Prints median times. The points are two metres apart and move at 2 m/s, in ticks of 0.05 s. Each has about seven others within 3 m. */
 static void bench(int32_t count, int32_t threads) {
     struct swarm_of swarm = make_swarm(count, 2, 3);
     clk_changes changes;

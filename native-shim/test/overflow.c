@@ -1,4 +1,4 @@
-/* A native library of a program, which overflows the stack. */
+/* A native library that a program loads, with a function that overflows the stack. */
 #include <jni.h>
 #include "collektive_shim.h"
 

@@ -1,5 +1,5 @@
-/* Each case runs in a separate process, and with the JVM in its own process: `shim_test CASE` and `shim_test CASE own`. Its name is the
- * specification; a failed CHECK ends it. */
+/* The test cases of the shim. The name of a case states what it specifies. Each case runs in its own process, which a failed CHECK ends. It runs twice:
+ * `shim_test CASE` starts the JVM in that process, and `shim_test CASE own` starts it in a child process. */
 #ifndef COLLEKTIVE_TEST_H
 #define COLLEKTIVE_TEST_H
 
@@ -12,7 +12,7 @@
         if (!(condition)) fail(__FILE__, __LINE__, #condition); \
     } while (0)
 
-/* Checks that the call returns the code, and that its error text contains `mention` unless that is NULL. */
+/* Checks that a call returns the code, and that its error text contains `mention`, unless `mention` is NULL. */
 #define CHECK_CODE(code, mention, call) check_code(__FILE__, __LINE__, #call, code, mention, call)
 #define CHECK_OK(call) CHECK_CODE(CLK_OK, NULL, call)
 
@@ -29,16 +29,16 @@ extern const char *const host_classes;
 extern const char *const host_jar; /* the same classes */
 extern const char *const incompatible_classes;
 
-/* Creates a folder below the current one. Static storage, valid until the next call. */
+/* Creates a folder in the current folder. The path is static, and valid until the next call. */
 const char *scratch_folder(void);
 void make_folder(const char *folder, const char *name);
 
-/* Starts the JVM of java_home() with the test host and these options, ended by NULL, after all checks. */
+/* Starts the JVM of java_home() with the test host and with these options, which end with NULL. Checks the options in a child process first. */
 int32_t start(const char *const *options);
-const char *own_or(const char *own, const char *in_process); /* by the placement */
-extern int32_t placement;                        /* of all starts: each case runs in both, as `shim_test CASE` and `shim_test CASE own` */
-int32_t check(const char *const *options);       /* the same checks without the start */
-int32_t check_texts(const char *const *options); /* also without the child process */
+const char *own_or(const char *own, const char *in_process); /* one of the texts, depending on `placement` */
+extern int32_t placement;                                    /* of the JVM in all starts */
+int32_t check(const char *const *options);                   /* runs the checks of start() only */
+int32_t check_texts(const char *const *options);             /* runs the same checks except those in the child process */
 int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);
 void start_plain(void);
 
@@ -51,7 +51,7 @@ enum command {
 };
 /* clang-format on */
 
-/* A request slot of this process, and the calls with it. */
+/* The request slot of this process, its memory, and the last answer. The functions below make calls with them. */
 extern clk_slot request;
 extern clk_memory request_memory;
 extern clk_answer answer;
@@ -59,11 +59,11 @@ int32_t open_session(clk_session *session);
 int32_t open_with(clk_session *session, enum command command, int32_t argument);
 int32_t step(clk_session session, enum command command, int32_t argument, int32_t limit_ms);
 
-uint64_t random_next(void); /* per thread, from its seed */
+uint64_t random_next(void); /* each thread has its own sequence, which depends on its seed */
 void random_seed(uint64_t seed);
 int64_t now_ns(void);
-void sleep_ms(int ms);                /* less than a second */
-void check_threads_stand_still(void); /* by the processor time of this process */
+void sleep_ms(int ms);                /* the time must be less than a second */
+void check_threads_stand_still(void); /* checks that this process uses almost no processor time */
 clk_stats stats(void);
 bool log_mentions(const char *text); /* reads the log up to the first line that contains the text */
 
@@ -100,8 +100,8 @@ bool log_mentions(const char *text); /* reads the log up to the first line that 
 /* clang-format on */
 
 void bench(void);  /* `shim_test bench` */
-void parent(void); /* of own_ends_with_its_parent: starts a JVM, prints its process id and waits */
-void fuzz(void);   /* `shim_test fuzz`: for CLK_FUZZ_SECONDS, from CLK_FUZZ_SEED on */
+void parent(void); /* `shim_test parent`, for own_ends_with_its_parent: starts a JVM, prints its process id and waits */
+void fuzz(void);   /* `shim_test fuzz`: runs for CLK_FUZZ_SECONDS, with seeds from CLK_FUZZ_SEED */
 
 #define CASE_DECLARE(name) void name(void);
 CASES(CASE_DECLARE)

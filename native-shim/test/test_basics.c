@@ -2,7 +2,7 @@
 #include <string.h>
 #include "test.h"
 
-/* C# mirrors these: a change here is a change of the ABI. */
+/* C# contains copies of these structs, so a change of their layout is a change of the ABI. */
 _Static_assert(sizeof(clk_jvm_config) == 48 && offsetof(clk_jvm_config, home) == 8, "clk_jvm_config");
 _Static_assert(sizeof(clk_memory) == 16 && offsetof(clk_memory, address) == 8, "clk_memory");
 _Static_assert(sizeof(clk_answer) == 24 && offsetof(clk_answer, address) == 16, "clk_answer");

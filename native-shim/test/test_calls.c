@@ -8,7 +8,7 @@
 
 /* ---- Answers --------------------------------------------------------------------------------------------------------- */
 
-/* Sends random bytes from a random place in the slot, which grows if it is too small, and checks that they are returned. */
+/* Sends random bytes from a random place in the slot, and checks that the answer contains them. The slot grows if it is too small. */
 static void check_echo(clk_session session, clk_slot slot, clk_memory *memory, clk_answer *given) {
     int32_t words[] = {ECHO, 0};
     int32_t length = (int32_t)sizeof words + (int32_t)(random_next() % ((uint64_t)1 << (1 + random_next() % 18)));
@@ -45,7 +45,7 @@ void answers_grow(void) {
     }
     int32_t grown = answer.capacity;
     CHECK_OK(step(session, EMPTY, 0, 60000));
-    CHECK(answer.capacity == grown && answer.length == 0); /* the session keeps the larger slot */
+    CHECK(answer.capacity == grown && answer.length == 0); /* the session keeps the larger block */
     CHECK_OK(clk_session_close(session, 60000));
     CHECK(stats().slots == 1);
 }
@@ -57,7 +57,7 @@ void one_wrapper_for_each_memory(void) {
     CHECK(stats().wrapped == 2);
     for (int i = 0; i < 1000; i++) CHECK_OK(step(session, EMPTY, 0, 60000));
     CHECK(stats().wrapped == 2 && stats().steps == 1000);
-    /* The next call deletes the wrapper of memory that the pool returns to the system. */
+    /* When a large slot is released, the pool returns its memory to the system. The next call deletes the wrapper. */
     clk_slot large;
     clk_memory memory = {.size = sizeof memory};
     for (int i = 0; i < 3; i++) {
@@ -67,7 +67,7 @@ void one_wrapper_for_each_memory(void) {
         CHECK_OK(clk_slot_release(large));
         CHECK_OK(step(session, EMPTY, 0, 60000));
     }
-    /* Memory at the same place keeps its wrapper in a separate process. Only Linux returns shared memory to the system. */
+    /* In a separate process, a shared block keeps its address and wrapper. Only Linux returns shared memory to the system. */
     CHECK(stats().wrapped == (placement == CLK_OWN_PROCESS ? 3 : 5));
     CHECK(stats().slot_bytes < 1 << 27 || (placement == CLK_OWN_PROCESS && strcmp(PRIM_SYSTEM, "Linux") != 0));
 }
@@ -174,7 +174,7 @@ void host_errors(void) {
     CHECK_OK(open_session(&session));
     CHECK_CODE(CLK_FRAME, "the host says no: \xC3\xA4\xE2\x82\xAC\xF0\x9F\x9A\x80", step(session, FAIL, CLK_FRAME, 1000));
     CHECK_CODE(CLK_SCHEMA, "different schemas", step(session, FAIL_SILENTLY, CLK_SCHEMA, 1000));
-    CHECK_CODE(CLK_HOST, "-4", step(session, FAIL, CLK_TIMEOUT, 1000)); /* a code of the shim, not of the host */
+    CHECK_CODE(CLK_HOST, "-4", step(session, FAIL, CLK_TIMEOUT, 1000)); /* the host must not return this code of the shim */
     CHECK_CODE(CLK_HOST, "-2", step(session, FAIL, CLK_MEMORY, 1000));
     CHECK_CODE(CLK_HOST, "-99", step(session, FAIL, -99, 1000));
     CHECK_CODE(CLK_HOST, "-2147483648", step(session, FAIL, INT32_MIN, 1000));
@@ -188,7 +188,7 @@ void host_errors(void) {
     CHECK(stats().sessions == 1 && stats().slots == 2);
 }
 
-/* A round that does not end may still read its frame, so the pool must not reuse that memory. */
+/* A round that does not end may still read its request frame, so the pool must not reuse that memory. */
 void failed_session_keeps_its_memory(void) {
     clk_session session;
     start_plain();
@@ -358,7 +358,7 @@ void logs_are_bounded(void) {
         read++;
     }
     CHECK(read > 1000 && read < LINES && stats().logs_dropped == (uint64_t)(LINES - read));
-    for (int round = 0; round < 50; round++) { /* the ring wraps */
+    for (int round = 0; round < 50; round++) { /* enough rounds to fill the ring several times */
         CHECK_OK(step(session, LOG, 500, 60000));
         for (read = 0; clk_log_read(&level, line, 8) >= 0; read++) CHECK(strlen(line) <= 7);
         CHECK(read == 500);

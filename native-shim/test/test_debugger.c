@@ -1,4 +1,4 @@
-/* A debugger that stops the JVM, simulated by Shim.debugger and a step that sleeps. */
+/* Tests with a debugger that stops the JVM. Shim.debugger reports a debugger, and a step that sleeps simulates the stop. */
 #include <stddef.h>
 #include "test.h"
 
@@ -12,13 +12,13 @@ static int32_t wait_for_call(void) {
     return result;
 }
 
-/* On a busy machine, any step may be pending. */
+/* Steps and waits for the result, because on a busy machine any step may be pending. */
 static int32_t whole_step(enum command command, int32_t argument) {
     int32_t result = step(session, command, argument, 60000);
     return result == CLK_PENDING ? wait_for_call() : result;
 }
 
-/* Returns CLK_PENDING from a step that a debugger stops. */
+/* Attaches a debugger, which then stops a step, and returns the result of this step. */
 static int32_t step_stopped(void) {
     CHECK_OK(whole_step(DEBUG, 1));
     int64_t begin = now_ns();
@@ -36,7 +36,7 @@ void debugged_steps_are_pending(void) {
     clk_session other;
     clk_memory memory = {.size = sizeof memory};
     start_with_session();
-    CHECK_OK(step(session, SLEEP, 300, 60000)); /* without a debugger */
+    CHECK_OK(step(session, SLEEP, 300, 60000)); /* without a debugger, a long step is not pending */
     CHECK_CODE(CLK_ARGUMENT, "no pending call", clk_session_wait(session, 0, &answer));
     CHECK_CODE(CLK_PENDING, NULL, step_stopped());
     CHECK_CODE(CLK_PENDING, NULL, clk_session_wait(session, 10, &answer));
@@ -51,14 +51,14 @@ void debugged_steps_are_pending(void) {
     CHECK_CODE(CLK_ARGUMENT, "no pending call", clk_session_wait(session, 0, &answer));
     CHECK_OK(whole_step(GROW, 1 << 20));
     CHECK(answer.length == 1 << 20);
-    /* The debugger detaches, and attaches again in a step. */
+    /* The debugger detaches, and attaches again during a step. */
     CHECK_OK(whole_step(DEBUG, 0));
     CHECK_OK(step(session, SLEEP, 300, 60000));
     CHECK_CODE(CLK_PENDING, NULL, step(session, DEBUG_LATER, 400, 60000));
     CHECK_OK(wait_for_call());
 }
 
-/* Begins to open `session` with a command that a debugger stops for a while. */
+/* Begins to open `session`. The command of the open runs longer than the open waits with a debugger. */
 static void open_stopped(enum command command, int32_t argument) {
     clk_session first;
     start_plain();
@@ -139,7 +139,7 @@ void debugged_jvm_is_stopped(void) {
     CHECK(clk_jvm_state() == CLK_STATE_STOPPED && stats().sessions == 0);
 }
 
-/* Longer than the limit and the grace period. */
+/* The step takes longer than its limit and the grace period. */
 void debugging_has_no_limit(void) {
     start_with_session();
     CHECK_OK(whole_step(DEBUG, 1));

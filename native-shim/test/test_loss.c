@@ -34,7 +34,7 @@ static void check_all_lost(const char *reason) {
     if (placement == CLK_IN_PROCESS) CHECK_CODE(CLK_JVM_LOST, reason, start(NULL));
     char description[1024];
     CHECK(clk_jvm_description(description, sizeof description) > 0);
-    CHECK_OK(clk_slot_release(request)); /* slots need no JVM */
+    CHECK_OK(clk_slot_release(request)); /* slots do not depend on the JVM */
     CHECK_OK(clk_slot_acquire(100, &request, &memory));
     if (placement == CLK_OWN_PROCESS) {
         CHECK_OK(start(NULL));
@@ -74,10 +74,10 @@ void waiting_callers_return_after_a_loss(void) {
     CHECK(now_ns() - begin < 40000000000);
 }
 
-/* ---- Faults: the process has its own handlers ---------------------------------------------------------------- */
+/* ---- Faults in a process with its own handlers --------------------------------------------------------------- */
 
 #if defined(_WIN32)
-/* Like Mono's handler: handles faults in its own memory and passes on all others. */
+/* Like Mono's handler, this handler handles faults in its own memory and passes on all others. */
 static char *guarded;
 
 static LONG CALLBACK on_fault(EXCEPTION_POINTERS *exception) {
@@ -133,7 +133,7 @@ void implicit_null_checks_and_host_faults(void) {
     }
 }
 
-/* Without catch_faults: HotSpot would pass the crash to the process's handler first. */
+/* Does not call catch_faults, because HotSpot would pass the crash to the process's handler first. */
 void crash_loses_the_jvm(void) {
     start_with_session();
     CHECK_CODE(CLK_JVM_LOST, own_or("hs_err", "it aborted"), step(session, CRASH, 0, 60000));
@@ -153,7 +153,7 @@ void signal_handlers_are_repaired(void) {
     if (placement == CLK_OWN_PROCESS) skip("the JVM's own process has its own signal handlers");
     start_with_session();
     CHECK(sigaction(SIGSEGV, NULL, &before) == 0 && (before.sa_flags & SA_ONSTACK) != 0);
-    CHECK(sigaction(SIGFPE, NULL, &now) == 0 && (now.sa_flags & SA_ONSTACK) == 0); /* as it was before */
+    CHECK(sigaction(SIGFPE, NULL, &now) == 0 && (now.sa_flags & SA_ONSTACK) == 0); /* the flag is as before the start */
     catch_faults();
     CHECK_OK(open_session(&other));
     CHECK(sigaction(SIGSEGV, NULL, &now) == 0 && now.sa_sigaction == before.sa_sigaction && (now.sa_flags & SA_ONSTACK) != 0);
@@ -187,7 +187,7 @@ void fork_loses_the_jvm(void) {
     CHECK_OK(step(session, EMPTY, 0, 60000));
 }
 
-/* JNI_CreateJavaVM hangs because it opens a pipe without a reader. */
+/* JNI_CreateJavaVM hangs, because its log file is a pipe without a reader. */
 void stop_while_the_start_hangs(void) {
     char pipe[128], log[192];
     snprintf(pipe, sizeof pipe, "%s/pipe", scratch_folder());
@@ -236,7 +236,7 @@ void stop_waits_while_another_writes_its_classes(void) {
     int other = prim_folder_lock(archive, prim_now());
     CHECK(other >= 0);
     CHECK(pthread_create(&stopping, NULL, stop_in_a_thread, NULL) == 0);
-    for (int i = 0; i < 3; i++) sleep_ms(500); /* longer than an end takes */
+    for (int i = 0; i < 3; i++) sleep_ms(500); /* without the lock, the JVM would end sooner */
     CHECK(clk_jvm_state() == CLK_STATE_RUNNING && access(archive, F_OK) != 0);
     prim_folder_unlock(other);
     CHECK(pthread_join(stopping, NULL) == 0);
@@ -263,7 +263,7 @@ void stop_times_out(void) {
     start_with_session();
     CHECK_OK(step(session, HANG_AT_STOP, 0, 60000));
     CHECK_CODE(CLK_TIMEOUT, "did not end within 400 ms", clk_jvm_stop(400));
-    /* The hanging thread is halted, however long that takes under load: nothing else changes the state. CTest limits the wait. */
+    /* The hanging thread is halted, which sets the state. Under load, this may take long. CTest limits the wait. */
     while (clk_jvm_state() != CLK_STATE_STOPPED) sleep_ms(10);
     check_threads_stand_still();
     CHECK_CODE(CLK_JVM_NOT_RUNNING, own_or("start it again", "only once"), step(session, EMPTY, 0, 60000));
@@ -272,15 +272,15 @@ void stop_times_out(void) {
 void stop_after_a_hang(void) {
     start_with_session();
     CHECK_CODE(CLK_JVM_LOST, "did not answer", step(session, HANG, 0, 100));
-    catch_faults(); /* threads stop at a fault that only HotSpot's handler understands */
+    catch_faults(); /* clk_jvm_stop must restore HotSpot's handler, because Java threads stop at a fault that only this handler understands */
     int64_t begin = now_ns();
     CHECK_CODE(CLK_JVM_LOST, "did not answer", clk_jvm_stop(1000));
-    CHECK(now_ns() - begin < 900000000); /* halted, not timed out */
+    CHECK(now_ns() - begin < 900000000); /* the JVM was halted before the time limit */
     CHECK_CODE(CLK_JVM_LOST, "did not answer", clk_jvm_stop(1000));
     CHECK(now_ns() - begin < 1800000000);
 }
 
-/* The heap has no room for another thread, and the collector runs continuously. */
+/* The heap has no room for another thread, and the garbage collector runs all the time. */
 void stop_while_the_heap_is_full(void) {
     start_with_session();
     CHECK_CODE(CLK_JVM_LOST, "did not answer", step(session, THRASH, 0, 5000));

@@ -1,4 +1,4 @@
-/* The JVM in its own process: deaths of child and parent, and failing starts. Only with `own`. */
+/* Tests of the JVM in its own process: the child or the parent ends unexpectedly, or a start fails. They run only as `shim_test CASE own`. */
 #define _GNU_SOURCE
 #include <stdio.h>
 #include <stdlib.h>
@@ -103,7 +103,7 @@ void own_with_a_bad_launcher(void) {
     CHECK_CODE(CLK_JVM_NOT_FOUND, "java.exe is missing", start_at(home, host_classes, NULL, false, 10000));
     write_file(home, PRIM_JAVA, "not a program");
     CHECK_CODE(CLK_JVM_START, "cannot run", start_at(home, host_classes, NULL, false, 10000));
-    /* A program that prints something else and exits. */
+    /* The launcher is a program that prints something else and exits. */
     CHECK(GetSystemDirectoryA(system, sizeof system) > 0);
     snprintf(shell, sizeof shell, "%s\\cmd.exe", system);
     snprintf(java, sizeof java, "%s/" PRIM_JAVA, home);
@@ -129,7 +129,7 @@ void own_with_a_bad_launcher(void) {
 
 extern char **environ;
 
-/* Returns the process id of the JVM, the only child of this process; 0 without a child. */
+/* Returns the process id of the JVM, which is the only child of this process, or 0 if this process has no child. */
 static pid_t jvm_process(void) {
     char path[300], line[64];
     pid_t found = 0;
@@ -152,7 +152,7 @@ static int descriptors(void) {
     return count;
 }
 
-/* Returns whether the process ends within the limit. An unreaped zombie counts as ended. */
+/* Returns whether the process ends within the limit. A zombie that has not been reaped counts as ended. */
 static bool ends_within(pid_t process, int limit_ms) {
     char path[64], line[256];
     for (int64_t end = now_ns() + limit_ms * 1000000L;;) {
@@ -181,7 +181,7 @@ static void *kill_later(void *signal) {
     return NULL;
 }
 
-/* Steps until the JVM is lost in one of several ways. */
+/* Steps until the JVM is lost, by a signal (0 to 3), by a crash (4, 5) or by a suspension (6). */
 static void lose(clk_session session, int way) {
     static const int signals[] = {SIGKILL, SIGSEGV, SIGABRT, SIGTERM};
     pthread_t killer;
@@ -195,13 +195,13 @@ static void lose(clk_session session, int way) {
         result = step(session, way == 4 ? CRASH : OVERFLOW_NATIVELY, 0, 60000);
     } else {
         CHECK(kill(jvm_process(), SIGSTOP) == 0);
-        while (result == CLK_OK) result = step(session, EMPTY, 0, 1); /* the signal takes a moment */
+        while (result == CLK_OK) result = step(session, EMPTY, 0, 1); /* a few steps may still succeed before the signal arrives */
     }
     CHECK(result == CLK_JVM_LOST && clk_jvm_state() == CLK_STATE_LOST);
     CHECK_CODE(CLK_JVM_LOST, "start it again", step(session, EMPTY, 0, 1000));
 }
 
-/* CLK_TEST_KILLS sets the number. A suspended child costs the grace period of 10 s, so only every fiftieth is. */
+/* CLK_TEST_KILLS sets the number of losses. Only every fiftieth child is suspended, because each takes the grace period of 10 s. */
 void own_survives_kills(void) {
     const char *count = getenv("CLK_TEST_KILLS");
     int before = 0, kills = count != NULL ? atoi(count) : 12;
@@ -233,14 +233,14 @@ void own_reports_its_death_at_once(void) {
     int64_t begin = now_ns();
     CHECK_CODE(CLK_JVM_LOST, "signal 9", step(session, SLEEP, 30000, 60000));
     CHECK(now_ns() - begin < 2000000000 && pthread_join(killer, NULL) == 0);
-    /* Between two calls. */
+    /* The JVM may also be killed between two calls. */
     CHECK_OK(start(NULL));
     CHECK(kill(jvm_process(), SIGTERM) == 0);
     while (clk_jvm_state() == CLK_STATE_RUNNING) sleep_ms(1);
     CHECK_CODE(CLK_JVM_LOST, "signal 15", open_session(&session));
 }
 
-/* CLK_TEST_SUSPENDED_MS sets the time, which the limit of the call exceeds. */
+/* Time of the suspension, which CLK_TEST_SUSPENDED_MS sets. It is shorter than the limit of the call. */
 static int suspended_ms;
 
 static void *suspend(void *unused) {
@@ -276,7 +276,7 @@ void parent(void) {
     for (;;) sleep_ms(900);
 }
 
-/* CLK_TEST_KILLS sets the number. Every second child is suspended. */
+/* CLK_TEST_KILLS sets the number of parents. Every second child is suspended. */
 void own_ends_with_its_parent(void) {
     const char *count = getenv("CLK_TEST_KILLS");
     static char self[4096];
@@ -356,18 +356,19 @@ void own_without_resources(void) {
     while (open("/dev/null", O_RDONLY | O_CLOEXEC) >= 0) {
     }
     CHECK_CODE(CLK_MEMORY, "Too many open files", start_at(java_home(), host_classes, NULL, false, 60000));
-    for (int i = 60; i < 63; i++) close(i); /* room for the memory and one pipe */
+    for (int i = 60; i < 63; i++) close(i); /* now the memory and one pipe can be opened, but not the connection */
     CHECK_CODE(CLK_JVM_START, "Too many open files", start_at(java_home(), host_classes, NULL, false, 60000));
     int before = descriptors();
     CHECK_CODE(CLK_JVM_START, "Too many open files", start_at(java_home(), host_classes, NULL, false, 60000));
     CHECK(descriptors() == before && setrlimit(RLIMIT_NOFILE, &limit) == 0);
     CHECK_OK(start(NULL));
 }
-/* Each limit allows a few more threads: that of the shim, the process, then those of the JVM, until the start succeeds. */
+/* Each limit allows a few more threads than the previous one. First the thread of the shim cannot start, then the child, then threads of the JVM, until
+ * the start succeeds. */
 void own_without_processes(void) {
     struct rlimit limit = {0};
     int failures = 0, before = 0;
-    if (getuid() == 0) CHECK(setgid(65534) == 0 && setuid(65534) == 0); /* root has no limit */
+    if (getuid() == 0) CHECK(setgid(65534) == 0 && setuid(65534) == 0); /* the limit does not apply to root */
     if (access(host_classes, R_OK) != 0 || access(java_home(), R_OK) != 0) skip("other users cannot read the build");
     CHECK(getrlimit(RLIMIT_NPROC, &limit) == 0);
     for (rlim_t processes = 1;; processes += processes < 4 ? 1 : 4) {
@@ -397,7 +398,7 @@ void own_out_of_memory(void) {
     start_own();
     CHECK_OK(clk_slot_acquire(1 << 20, &request, &request_memory));
     CHECK_OK(open_session(&session));
-    less.rlim_cur = 1 << 20; /* below what the JVM has */
+    less.rlim_cur = 1 << 20; /* less than the JVM already uses */
     CHECK(prlimit(jvm_process(), RLIMIT_AS, &less, NULL) == 0);
     int32_t result = step(session, EXHAUST, 0, 60000);
     CHECK(result == CLK_JVM_LOST || result == CLK_JAVA);
@@ -408,7 +409,7 @@ void own_out_of_memory(void) {
     CHECK_OK(step(session, GROW, 1 << 20, 60000));
 }
 
-/* The memory has no file in this folder. */
+/* The shared memory has no file in /dev/shm, so the JVM also starts when this folder is full. */
 void own_needs_no_shared_memory_folder(void) {
     clk_session session;
     if (unshare(CLONE_NEWNS) != 0) skip("mounts need root");
@@ -429,7 +430,7 @@ void own_needs_no_shared_memory_folder(void) { skip("private mounts need Linux")
 #endif
 #endif
 
-/* ---- Starts after starts --------------------------------------------------------------------------------------------- */
+/* ---- Several starts -------------------------------------------------------------------------------------------------- */
 
 void own_with_older_slots(void) {
     clk_slot older;
@@ -457,7 +458,7 @@ void own_changes_options(void) {
     CHECK_OK(clk_session_close(session, 1000));
     CHECK_OK(clk_jvm_stop(60000));
     CHECK_OK(start(NULL));
-    /* Then in this process, once. */
+    /* Afterwards, a JVM can also start in this process, but only once. */
     placement = CLK_IN_PROCESS;
     CHECK_OK(start(NULL));
     CHECK_OK(open_session(&session));

@@ -49,7 +49,7 @@ void slot_growth_keeps_the_tail(void) {
     for (int32_t i = 1; i <= 1001; i++) CHECK(memory.address[memory.capacity - i] == (uint8_t)((before - i) * 7));
     const uint8_t *address = memory.address;
     CHECK_OK(clk_slot_grow(slot, 5, 0, &memory));
-    CHECK(memory.address == address); /* large enough already */
+    CHECK(memory.address == address); /* the slot is already large enough */
 }
 
 void slots_are_reused(void) {
@@ -64,7 +64,7 @@ void slots_are_reused(void) {
         CHECK_OK(clk_slot_acquire(65537 + i, &slot, &memory));
         CHECK(memory.address == address && stats().slot_bytes == bytes);
     }
-    /* The pool returns unused memory beyond 64 MiB to the system. */
+    /* The pool keeps at most 64 MiB of unused memory, and returns the rest to the system. */
     CHECK_OK(clk_slot_release(slot));
     CHECK_OK(clk_slot_acquire(1 << 27, &slot, &memory));
     CHECK_OK(clk_slot_release(slot));
@@ -78,7 +78,7 @@ enum { THREADS = 4, HELD = 16, OPERATIONS = 20000 };
 struct held {
     clk_slot slot;
     clk_memory memory;
-    uint8_t mark; /* the value of every byte */
+    uint8_t mark; /* value of each byte in the memory */
 };
 
 static atomic_int model_slots;
@@ -93,7 +93,7 @@ static void mark_held(struct held *held) {
     memset(held->memory.address, held->mark, (size_t)held->memory.capacity);
 }
 
-/* Small capacities are frequent, large ones rare. */
+/* Returns a capacity. Small capacities are frequent, and large ones are rare. */
 static int32_t random_capacity(void) { return 1 + (int32_t)(random_next() % ((uint64_t)1 << (4 + random_next() % 15))); }
 
 static void operate(struct held *held, clk_slot *stale) {

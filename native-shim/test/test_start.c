@@ -24,7 +24,7 @@ static void write_file(const char *folder, const char *name, const char *text, m
     CHECK(file != NULL && fputs(text, file) >= 0 && fclose(file) == 0 && chmod(path, mode) == 0);
 }
 
-/* Creates a home with only the real JVM's lib folder. */
+/* Creates a home that contains only the lib folder of the real JVM. */
 static const char *make_home_with_lib(void) {
 #if defined(_WIN32)
     skip("a JVM without its bin/java.exe: its libraries are in bin, and symbolic links are for administrators only");
@@ -40,7 +40,7 @@ static const char *make_home_with_lib(void) {
 
 static int32_t start_home(const char *home) { return start_at(home, host_classes, NULL, true, 60000); }
 
-/* After a refused start, a correct one succeeds. */
+/* Checks that a correct start succeeds after a rejected one. */
 static void check_start_still_works(void) {
     CHECK(clk_jvm_state() == CLK_STATE_NONE);
     CHECK_OK(start(NULL));
@@ -105,7 +105,7 @@ void home_with_a_broken_libjvm(void) {
 }
 
 #if defined(_WIN32)
-/* Opens the file exclusively, as another program could. */
+/* Opens a file exclusively, as another program could do. */
 static void *block_reading(const char *folder, const char *name) {
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -116,7 +116,7 @@ static void *block_reading(const char *folder, const char *name) {
 
 static void unblock_reading(void *file) { CloseHandle(file); }
 #else
-/* Removes the permissions of a file, and drops root privileges: root can read everything. */
+/* Removes the permissions of a file, and drops root privileges, because root can read everything. */
 static void *block_reading(const char *folder, const char *name) {
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -159,7 +159,7 @@ void class_path_missing(void) {
 }
 
 #if defined(_WIN32)
-/* Only the UTF-8 code page has both characters. */
+/* Only the UTF-8 code page contains both characters of the path. */
 void class_path_beyond_ascii(void) {
     char path[4096];
     if (GetACP() == CP_UTF8) skip("this Windows uses UTF-8 as its code page, which has all characters");
@@ -239,7 +239,7 @@ void options_refused_by_text(void) {
     check_start_still_works();
 }
 
-/* Attempts to bypass the check of the debugger options, of which one form is allowed. */
+/* Tries to bypass the check of the debugger options. Only one form of them is allowed. */
 void options_of_debuggers(void) {
     static const char *const refused[] = {
         "",
@@ -303,7 +303,7 @@ void jvm_log_in_a_file(void) {
     CHECK(!log_mentions("[gc,init]"));
 }
 
-/* The JVM logs its class path in one line; Java 17 does not. */
+/* The JVM logs its class path in one line, except Java 17. */
 void long_lines_of_the_jvm(void) {
     if (java_is_17()) return;
     static char class_path[12000];
@@ -313,8 +313,8 @@ void long_lines_of_the_jvm(void) {
     while (used < 9000) used += snprintf(class_path + used, sizeof class_path - (size_t)used, "%c%s", PRIM_PATH_SEPARATOR, host_classes);
     CHECK_OK(start_at(java_home(), class_path, OPTIONS("-Xlog:arguments=info"), false, 60000));
     while (clk_log_read(&level, line, sizeof line) >= 0) {
-        if (strstr(line, " VM warning: ") != NULL) continue; /* about Wine */
-        CHECK(line[0] == '[');                               /* each line of the log begins with the time */
+        if (strstr(line, " VM warning: ") != NULL) continue; /* with Wine, the JVM prints a warning */
+        CHECK(line[0] == '[');                               /* all other lines begin with the time */
         if (strlen(line) == sizeof line - 1) cut++;
     }
     CHECK(cut > 0);
@@ -347,7 +347,7 @@ void check_starts_nothing(void) {
     CHECK_CODE(CLK_JVM_OPTIONS, "is not allowed", check(OPTIONS("-XX:-UseSignalChaining")));
     CHECK_OK(check(OPTIONS("-Xmx64m")));
     CHECK(clk_jvm_state() == CLK_STATE_NONE);
-    /* A configuration that passed is not tried again. */
+    /* The configuration has passed, so the child process does not run again. */
     int64_t begin = now_ns();
     for (int i = 0; i < 100; i++) CHECK_OK(check(OPTIONS("-Xmx64m")));
     CHECK(now_ns() - begin < 1000000000);
@@ -365,7 +365,7 @@ void check_while_a_jvm_runs(void) {
     CHECK_OK(start(OPTIONS("-Xmx64m")));
 }
 
-/* Creates a home whose java command creates bin/java.running and runs for 30 s. */
+/* Creates a home whose java command creates the file bin/java.running and then runs for 30 s. */
 static const char *make_home_with_slow_java(void) {
     const char *home = make_home_with_lib();
     make_folder(home, "bin");
@@ -478,7 +478,7 @@ void second_start(void) {
     CHECK_OK(start(OPTIONS("-Xmx64m", "-Xss2m")));
     clk_session session;
     CHECK_OK(clk_slot_acquire(1 << 20, &request, &request_memory));
-    CHECK_OK(open_session(&session)); /* without one, a JVM in its own process would be replaced */
+    CHECK_OK(open_session(&session)); /* without an open session, a JVM in its own process would be replaced */
     CHECK_CODE(CLK_JVM_RUNNING, own_or("close them first", "restart the process"), start(OPTIONS("-Xmx65m", "-Xss2m")));
     CHECK_CODE(CLK_JVM_RUNNING, NULL, start(OPTIONS("-Xmx64m")));
     CHECK_CODE(CLK_JVM_RUNNING, NULL, start_at(java_home(), incompatible_classes, OPTIONS("-Xmx64m", "-Xss2m"), true, 60000));
@@ -524,7 +524,7 @@ void foreign_jvm(void) {
     JavaVMInitArgs arguments = {.version = JNI_VERSION_10};
     CHECK(create(&vm, &env, &arguments) == JNI_OK);
     if (placement == CLK_OWN_PROCESS) {
-        CHECK_OK(start(NULL)); /* it does not matter */
+        CHECK_OK(start(NULL)); /* another JVM in this process does not matter */
         return;
     }
     CHECK_CODE(CLK_JVM_START, "another library", start(NULL));

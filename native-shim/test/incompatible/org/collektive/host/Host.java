@@ -1,6 +1,6 @@
 package org.collektive.host;
 
-/** A host of another version: its entries have other types. Its thread does not end. */
+/** Host of another version, whose methods have other types. It starts a thread that does not end. */
 final class Host {
     static {
         new Thread(() -> {

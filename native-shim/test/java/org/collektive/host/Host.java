@@ -9,7 +9,7 @@ import java.util.ArrayList;
 import java.util.List;
 import org.collektive.host.shim.Shim;
 
-/** The test host: runs the command in the request. A request is a command and an argument (both int32), then bytes. */
+/** Test host, which runs the command in each request. A request consists of a command and an argument (both int32), and bytes. */
 final class Host {
     private static final int EMPTY = 0;
     private static final int ECHO = 1;
@@ -151,7 +151,7 @@ final class Host {
                     try {
                         for (int size = 1 << 20; size > 8; size /= 2) fill(size);
                     } catch (OutOfMemoryError elsewhere) {
-                        // thrown outside of fill
+                        // The error was thrown outside of fill.
                     }
                 }
             case STAY:
@@ -174,7 +174,7 @@ final class Host {
         try {
             for (;;) hoard.add(new byte[size]);
         } catch (OutOfMemoryError full) {
-            // the heap is full, as intended
+            // The heap is full, as intended.
         }
     }
 
@@ -185,7 +185,7 @@ final class Host {
         return (long) at << 32 | length;
     }
 
-    /** Doubles the answer until it has the size. Earlier buffers must stay readable. */
+    /** Doubles the answer buffer until it has the size. Checks that all earlier buffers stay valid. */
     private static long grow(int size, long slot, ByteBuffer answer) {
         List<ByteBuffer> all = new ArrayList<>();
         all.add(answer);
@@ -216,14 +216,14 @@ final class Host {
         }
     }
 
-    /** Recurses in C. */
+    /** Overflows the stack by a recursion in C. */
     private static native int overflow(int depth);
 
     private static int deeper(int depth) {
         return deeper(depth + 1) + 1;
     }
 
-    /** Runs null checks that compiled code implements by SIGSEGV. */
+    /** Runs null checks, which compiled code implements by SIGSEGV. */
     private static long implicitNulls(int rounds, ByteBuffer answer) {
         Session[] sessions = {new Session(), null};
         int caught = 0;
