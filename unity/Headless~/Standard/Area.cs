@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>The bounds of a deployment, and its free places between obstacles.</summary>
+    /// <summary>The area of a deployment: its bounds, and the places in them that no obstacle covers.</summary>
     internal sealed class Area
     {
         private const int Attempts = 10000;
@@ -15,7 +15,7 @@ namespace Collektive.Standard
         private readonly float[] x;
         private readonly float[] z;
 
-        /// <param name="places">The places in a file.</param>
+        /// <param name="places">The positions in the deployment's file; empty for other kinds.</param>
         internal Area(Deployment deployment, List<Obstacle> obstacles, List<Vector3> places)
         {
             this.deployment = deployment;
@@ -31,10 +31,10 @@ namespace Collektive.Standard
 
         internal static bool IsFinite(float number) => !float.IsNaN(number) && !float.IsInfinity(number);
 
-        /// <summary>Number of columns of a grid.</summary>
+        /// <summary>The number of columns of a grid.</summary>
         internal int Columns => deployment.columns > 0 ? deployment.columns : Mathf.CeilToInt(Mathf.Sqrt(deployment.nodes));
 
-        /// <summary>Returns a uniform random free place; null if almost none is free.</summary>
+        /// <summary>Returns a free place with a uniform random distribution; null if almost no place is free.</summary>
         internal Vector3? Uniform(RandomStream random)
         {
             for (var attempt = 0; attempt < Attempts; attempt++)
@@ -45,7 +45,7 @@ namespace Collektive.Standard
             return null;
         }
 
-        /// <summary>Returns whether no obstacle covers a place.</summary>
+        /// <summary>Returns whether a place is not covered by an obstacle.</summary>
         internal bool IsFree(Vector3 place)
         {
             foreach (var obstacle in obstacles)
@@ -57,7 +57,7 @@ namespace Collektive.Standard
             return true;
         }
 
-        /// <summary>Reflects a place and a direction at the bounding rectangle.</summary>
+        /// <summary>Reflects a place and a direction at the bounding rectangle of the area.</summary>
         internal void Reflect(ref Vector3 place, ref Vector3 direction)
         {
             Reflect(ref place.x, ref direction.x, x);
@@ -105,7 +105,7 @@ namespace Collektive.Standard
             return bounds;
         }
 
-        /// <summary>Returns whether a place is inside a polygon: a ray from it crosses the sides an odd number of times.</summary>
+        /// <summary>Returns whether a place is inside a polygon. A ray from such a place crosses the sides an odd number of times.</summary>
         private static bool IsInside(List<float[]> corners, Vector3 place)
         {
             var isInside = false;

@@ -21,7 +21,7 @@ namespace Collektive.Standard
         }
     }
 
-    /// <summary>Senses the velocity.</summary>
+    /// <summary>Writes the node's velocity to the sensor data.</summary>
     public sealed class StandardVelocity : VelocitySensor<SensorData>
     {
         protected override void Write(ref SensorData data, Vector3 velocity) => data.Velocity = velocity;
@@ -39,7 +39,7 @@ namespace Collektive.Standard
         protected override Vector3 Read(ActuatorData data) => data.Target;
     }
 
-    /// <summary>Moves a node without a body at random, with the node's random numbers.</summary>
+    /// <summary>Moves a node without a body along a random path. The path depends on the node's random numbers.</summary>
     public sealed class Walker : MonoBehaviour
     {
         private Vector3 target;
@@ -56,7 +56,7 @@ namespace Collektive.Standard
 
         private void GoToWaypoint(Node node, Movement movement, Area area, float seconds)
         {
-            // A fast node passes several waypoints in a tick.
+            // A fast node may pass several waypoints in a tick.
             while (seconds > 0)
             {
                 if (remainingPause > 0)
@@ -91,7 +91,7 @@ namespace Collektive.Standard
                 {
                     var angle = random.Range(0, 2 * Mathf.PI);
                     direction = new Vector3(Mathf.Cos(angle), 0, Mathf.Sin(angle));
-                    // Inverse of the Pareto distribution function.
+                    // The inverse of its distribution function converts a uniform number to the Pareto distribution.
                     left = movement.shortest * Mathf.Pow((float)(1 - random.NextDouble()), 1 / (1 - movement.exponent));
                 }
                 var step = Mathf.Min(reach, left);

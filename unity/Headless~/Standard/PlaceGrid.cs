@@ -4,7 +4,9 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>Places in square cells, which are about as wide as the minimum distance between places.</summary>
+    /// <summary>
+    /// A set of places with a minimum distance between them. The places are in square cells of about that width, so only the nearest cells must be checked.
+    /// </summary>
     internal sealed class PlaceGrid
     {
         private readonly Dictionary<(int, int), List<Vector3>> cells = new Dictionary<(int, int), List<Vector3>>();
@@ -14,7 +16,7 @@ namespace Collektive.Standard
 
         internal int Count { get; private set; }
 
-        /// <summary>Adds a place if it keeps the minimum distance to all others. Returns whether it was added.</summary>
+        /// <summary>Adds a place if it keeps the minimum distance to all others, and returns whether it was added.</summary>
         internal bool TryAdd(Vector3 place)
         {
             int x = CellOf(place.x), z = CellOf(place.z);
@@ -29,7 +31,7 @@ namespace Collektive.Standard
             return true;
         }
 
-        // Slightly wider than the distance. Otherwise rounding could put close places two cells apart.
+        // The cells are slightly wider than the distance. Otherwise, rounding could put close places two cells apart.
         private int CellOf(float coordinate) => minDistance > 0 ? (int)Math.Floor(coordinate / (1.001 * minDistance)) : 0;
     }
 }

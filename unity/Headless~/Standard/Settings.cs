@@ -3,10 +3,10 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>Kinds of deployments. A grid begins at the origin. Discs and rectangles are centred on it.</summary>
+    /// <summary>Kinds of deployments. A grid begins at the origin. Discs and rectangles have their centre there.</summary>
     public enum DeploymentKind
     {
-        /// <summary>Rows and columns, with <see cref="Deployment.disorder"/>.</summary>
+        /// <summary>Positions in rows and columns, moved at random by up to <see cref="Deployment.disorder"/>.</summary>
         Grid,
 
         /// <summary>Uniform random positions in a disc.</summary>
@@ -18,7 +18,7 @@ namespace Collektive.Standard
         /// <summary>Uniform random positions in a rectangle or polygon, with a minimum distance between nodes.</summary>
         Poisson,
 
-        /// <summary>At the places in a file.</summary>
+        /// <summary>The positions in a file.</summary>
         File,
     }
 
@@ -28,13 +28,13 @@ namespace Collektive.Standard
         public DeploymentKind kind = DeploymentKind.Grid;
         public int nodes = 100;
 
-        /// <summary>Metres between the nodes of a grid, or the minimum distance for Poisson.</summary>
+        /// <summary>Distance between the nodes of a grid in metres. For Poisson, the minimum distance.</summary>
         public float spacing = 3;
 
         /// <summary>Number of columns of a grid; 0 for a square grid.</summary>
         public int columns;
 
-        /// <summary>Maximum random offset of the nodes of a grid, in metres along each axis.</summary>
+        /// <summary>Maximum random offset of the nodes of a grid along each axis in metres.</summary>
         public float disorder;
 
         /// <summary>Radius of a disc in metres.</summary>
@@ -46,43 +46,43 @@ namespace Collektive.Standard
         /// <summary>Corners of a polygon as [x, z]; empty for a rectangle.</summary>
         public List<float[]> polygon = new List<float[]>();
 
-        /// <summary>A CSV, GeoJSON or GPX file in the scenario's data folder, for the kind File.</summary>
+        /// <summary>For the kind File, a CSV, GeoJSON or GPX file in the scenario's data folder.</summary>
         public string file = "";
     }
 
-    /// <summary>The sensor data "reading": an expression, or values from a file; 0 without a value.</summary>
+    /// <summary>The source of the sensor data "reading": an expression or a file. Without a value, the reading is 0.</summary>
     public sealed class Reading
     {
-        /// <summary>SQL with the columns id, time, x, y and z.</summary>
+        /// <summary>An SQL expression with the columns id, time, x, y and z.</summary>
         public string expression = "";
 
         /// <summary>A CSV file in the scenario's data folder, with the column value, and optionally id and time.</summary>
         public string file = "";
     }
 
-    /// <summary>A named set of nodes: those with given ids, and those that are initially nearest to a point.</summary>
+    /// <summary>A named set of nodes. It contains nodes with certain ids, and the nodes that are nearest to a point at the start.</summary>
     public sealed class NodeSet
     {
         public string name = "";
         public int[] ids = { };
 
-        /// <summary>The point as [x, z]; empty for only the ids.</summary>
+        /// <summary>The point as [x, z]; empty if the set contains only the ids.</summary>
         public float[] near = { };
 
         /// <summary>Number of nodes nearest to the point.</summary>
         public int count = 1;
 
-        /// <summary>Simulated seconds at which nodes enter the set.</summary>
+        /// <summary>Simulated second at which nodes enter the set.</summary>
         public double from;
 
-        /// <summary>Simulated seconds at which nodes leave the set.</summary>
+        /// <summary>Simulated second at which nodes leave the set.</summary>
         public double until = 1e9;
     }
 
     /// <summary>A box, or walls along the sides of a polygon.</summary>
     public sealed class Obstacle
     {
-        /// <summary>Centre of a box, [x, z].</summary>
+        /// <summary>Centre of a box as [x, z].</summary>
         public float[] box = { };
 
         /// <summary>Size of a box in metres along x and z.</summary>
@@ -104,7 +104,7 @@ namespace Collektive.Standard
         /// <summary>Links each node with the nearest ones.</summary>
         Nearest,
 
-        /// <summary>Links nodes within a radius without an obstacle between them.</summary>
+        /// <summary>Links nodes within a radius if no obstacle is between them.</summary>
         LineOfSight,
     }
 
@@ -129,16 +129,16 @@ namespace Collektive.Standard
         /// <summary>Nodes move from one uniform random point of the area to the next.</summary>
         RandomWaypoint,
 
-        /// <summary>Nodes move on straight lines with power-law lengths in uniform directions, reflected by the area's bounds.</summary>
+        /// <summary>Nodes move on straight lines, whose lengths follow a power law and whose directions are uniform. The area's bounds reflect them.</summary>
         LevyWalk,
 
-        /// <summary>The program's answer is a velocity, applied by physics.</summary>
+        /// <summary>The program's answer is a velocity. Nodes move with it as physical bodies.</summary>
         Velocity,
 
         /// <summary>The program's answer is a target position. Nodes move towards it as physical bodies.</summary>
         Target,
 
-        /// <summary>Nodes follow the times in the deployment's file.</summary>
+        /// <summary>Nodes follow the positions and times in the deployment's file.</summary>
         Trace,
     }
 
@@ -147,29 +147,29 @@ namespace Collektive.Standard
     {
         public MovementKind kind = MovementKind.None;
 
-        /// <summary>Metres per second; the maximum speed for Target.</summary>
+        /// <summary>Speed in metres per second. For Target, the maximum speed.</summary>
         public float speed = 1;
 
-        /// <summary>Simulated seconds at each waypoint.</summary>
+        /// <summary>Simulated seconds for which a node waits at each waypoint.</summary>
         public float pause;
 
-        /// <summary>Exponent of the lengths of a Lévy walk, above 1.</summary>
+        /// <summary>Exponent of the power law of a Lévy walk, greater than 1.</summary>
         public float exponent = 2;
 
-        /// <summary>Shortest length of a Lévy walk in metres.</summary>
+        /// <summary>Length of the shortest line of a Lévy walk in metres.</summary>
         public float shortest = 1;
 
         /// <summary>Radius of the nodes' bodies in metres, for Velocity and Target.</summary>
         public float bodyRadius = 0.25f;
     }
 
-    /// <summary>Nodes that leave and join during the run.</summary>
+    /// <summary>The rates at which nodes leave and join during the run.</summary>
     public sealed class Churn
     {
         /// <summary>Failures per node and simulated second.</summary>
         public float failures;
 
-        /// <summary>New nodes per simulated second, at uniform random positions of the area.</summary>
+        /// <summary>New nodes per simulated second. They appear at uniform random positions in the area.</summary>
         public float arrivals;
     }
 }

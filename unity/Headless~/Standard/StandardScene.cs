@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace Collektive.Standard
 {
-    /// <summary>A scene for studies without C#: its fields describe nodes, obstacles, links and movement.</summary>
+    /// <summary>A scene for studies without C#. Its fields, which a scenario sets, describe the nodes, obstacles, links and movement.</summary>
     public sealed class StandardScene : SceneBuilder
     {
         private const int IgnoreRaycastLayer = 2;
@@ -16,7 +16,7 @@ namespace Collektive.Standard
         private const int MaxSets = 32;
         private const float WallWidth = 0.1f;
 
-        /// <summary>Time limit of an expression before the run.</summary>
+        /// <summary>Time limit for the evaluation of an expression when the scene is checked before the run.</summary>
         private const int CheckMs = 1000;
 
         public Deployment deployment = new Deployment();
@@ -60,7 +60,7 @@ namespace Collektive.Standard
 
         internal bool IsSource(uint bits) => (bits & source) != 0;
 
-        /// <summary>Returns the value of the expression or file; 0 without one.</summary>
+        /// <summary>Returns the value of the expression or file for a node at the current time; 0 without a value.</summary>
         internal double ReadingOf(Node node)
         {
             var place = node.Position;
@@ -267,7 +267,7 @@ namespace Collektive.Standard
             var holder = hasBody ? GameObject.CreatePrimitive(PrimitiveType.Sphere) : new GameObject();
             holder.SetActive(false);
             holder.name = "Node";
-            // Bodies do not block radio links.
+            // On this layer, bodies do not block radio links.
             holder.layer = IgnoreRaycastLayer;
             holder.transform.position = hasBody ? place + movement.bodyRadius * Vector3.up : place;
             if (hasBody) AddBody(holder);
@@ -368,7 +368,7 @@ namespace Collektive.Standard
 
         private void Fail(double probability)
         {
-            // Copies the list first, because nodes that leave change the manager's list.
+            // The nodes are collected first, because each destroyed node changes the manager's list.
             failing.Clear();
             foreach (var node in manager.Nodes)
             {
@@ -377,7 +377,7 @@ namespace Collektive.Standard
             foreach (var node in failing) Destroy(node.gameObject);
         }
 
-        /// <summary>Draws the time to the next event in seconds, which is exponentially distributed with the given rate.</summary>
+        /// <summary>Draws the time in seconds until the next event. It has an exponential distribution with the rate.</summary>
         private double Pause(double rate) => -Math.Log(1 - manager.Random.NextDouble()) / rate;
     }
 }

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Channel
 {
-    /// <summary>Colours the nodes of the channel.</summary>
+    /// <summary>Colours nodes by whether they are part of the channel.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/Channel Colour")]
     public sealed class ChannelColour : ColourActuator<ActuatorData>
     {

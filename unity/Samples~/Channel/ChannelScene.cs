@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Channel
 {
     /// <summary>
-    /// Nodes scattered over a plane of 100 x 60 m find a channel between two of them. Two walls that block radio stand across the direct path, each with a gap
-    /// at either end. After a while, the nodes in the gaps of the channel fail, and the channel takes another path.
+    /// Nodes on a plane of 100 x 60 m find a channel, the shortest path of links between two of them. Two walls across the direct path block radio, except in
+    /// the gaps at their ends. After a while, the nodes in the gaps that the channel uses fail, and the channel takes another path.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Channel Scene")]
     public sealed class ChannelScene : SceneBuilder
@@ -25,11 +25,11 @@ namespace CollektiveSamples.Channel
         [Min(2)]
         public int nodes = 600;
 
-        /// <summary>Range of the nodes' radios in metres.</summary>
+        /// <summary>Radio range of the nodes in metres.</summary>
         [Min(0)]
         public float range = 7;
 
-        /// <summary>Simulated seconds after which the nodes in the gaps of the channel fail.</summary>
+        /// <summary>Simulated seconds after which the nodes in the channel's gaps fail.</summary>
         [Min(0)]
         public float failAfter = 10;
 
@@ -62,8 +62,8 @@ namespace CollektiveSamples.Channel
         };
 
         /// <summary>
-        /// Writes 1 if links between nodes of the channel connect source and target, otherwise 0; the number of nodes in the channel; and its length in metres
-        /// as computed by the target.
+        /// Writes three values: 1 if the nodes of the channel connect source and target, otherwise 0; the number of nodes in the channel; and the length of the
+        /// channel in metres, which the target has computed.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -94,7 +94,7 @@ namespace CollektiveSamples.Channel
             for (var i = 2; i < nodes; i++) MakeNode(FreePlace(manager), false, false);
         }
 
-        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        // Build does not add the handler, because Unity removes handlers when it compiles scripts during Play, and then calls only OnEnable.
         private void OnEnable()
         {
             manager = SimulationManager.Current;
@@ -113,7 +113,7 @@ namespace CollektiveSamples.Channel
             failing.Clear();
             foreach (var node in manager.Nodes)
             {
-                // The channel goes around the end of the wall that is nearer to source and target.
+                // The channel goes around the ends with negative z, because source and target are nearer to them.
                 var place = node.transform.position;
                 if (place.z < -WallLength / 2 && DistanceToWall(place) < range) failing.Add(node);
             }
@@ -156,7 +156,7 @@ namespace CollektiveSamples.Channel
             var holder = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             holder.SetActive(false);
             holder.name = isSource ? "Source" : isTarget ? "Target" : "Node";
-            // Other nodes' bodies do not block radio signals.
+            // On this layer, the bodies of other nodes do not block radio.
             holder.layer = IgnoreRaycastLayer;
             holder.transform.position = place;
             if (isSource || isTarget) holder.transform.localScale = 2 * Vector3.one;

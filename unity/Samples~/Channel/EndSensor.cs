@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Channel
 {
-    /// <summary>Writes whether the channel begins or ends at the node.</summary>
+    /// <summary>Writes to the sensor data whether the channel begins or ends at the node.</summary>
     [AddComponentMenu("Collektive/Samples/Channel/End Sensor")]
     public sealed class EndSensor : Sensor<SensorData>
     {
@@ -16,14 +16,14 @@ namespace CollektiveSamples.Channel
         [Tooltip("On: the channel ends at this node.")]
         private bool target;
 
-        /// <summary>Whether the channel begins here.</summary>
+        /// <summary>Whether the channel begins at this node.</summary>
         public bool Source
         {
             get => source;
             set => source = value;
         }
 
-        /// <summary>Whether the channel ends here.</summary>
+        /// <summary>Whether the channel ends at this node.</summary>
         public bool Target
         {
             get => target;

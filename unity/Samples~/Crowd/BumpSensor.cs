@@ -5,11 +5,11 @@ using UnityEngine;
 
 namespace CollektiveSamples.Crowd
 {
-    /// <summary>Counts collisions with other walkers. The program does not receive them.</summary>
+    /// <summary>Counts collisions with other walkers for the metrics. The program does not receive the number.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Bump Sensor")]
     public sealed class BumpSensor : ContactSensor<SensorData>
     {
-        /// <summary>Number of rounds with a collision.</summary>
+        /// <summary>Number of rounds in which the walker has touched another one.</summary>
         public int Rounds { get; private set; }
 
         /// <inheritdoc/>

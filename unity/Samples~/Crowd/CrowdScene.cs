@@ -7,7 +7,7 @@ using UnityEngine;
 namespace CollektiveSamples.Crowd
 {
     /// <summary>
-    /// Two crowds walk along a street of 80 x 20 m with pillars in the middle, from opposite ends to the far end. Walkers within 5 m exchange messages.
+    /// Two crowds walk in opposite directions along a street of 80 x 20 m, with pillars in the middle. Walkers within 5 m of each other exchange messages.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Crowd Scene")]
     public sealed class CrowdScene : SceneBuilder
@@ -26,7 +26,7 @@ namespace CollektiveSamples.Crowd
         [Min(2)]
         public int walkers = 160;
 
-        /// <summary>Density that triggers a warning, in walkers per square metre.</summary>
+        /// <summary>Density in walkers per square metre above which walkers are warned.</summary>
         [Min(0)]
         public float limit = 0.9f;
 
@@ -48,7 +48,8 @@ namespace CollektiveSamples.Crowd
         };
 
         /// <summary>
-        /// Writes the number of walkers at their goals, of rounds with a collision and of warned walkers, and the greatest density in walkers per square metre.
+        /// Writes the number of walkers at their goals, the number of rounds with a collision, the number of warned walkers, and the greatest density in
+        /// walkers per square metre.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -81,7 +82,7 @@ namespace CollektiveSamples.Crowd
             var rows = (walkers + 19) / 20;
             for (var i = 0; i < walkers; i++)
             {
-                // Rows of ten walkers, starting near the middle, with small random offsets.
+                // On each side, walkers start in rows of ten near the middle, with small random offsets.
                 var side = i % 2 == 0 ? -1 : 1;
                 var place = new Vector3(side * (Front + Spacing * (i / 20)), BodyRadius, Spacing * (i / 2 % 10 - 4.5f));
                 place += new Vector3(manager.Random.Range(-0.3f, 0.3f), 0, manager.Random.Range(-0.3f, 0.3f));

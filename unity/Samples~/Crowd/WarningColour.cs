@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Crowd
 {
-    /// <summary>Colours walkers by the density around them, and warned walkers red.</summary>
+    /// <summary>Colours warned walkers red, and other walkers by the density around them.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Warning Colour")]
     public sealed class WarningColour : ColourActuator<ActuatorData>
     {

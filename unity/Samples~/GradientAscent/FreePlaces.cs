@@ -4,22 +4,22 @@ using UnityEngine;
 
 namespace CollektiveSamples.GradientAscent
 {
-    /// <summary>Positions on the ground with a minimum distance between them. Testing a place takes constant time.</summary>
+    /// <summary>A set of places on the ground with a minimum distance between them. The time to check a place does not depend on their number.</summary>
     internal sealed class FreePlaces
     {
         /// <summary>
-        /// Side of a grid cell, in units of the distance. A cell has room for one place, and places that are too near are at most two cells
-        /// away.
+        /// Side of a grid cell, in units of the distance. With this size, a cell has room for only one place, and places that are too near to each other are
+        /// at most two cells apart.
         /// </summary>
         private const double CellSize = 0.625;
 
         private readonly Dictionary<(int X, int Z), Vector3> taken = new Dictionary<(int X, int Z), Vector3>();
         private readonly float distance;
 
-        /// <param name="distance">Metres, greater than 0.</param>
+        /// <param name="distance">Minimum distance in metres, greater than 0.</param>
         internal FreePlaces(float distance) => this.distance = distance;
 
-        /// <summary>Takes a place unless an earlier one is too near, and returns whether it did.</summary>
+        /// <summary>Adds a place unless another one is too near, and returns whether it was added.</summary>
         internal bool TryTake(Vector3 place)
         {
             var x = CellOf(place.x);

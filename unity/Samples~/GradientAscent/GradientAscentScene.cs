@@ -5,8 +5,8 @@ using UnityEngine;
 namespace CollektiveSamples.GradientAscent
 {
     /// <summary>
-    /// A flat arena of 100 x 60 m with a rim. A swarm climbs towards a source; four obstacles block the direct path. Each node senses the intensity at its
-    /// position and the obstacles around it, and exchanges messages with the nodes within its range.
+    /// A swarm moves towards the source of a signal in a flat arena of 100 x 60 m with a rim. Four obstacles block the direct path. Each node senses the
+    /// intensity of the signal at its position and the obstacles around it, and exchanges messages with the nodes within its range.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent Scene")]
     public sealed class GradientAscentScene : SceneBuilder
@@ -21,7 +21,7 @@ namespace CollektiveSamples.GradientAscent
         [Min(1)]
         public int nodes = 500;
 
-        /// <summary>Range of the nodes' radios in metres.</summary>
+        /// <summary>Radio range of the nodes in metres.</summary>
         [Min(0)]
         public float range = 3;
 
@@ -32,10 +32,10 @@ namespace CollektiveSamples.GradientAscent
         /// <summary>Position of the source.</summary>
         public Vector3 source = new Vector3(25, 0, 0);
 
-        /// <summary>Whether the four obstacles exist.</summary>
+        /// <summary>Whether the scene contains the four obstacles.</summary>
         public bool obstacles = true;
 
-        /// <summary>Factor on the field's length and width, and on the source's reach. It does not move the source.</summary>
+        /// <summary>Factor for the length and width of the field, and for the reach of the source. It does not move the source.</summary>
         [Min(0.1f)]
         public float fieldScale = 1;
 
@@ -64,7 +64,7 @@ namespace CollektiveSamples.GradientAscent
         /// <inheritdoc/>
         public override float GetColouringValue(Node node) => intensity.IntensityAt(node.transform.position);
 
-        /// <summary>Writes the mean and the 90th percentile of the distance to the source in metres, and the number of contacts between bodies.</summary>
+        /// <summary>Writes the mean and the 90th percentile of the nodes' distances to the source in metres, and the number of contacts.</summary>
         public override void Measure(double[] values)
         {
             distances.Clear();
@@ -116,7 +116,7 @@ namespace CollektiveSamples.GradientAscent
             if (nodePrefab == null) Destroy(original);
         }
 
-        /// <summary>Returns a position in x -35..5, z -25..25, times the field's scale, where a body does not overlap another.</summary>
+        /// <summary>Returns a position where a body does not overlap another. It has x from -35 to 5 and z from -25 to 25, times the field's scale.</summary>
         private Vector3 FreePlace(SimulationManager manager, FreePlaces places)
         {
             for (var attempt = 0; attempt < SpawnAttempts; attempt++)
@@ -148,7 +148,7 @@ namespace CollektiveSamples.GradientAscent
             node.SetActive(true);
         }
 
-        /// <summary>Builds an inactive object with the content of the prefab.</summary>
+        /// <summary>Builds an inactive object with the same components as the prefab.</summary>
         private static GameObject MakeOriginal()
         {
             var original = GameObject.CreatePrimitive(PrimitiveType.Sphere);

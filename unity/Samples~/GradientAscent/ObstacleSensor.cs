@@ -5,11 +5,11 @@ using UnityEngine;
 
 namespace CollektiveSamples.GradientAscent
 {
-    /// <summary>Detects colliders around the node, both obstacles and other bodies.</summary>
+    /// <summary>Detects the colliders around the node: obstacles and the bodies of other nodes.</summary>
     [AddComponentMenu("Collektive/Samples/Gradient Ascent/Obstacle Sensor")]
     public sealed class ObstacleSensor : ObstacleSensor<SensorData>
     {
-        /// <summary>Number of colliders that touched the node's body in its last round: those with a point within the body's radius.</summary>
+        /// <summary>Number of colliders that touched the node's body in its last round.</summary>
         public int Contacts { get; private set; }
 
         /// <summary>Radius of the node's body in metres.</summary>

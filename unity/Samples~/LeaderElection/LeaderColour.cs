@@ -4,11 +4,11 @@ using UnityEngine;
 
 namespace CollektiveSamples.LeaderElection
 {
-    /// <summary>Gives all nodes of one leader the same colour.</summary>
+    /// <summary>Gives all nodes with the same leader the same colour.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Leader Colour")]
     public sealed class LeaderColour : ColourActuator<ActuatorData>
     {
-        /// <summary>A hue in 0..1, far from those of neighbouring ids.</summary>
+        /// <summary>Returns a hue from 0 to 1. The hues of leaders with similar ids differ strongly.</summary>
         public static float HueOf(int leader) => leader * 0.61803399f % 1;
 
         /// <inheritdoc/>

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.LeaderElection
 {
     /// <summary>
-    /// Nodes scattered over a plane of 100 x 60 m divide themselves into regions, each with a leader. After a while, all leaders fail, and new ones take their
-    /// place.
+    /// Nodes at random positions on a plane of 100 x 60 m divide themselves into regions, each with a leader. After a while, all leaders fail, and other nodes
+    /// replace them.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Leader Election Scene")]
     public sealed class LeaderElectionScene : SceneBuilder
@@ -19,7 +19,7 @@ namespace CollektiveSamples.LeaderElection
         [Min(1)]
         public int nodes = 400;
 
-        /// <summary>Range of the nodes' radios in metres.</summary>
+        /// <summary>Radio range of the nodes in metres.</summary>
         [Min(0)]
         public float range = 6;
 
@@ -50,7 +50,7 @@ namespace CollektiveSamples.LeaderElection
         };
 
         /// <summary>
-        /// Writes the number of nodes with a valid leader, of their leaders, and the greatest distance to a leader in metres.
+        /// Writes the number of nodes with a valid leader, the number of their leaders, and the greatest distance between a node and its leader in metres.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -86,7 +86,7 @@ namespace CollektiveSamples.LeaderElection
             for (var i = 0; i < nodes; i++) MakeNode(new Vector3(manager.Random.Range(-50f, 50f), 0.5f, manager.Random.Range(-30f, 30f)));
         }
 
-        // Not in Build: recompiling scripts in Play mode removes event handlers, and Unity then calls only OnEnable.
+        // Build does not add the handler, because Unity removes handlers when it compiles scripts during Play, and then calls only OnEnable.
         private void OnEnable()
         {
             manager = SimulationManager.Current;

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Rescue
 {
-    /// <summary>Detects walls, stones and vehicles. Other robots and the ground are on another layer.</summary>
+    /// <summary>Detects walls, stones and vehicles, but not other robots and the ground, which are on another layer.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Barrier Sensor")]
     public sealed class BarrierSensor : ObstacleSensor<SensorData>
     {

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Rescue
 {
-    /// <summary>Detects the first casualty that is near and visible, and writes whether the node is the base.</summary>
+    /// <summary>Detects the first casualty that is near and visible. Also writes whether the node is the base.</summary>
     [AddComponentMenu("Collektive/Samples/Rescue/Casualty Sensor")]
     public sealed class CasualtySensor : Sensor<SensorData>
     {
@@ -20,13 +20,13 @@ namespace CollektiveSamples.Rescue
 
         private IReadOnlyList<Vector3> casualties;
 
-        /// <summary>Where the casualties lie, in metres.</summary>
+        /// <summary>The positions of the casualties in metres.</summary>
         public IReadOnlyList<Vector3> Casualties
         {
             set => casualties = value;
         }
 
-        /// <summary>Whether this is the base.</summary>
+        /// <summary>Whether this node is the base.</summary>
         public bool IsBase
         {
             set => isBase = value;

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Rescue
 {
     /// <summary>
-    /// Robots leave their base, spread through two ruined buildings, find three casualties, and keep a channel of robots from each to the base. Walls weaken
-    /// their radio. After a while, some of the robots fail, and the others close the gaps.
+    /// Robots leave their base and explore two ruined buildings. They find three casualties, and maintain a channel of robots from each casualty to the base.
+    /// Walls weaken their radio. After a while, some robots fail, and others close the gaps in the channels.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Rescue Scene")]
     public sealed class RescueScene : SceneBuilder
@@ -26,19 +26,19 @@ namespace CollektiveSamples.Rescue
             new Vector3(-15, 0.5f, 17.5f), new Vector3(30, 0.5f, -7), new Vector3(13, 0.5f, -15),
         };
 
-        /// <summary>Number of robots, without the base.</summary>
+        /// <summary>Number of robots. The base is an additional node.</summary>
         [Min(1)]
         public int robots = 120;
 
-        /// <summary>Range of the robots' radios in metres.</summary>
+        /// <summary>Radio range of the robots in metres.</summary>
         [Min(0)]
         public float range = 10;
 
-        /// <summary>Simulated seconds after which robots fail.</summary>
+        /// <summary>Simulated seconds after which some robots fail.</summary>
         [Min(0)]
         public float failAfter = 60;
 
-        /// <summary>Share of the robots that fail then.</summary>
+        /// <summary>Share of the robots that fail.</summary>
         [Range(0, 1)]
         public float failing = 0.1f;
 
@@ -78,8 +78,8 @@ namespace CollektiveSamples.Rescue
         }
 
         /// <summary>
-        /// Writes the number of casualties with a robot, of casualties connected to the base, of robots in channels and of robots, and the explored share
-        /// of the ground.
+        /// Writes five values: the number of casualties that have a robot with them, the number of casualties that are connected to the base, the number of
+        /// robots in channels, the number of robots, and the share of the ground that has been explored.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -121,13 +121,13 @@ namespace CollektiveSamples.Rescue
             station = MakeRobot(BasePlace, true);
             for (var i = 0; i < robots; i++)
             {
-                // Rows beside the base, not quite in line.
+                // The robots start in rows beside the base, with small random offsets.
                 var place = new Vector3(-35 + Spacing * (i / PerRow) * 0.8f, 0.5f, Spacing * (i % PerRow - (PerRow - 1) / 2f));
                 MakeRobot(place + new Vector3(manager.Random.Range(-0.2f, 0.2f), 0, manager.Random.Range(-0.2f, 0.2f)), false);
             }
         }
 
-        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        // Build does not add the handler, because Unity removes handlers when it compiles scripts during Play, and then calls only OnEnable.
         private void OnEnable()
         {
             manager = SimulationManager.Current;
@@ -183,7 +183,7 @@ namespace CollektiveSamples.Rescue
             var robot = GameObject.CreatePrimitive(PrimitiveType.Sphere);
             robot.SetActive(false);
             robot.name = isBase ? "Base" : "Robot";
-            // Bodies of other robots do not block radio.
+            // On this layer, the bodies of other robots do not block radio.
             robot.layer = Ruins.GroundLayer;
             robot.transform.position = place;
             robot.transform.localScale = 2 * BodyRadius * Vector3.one;

@@ -4,10 +4,10 @@ using UnityEngine;
 
 namespace CollektiveSamples.Rescue
 {
-    /// <summary>The ground of 80 x 50 m and everything on it: two buildings with rooms and doors, rubble, a dam with slopes, vehicles.</summary>
+    /// <summary>The ground of 80 x 50 m and everything on it: two buildings with rooms and doors, rubble, a dam with slopes, and vehicles.</summary>
     internal static class Ruins
     {
-        /// <summary>Layer of the ground, which sensors and radio ignore.</summary>
+        /// <summary>Layer of the ground. Sensors and radio ignore this layer.</summary>
         internal const int GroundLayer = 2;
 
         private const float Height = 2.5f;
@@ -15,7 +15,7 @@ namespace CollektiveSamples.Rescue
         private const float DoorWidth = 3;
         private const float SlopeDegrees = 14;
 
-        // Corners of stones lie on the six half axes, so that any lengths give a convex body.
+        // Each stone has one corner in each of these directions, so it is convex for all distances of the corners.
         private static readonly Vector3[] Axes = { Vector3.right, Vector3.left, Vector3.up, Vector3.down, Vector3.forward, Vector3.back };
 
         private static readonly int[] Faces = { 0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5 };
@@ -34,13 +34,13 @@ namespace CollektiveSamples.Rescue
             WallAlongX(25, -40, 40);
             WallAlongZ(-40, -25, 25);
             WallAlongZ(40, -25, 25);
-            // The hall in the north, with two rooms.
+            // The northern building is a hall with two rooms.
             WallAlongX(4, -20, 4, -14, 0);
             WallAlongX(20, -20, 4);
             WallAlongZ(-20, 4, 20, 9);
             WallAlongZ(4, 4, 20, 15);
             WallAlongZ(-8, 4, 20, 16);
-            // The block in the south, with four rooms.
+            // The southern building is a block with four rooms.
             WallAlongX(-21, 4, 34);
             WallAlongX(0, 4, 34, 12, 27);
             WallAlongZ(4, -21, 0, -16);
@@ -68,7 +68,7 @@ namespace CollektiveSamples.Rescue
                 Box("Wall", new Vector3(x, Height / 2, (start + end) / 2), new Vector3(Thickness, Height, end - start + Thickness));
         }
 
-        /// <summary>Yields the parts of a wall between doors, whose centres are in ascending order.</summary>
+        /// <summary>Returns the pieces of a wall between its doors. The centres of the doors must be in ascending order.</summary>
         private static IEnumerable<(float Start, float End)> Pieces(float from, float to, float[] doors)
         {
             foreach (var door in doors)
@@ -79,7 +79,7 @@ namespace CollektiveSamples.Rescue
             yield return (from, to);
         }
 
-        /// <summary>One side of the dam, which robots climb.</summary>
+        /// <summary>Builds one side of the dam, which robots can climb.</summary>
         private static void Slope(float x, float degrees)
         {
             var slope = Box("Slope", new Vector3(x, 0.35f, -13.5f), new Vector3(5.8f, 0.4f, 22.5f));

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Rescue
 {
-    /// <summary>A vehicle that drives back and forth between two points, in simulated time.</summary>
+    /// <summary>Drives a vehicle back and forth between two points. Its position depends only on the simulated time.</summary>
     [RequireComponent(typeof(Rigidbody))]
     [AddComponentMenu("Collektive/Samples/Rescue/Shuttle")]
     public sealed class Shuttle : MonoBehaviour

@@ -7,13 +7,13 @@ using UnityEngine;
 namespace CollektiveSamples.Swarm
 {
     /// <summary>
-    /// Draws all drones of the scene in the colour of the shape that each forms. Drones have no renderers, because 10,000 of them would take longer than the
-    /// rest of a frame; twenty draw calls of 500 instances do not. Without a model and in batch mode, the component does not draw.
+    /// Draws all drones of the scene, each in the colour of the shape that it forms. Drones have no renderers, because 10,000 renderers would take longer than
+    /// the rest of a frame. Instead, this component makes about twenty draw calls with 500 instances each. It does not draw without a model or in batch mode.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Drone View")]
     public sealed class DroneView : MonoBehaviour
     {
-        // All graphics APIs support this number per draw call.
+        // Maximum number of instances per draw call, which all graphics APIs support.
         private const int MaxInstances = 500;
 
         private static readonly Color[] Colors =
@@ -30,7 +30,7 @@ namespace CollektiveSamples.Swarm
         private readonly Material[] materials = new Material[Colors.Length];
         private Mesh mesh;
 
-        // By node id: positions before and after the last tick.
+        // Positions of the nodes before and after the last tick, by node id.
         private Vector3[] before = new Vector3[0];
         private Vector3[] after = new Vector3[0];
         private ulong tick;
@@ -39,8 +39,8 @@ namespace CollektiveSamples.Swarm
         public float Radius { get; set; } = 0.3f;
 
         /// <summary>
-        /// A sphere with a mesh filter, drawn once per drone. Its material must be an asset with instancing enabled, because Unity removes the instancing
-        /// variants of other shaders from players.
+        /// The renderer of a sphere with a mesh filter. The sphere is drawn once per drone. Its material must be an asset with instancing enabled, because
+        /// Unity removes the instancing variants of other shaders from players.
         /// </summary>
         public Renderer Model
         {
@@ -52,7 +52,7 @@ namespace CollektiveSamples.Swarm
         {
             var manager = SimulationManager.Current;
             if (manager == null || model == null || Application.isBatchMode) return;
-            // Not in OnEnable, which is called before the model is set.
+            // OnEnable would be too early, because the model may not be set yet.
             if (mesh == null) Prepare();
             if (tick != manager.Tick) Take(manager);
             Draw(manager.Nodes, manager.TickFraction);

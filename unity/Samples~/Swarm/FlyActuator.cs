@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Swarm
 {
-    /// <summary>Flies towards the target of the program.</summary>
+    /// <summary>Moves the drone towards the program's target.</summary>
     [AddComponentMenu("Collektive/Samples/Swarm/Fly Actuator")]
     public sealed class FlyActuator : MoveActuator<ActuatorData>
     {

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace CollektiveSamples.Swarm
 {
     /// <summary>
-    /// Drones start from a square on the ground and form one shape after another in the air. One of them leads: it chooses the shape, and its choice spreads
-    /// through the swarm from neighbour to neighbour. After a while, the leader fails, and another drone replaces it.
+    /// Drones start from a square on the ground and form one shape after another in the air. One of them is the leader. It chooses the shape, and the choice
+    /// spreads through the swarm from neighbour to neighbour. After a while, the leader fails, and another drone replaces it.
     /// </summary>
     [AddComponentMenu("Collektive/Samples/Swarm Scene")]
     public sealed class SwarmScene : SceneBuilder
@@ -60,8 +60,8 @@ namespace CollektiveSamples.Swarm
         };
 
         /// <summary>
-        /// Writes the number of drones within a metre of their places on the shape; the number of different shapes; and the least distance in metres
-        /// between the centres of two drones at the beginning of the tick, at most 2.5.
+        /// Writes three values: the number of drones within a metre of their places on the shape; the number of shapes that drones form now; and the smallest
+        /// distance in metres between the centres of two drones at the beginning of the tick, at most 2.5.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -99,7 +99,7 @@ namespace CollektiveSamples.Swarm
             var side = Mathf.CeilToInt(Mathf.Sqrt(drones));
             var field = Mathf.Max(side * Pad, 3 * radius) + 4;
             MakeBox("Floor", new Vector3(0, -0.5f, 0), new Vector3(field, 1, field));
-            // As high as the shapes, because cameras frame the obstacles.
+            // The masts are as high as the shapes, because cameras choose their view by the obstacles.
             foreach (var x in new[] { -1, 1 })
             {
                 foreach (var z in new[] { -1, 1 })
@@ -109,7 +109,7 @@ namespace CollektiveSamples.Swarm
             if (droneModel != null) new GameObject("Drone View").AddComponent<DroneView>().Model = droneModel;
         }
 
-        // Not in Build: when scripts are compiled during play, handlers are lost and only OnEnable is called again.
+        // Build does not add the handler, because Unity removes handlers when it compiles scripts during Play, and then calls only OnEnable.
         private void OnEnable()
         {
             manager = SimulationManager.Current;
@@ -137,7 +137,7 @@ namespace CollektiveSamples.Swarm
         {
             var drone = new GameObject("Drone");
             drone.SetActive(false);
-            // Not quite in line, because drones in one plane would stay there.
+            // The drones have small random offsets. If all were in one plane, they would stay in it.
             var random = manager.Random;
             drone.transform.position = place + new Vector3(random.Range(-0.3f, 0.3f), random.Range(0.3f, 0.9f), random.Range(-0.3f, 0.3f));
             var parameters = drone.AddComponent<Node>().Parameters;
