@@ -7,7 +7,7 @@ namespace Collektive.Headless
     /// <summary>Derives colourings from the nodes' answers, for scenes without their own.</summary>
     internal static class AnswerColourings
     {
-        /// <summary>Each colouring takes time and space in every frame.</summary>
+        /// <summary>Maximum number of colourings. It is limited, because each colouring takes time and space in every frame.</summary>
         private const int MaxColourings = 8;
 
         /// <summary>Returns a colouring for each number, boolean and enum of the answers, at most eight.</summary>
@@ -36,7 +36,7 @@ namespace Collektive.Headless
             if (type == typeof(bool)) return value => (bool)value ? 1 : 0;
             if (type.IsEnum)
             {
-                // In the same order as the names.
+                // The values are in the same order as the names.
                 var values = Enum.GetValues(type);
                 return value => Array.IndexOf(values, value) is var place && place >= 0 ? place : double.NaN;
             }

@@ -17,12 +17,12 @@ namespace Collektive.Headless
             Type = type;
         }
 
-        /// <summary>Name in generated code, whose capitalisation differs from the schema.</summary>
+        /// <summary>Name in generated code. Its capitalisation differs from the name in the schema.</summary>
         internal string Name => member.Name;
 
         internal Type Type { get; }
 
-        /// <summary>Fields and properties of the schema's answers, in the schema's order.</summary>
+        /// <summary>Returns the fields of the answers, in the order of the schema.</summary>
         internal static List<AnswerField> Of(SimulationManager manager)
         {
             var buffer = Schemas.Find(manager.Settings.schema).CreateActuators().GetType();
@@ -36,10 +36,11 @@ namespace Collektive.Headless
             return fields;
         }
 
-        /// <param name="answer">A node's answer, not null.</param>
+        /// <summary>Returns the value of this field in an answer.</summary>
+        /// <param name="answer">The answer of a node, not null.</param>
         internal object Read(object answer) => ValueOf(member, answer);
 
-        /// <summary>The type of a field or property; null for other members.</summary>
+        /// <summary>Returns the type of a field or property; null for other members.</summary>
         internal static Type TypeOf(MemberInfo member) => member is FieldInfo field ? field.FieldType : (member as PropertyInfo)?.PropertyType;
 
         internal static object ValueOf(MemberInfo member, object owner) =>

@@ -5,7 +5,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A value that replaces the value of a scenario key: <c>--set KEY=VALUE</c>, or a key that a sweep varies.</summary>
+    /// <summary>A value that replaces the value of a scenario key. It is from <c>--set KEY=VALUE</c> or from a sweep.</summary>
     internal sealed class Assignment
     {
         private const string Fields = "fields";
@@ -25,10 +25,10 @@ namespace Collektive.Headless
         internal string Key { get; }
 
         /// <summary>
-        /// Reads <c>KEY=VALUE</c>. Any other key sets a field of the scene. Its value stays text until the field's type is known.
+        /// Reads <c>KEY=VALUE</c>. A key that is not a key of scenarios is a field of the scene. The value of a field remains text until its type is known.
         /// </summary>
-        /// <param name="field">The field and its value, <c>FIELD=VALUE</c>; null for other keys.</param>
-        /// <returns>Null for a field.</returns>
+        /// <param name="field">For a field, <c>FIELD=VALUE</c>; otherwise null.</param>
+        /// <returns>The assignment; null for a field.</returns>
         internal static Assignment Parse(string text, out string field)
         {
             field = null;
@@ -37,7 +37,7 @@ namespace Collektive.Headless
             var key = text.Substring(0, equals);
             if (key.StartsWith(Fields + ".", StringComparison.Ordinal)) field = text.Substring(Fields.Length + 1);
             else if (!Scenario.Keys.Contains(key.Split('.')[0])) field = text;
-            // The type of an object's field is known only with the scene.
+            // A field of an object is set like a key, because its type is known only when the scene is loaded.
             if (field != null && NameOf(field).Contains("."))
             {
                 var nested = OfField(field);
@@ -47,11 +47,11 @@ namespace Collektive.Headless
             return field == null ? new Assignment(key, Json(text.Substring(equals + 1))) : null;
         }
 
-        /// <summary>Returns the assignment of a field of the scene, <c>FIELD=VALUE</c>, whose value is JSON or a string.</summary>
+        /// <summary>Converts <c>FIELD=VALUE</c> for a field of the scene to an assignment. The value is JSON or a string.</summary>
         internal static Assignment OfField(string field) =>
             new Assignment(Fields + "." + NameOf(field), Json(field.Substring(field.IndexOf('=') + 1)));
 
-        /// <summary>Whether this one changes the value that <c>FIELD=VALUE</c> has set.</summary>
+        /// <summary>Returns whether this assignment changes the value that an earlier <c>FIELD=VALUE</c> has set.</summary>
         internal bool Changes(string field) => Key == Fields || Key.StartsWith(Fields + "." + NameOf(field) + ".", StringComparison.Ordinal);
 
         /// <summary>Puts the value into a scenario.</summary>
@@ -69,7 +69,7 @@ namespace Collektive.Headless
 
         private static string NameOf(string field) => field.Substring(0, field.IndexOf('='));
 
-        /// <summary>Names of programs and metrics may contain dots, those of parameters do not.</summary>
+        /// <summary>Splits a key into names. Names of programs and metrics may contain dots, but names of parameters cannot.</summary>
         private static string[] Path(string key)
         {
             var names = key.Split('.');
@@ -81,7 +81,7 @@ namespace Collektive.Headless
                 ? new[] { names[0], string.Join(".", names.Skip(1)) } : names;
         }
 
-        /// <summary>Text of the command line. Strings need no quotes.</summary>
+        /// <summary>Reads a value of the command line as JSON. Strings need no quotes.</summary>
         private static JToken Json(string text)
         {
             try

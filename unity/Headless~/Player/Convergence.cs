@@ -5,8 +5,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Determines which metrics have converged: those whose value stayed in a band for a number of simulated seconds. The time of convergence
-    /// is the start of that period. Values between two rows of the metrics are ignored.
+    /// Determines which metrics have converged. A metric has converged if its value stays in a band for a number of simulated seconds. The time of
+    /// convergence is the start of this period. Only values at the rows of the metrics count.
     /// </summary>
     internal sealed class Convergence
     {
@@ -17,7 +17,7 @@ namespace Collektive.Headless
         /// <summary>Whether criteria exist and all metrics have converged.</summary>
         internal bool IsComplete => criteria.Count > 0 && criteria.TrueForAll(criterion => criterion.Time != null);
 
-        /// <summary>Reads the bands, by metric.</summary>
+        /// <summary>Reads the criteria of the metrics.</summary>
         internal static Convergence Read(JsonFile file, JObject metrics)
         {
             var convergence = new Convergence();
@@ -37,7 +37,7 @@ namespace Collektive.Headless
             return convergence;
         }
 
-        /// <summary>Finds the columns of the metrics in the run's metrics.</summary>
+        /// <summary>Finds the metric of each criterion among the run's metrics.</summary>
         internal void Bind(IReadOnlyList<string> names)
         {
             foreach (var criterion in criteria)
@@ -62,7 +62,7 @@ namespace Collektive.Headless
             return json;
         }
 
-        /// <summary>Times of convergence in simulated seconds, by metric; null for those that have not converged.</summary>
+        /// <summary>Returns the times of convergence in simulated seconds, by metric; null for metrics that have not converged.</summary>
         internal JObject Times()
         {
             var json = new JObject();
@@ -70,7 +70,7 @@ namespace Collektive.Headless
             return json;
         }
 
-        /// <summary>The band of one metric.</summary>
+        /// <summary>The criterion by which one metric converges.</summary>
         internal sealed class Criterion
         {
             private double? since;
@@ -93,14 +93,14 @@ namespace Collektive.Headless
 
             internal int Index { get; set; }
 
-            /// <summary>Start of the period in the band; null before convergence.</summary>
+            /// <summary>Time of convergence in simulated seconds; null before convergence.</summary>
             internal double? Time { get; private set; }
 
             internal void Add(double second, double value)
             {
                 if (!(value >= From && value <= To)) since = null;
                 else since = since ?? second;
-                // At second 0 no round has run.
+                // The metric cannot converge at second 0, because no round has run yet.
                 if (since != null && second > 0 && second - since >= Seconds - 1e-6) Time = Time ?? Math.Round(since.Value, 6);
             }
 

@@ -2,15 +2,15 @@ using System.Globalization;
 
 namespace Collektive.Headless
 {
-    /// <summary>Text in CSV files.</summary>
+    /// <summary>Formats cells of CSV files.</summary>
     internal static class CsvText
     {
         private static readonly char[] Special = { ',', '"', '\n', '\r' };
 
-        /// <summary>Returns a cell with a text, in quotes.</summary>
+        /// <summary>Returns the cell of a text, in quotes.</summary>
         internal static string Quoted(string text) => "\"" + text.Replace("\"", "\"\"") + "\"";
 
-        /// <summary>Returns the shortest text that reads back as the same number. Runtimes differ in "R".</summary>
+        /// <summary>Returns the shortest text that reads back as the same number. Does not use the format "R", which differs between runtimes.</summary>
         internal static string Number(double value)
         {
             for (var digits = 15; digits < 17; digits++)

@@ -5,7 +5,7 @@ using System.Text;
 
 namespace Collektive.Headless
 {
-    /// <summary>A text file in the folder that a scenario's key <c>data</c> names.</summary>
+    /// <summary>A text file in the data folder of a scenario, which its key <c>data</c> names.</summary>
     public sealed class DataFile
     {
         private DataFile(string name, string path)
@@ -14,35 +14,35 @@ namespace Collektive.Headless
             Path = path;
         }
 
-        /// <summary>The folder of the current scenario; empty without one.</summary>
+        /// <summary>The data folder of the current scenario; empty if it has none.</summary>
         internal static string Folder { get; set; } = "";
 
-        /// <summary>The path relative to the folder.</summary>
+        /// <summary>The path relative to the data folder.</summary>
         public string Name { get; }
 
         /// <summary>The full path.</summary>
         public string Path { get; }
 
-        /// <summary>Finds a file by its path relative to the folder.</summary>
-        /// <exception cref="ScenarioException">The folder does not contain it.</exception>
+        /// <summary>Finds a file by its path relative to the data folder.</summary>
+        /// <exception cref="ScenarioException">The data folder does not contain the file.</exception>
         public static DataFile Find(string name)
         {
             if (name.Length == 0) throw new ScenarioException("the name of a file is missing");
             if (Folder.Length == 0) throw new ScenarioException("'" + name + "' needs the scenario's key 'data', the folder that contains the file");
             var path = System.IO.Path.GetFullPath(System.IO.Path.Combine(Folder, name));
-            // Repetitions and sweeps have only the files of the folder.
+            // Files outside of the folder are rejected, because repetitions and sweeps do not have them.
             if (!path.StartsWith(Folder + "/", System.StringComparison.Ordinal) || !RegularFile.Exists(path))
                 throw new ScenarioException("'" + name + "' is not a file in the folder 'data', " + Folder);
             return new DataFile(name, path);
         }
 
-        /// <summary>Returns an error with the place in this file.</summary>
-        /// <param name="line">From 1; 0 if unknown.</param>
+        /// <summary>Returns an error with the name of this file and a line.</summary>
+        /// <param name="line">Number of the line, from 1; 0 if unknown.</param>
         public ScenarioException Error(int line, string message) => new ScenarioException(Name + (line > 0 ? ":" + line : "") + ": " + message);
 
-        /// <summary>Reads numbers from a CSV file, whose first line names its columns. Ignores other columns and blank lines.</summary>
-        /// <param name="columns">Names of columns.</param>
-        /// <returns>A row per line, with NaN for missing columns; the last value is the line's number.</returns>
+        /// <summary>Reads columns of numbers from a CSV file. Its first line contains the names of the columns. Blank lines are ignored.</summary>
+        /// <param name="columns">Names of the columns to read.</param>
+        /// <returns>An array per line: the values of the columns, NaN for missing columns, and last the number of the line.</returns>
         /// <exception cref="ScenarioException">A column occurs twice, a line has a wrong number of cells, or a cell is not a finite number.</exception>
         public List<double[]> ReadCsv(params string[] columns)
         {

@@ -7,7 +7,7 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>A run with a debugger. It begins when a debugger has attached to the JVM, and can stop at breakpoints for any time.</summary>
+    /// <summary>Prepares a run for a debugger. The run begins when a debugger has attached to the JVM, and can stop at breakpoints for any time.</summary>
     internal static class DebuggedRun
     {
         private const int PollMs = 100;
@@ -22,7 +22,7 @@ namespace Collektive.Headless
             while (!HasConnection(port) && !interrupt.Requested) Thread.Sleep(PollMs);
         }
 
-        /// <summary>Whether /proc/net/tcp lists an established connection to a port of the loopback interface.</summary>
+        /// <summary>Returns whether /proc/net/tcp lists an established connection to a port of the loopback interface.</summary>
         private static bool HasConnection(int port)
         {
             const string established = "01";

@@ -6,14 +6,14 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Ends frames whose C# does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a tick, so a frame that takes twice
-    /// that long has exceeded the limit in C#. Frames before the simulation is open have no limit.
+    /// Ends frames whose C# code does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a tick. Therefore, a frame that
+    /// takes twice as long has exceeded the limit in C#. Before the simulation is open, frames have no limit.
     /// </summary>
     internal sealed class FrameLimit : IDisposable
     {
         private const int PollMs = 50;
 
-        /// <summary>Time for an aborted frame to end, because native code ignores the abort.</summary>
+        /// <summary>Time in which an aborted frame must end. It may not end, because native code ignores the abort.</summary>
         private const int AbortMs = 3000;
 
         private readonly object gate = new object();
@@ -24,7 +24,7 @@ namespace Collektive.Headless
         private int tick;
         private bool isDisposed;
 
-        /// <param name="giveUp">Called on another thread if a frame does not end even then; does not return.</param>
+        /// <param name="giveUp">Called on another thread if an aborted frame does not end. It must not return.</param>
         internal FrameLimit(SimulationManager manager, Action giveUp)
         {
             this.manager = manager;

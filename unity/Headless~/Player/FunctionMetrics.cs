@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The metrics of a scenario that are functions of its programs. They have values only at the ticks that requested them.</summary>
+    /// <summary>The metrics of a scenario that are functions of its programs. They have values only after ticks that were prepared to measure them.</summary>
     internal sealed class FunctionMetrics
     {
         private readonly List<string> names = new List<string>();
@@ -31,13 +31,13 @@ namespace Collektive.Headless
 
         internal IReadOnlyList<string> Names => names;
 
-        /// <summary>Names of the functions, in the order of <see cref="Names"/>.</summary>
+        /// <summary>Names of the functions, in the order of <see cref="Names"/>, the names of the metrics.</summary>
         internal IReadOnlyList<string> Functions => functions;
 
-        /// <summary>Whether a metric is a function; otherwise it is SQL.</summary>
+        /// <summary>Returns whether a metric is a function. Otherwise, it is SQL.</summary>
         internal static bool IsFunction(JProperty metric) => metric.Value is JObject;
 
-        /// <summary>Decides whether the next tick measures.</summary>
+        /// <summary>Sets whether the next tick evaluates the functions.</summary>
         internal void Prepare(SimulationManager manager, bool isDue) => manager.Simulation.Measures = isDue && names.Count > 0;
 
         /// <summary>Reads the values of a tick.</summary>
@@ -54,7 +54,7 @@ namespace Collektive.Headless
             measuredTime = manager.SimulatedTime;
         }
 
-        /// <summary>Copies the values of the current time, or NaN if its tick did not measure, into an array, starting at an index.</summary>
+        /// <summary>Copies the values to an array, starting at an index. They are NaN if the last tick has not evaluated the functions.</summary>
         internal void Measure(SimulationManager manager, double[] target, int first)
         {
             if (problem != null) throw new ScenarioException(problem);

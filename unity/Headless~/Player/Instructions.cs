@@ -5,14 +5,14 @@ using System.Reflection.Emit;
 
 namespace Collektive.Headless
 {
-    /// <summary>The instructions of a compiled method.</summary>
+    /// <summary>Reads the instructions of a compiled method.</summary>
     internal static class Instructions
     {
         private const byte TwoBytes = 0xfe;
 
         private static readonly Dictionary<short, OpCode> Codes = ReadCodes();
 
-        /// <summary>Returns the instructions in order, with the tokens of members that they refer to.</summary>
+        /// <summary>Returns the instructions in order, each with its operand if that has four bytes, such as the token of a member.</summary>
         internal static IEnumerable<KeyValuePair<OpCode, int>> Of(byte[] body)
         {
             for (var at = 0; at < body.Length;)

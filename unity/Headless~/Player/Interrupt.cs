@@ -6,25 +6,25 @@ using Mono.Unix.Native;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Handles Ctrl-C and SIGTERM. The first signal during a run ends it after the current tick, with its outputs. A signal before the run, and the
-    /// second one, end the process immediately, because user code may not return. One object for the whole process.
+    /// Handles Ctrl-C and SIGTERM. The first signal during a run ends the run after the current tick, and its outputs are written. A second signal, or a signal
+    /// before the run, ends the process immediately, because user code may not return. A process must have only one object of this class.
     /// </summary>
     internal sealed class Interrupt
     {
-        // Console.CancelKeyPress comes only from a terminal.
+        // Console.CancelKeyPress is not used, because it is raised only for a terminal.
         private readonly UnixSignal[] signals = { new UnixSignal(Signum.SIGINT), new UnixSignal(Signum.SIGTERM) };
         private volatile bool isPlaying;
         private volatile int number;
 
         internal Interrupt() => new Thread(Watch) { IsBackground = true }.Start();
 
-        /// <summary>Whether the run is to end.</summary>
+        /// <summary>Whether the run must end.</summary>
         internal bool Requested => number != 0;
 
-        /// <summary>The exit code that shells use for a command that the signal ended.</summary>
+        /// <summary>The exit code that shells use for a command that this signal has ended.</summary>
         internal int ExitCode => 128 + number;
 
-        /// <summary>Lets the run end itself when <see cref="Requested"/> is set.</summary>
+        /// <summary>Starts the period in which the first signal only sets <see cref="Requested"/>, and the run ends itself.</summary>
         internal void BeginPlay() => isPlaying = true;
 
         private void Watch()

@@ -11,12 +11,12 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A JSON file read strictly: a key given twice, an unknown key or a value of another type is an error with its line.</summary>
+    /// <summary>Reads a JSON file strictly. A duplicate key, an unknown key or a value of another type is an error, whose message contains the line.</summary>
     internal sealed class JsonFile
     {
         private const int MaxBytes = 1 << 26;
 
-        // Strings, comments, numbers and names. The last group matches the beginning of a number that JSON does not have.
+        // Matches strings, comments, numbers and names. The last group matches text that begins like a number but is not a number in JSON.
         private static readonly Regex TokenPattern = new Regex(
             @"""[^""\\]*(\\.[^""\\]*)*""|'[^'\\]*(\\.[^'\\]*)*'|//[^\n]*|/\*.*?\*/|-?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)?(?![\w.+-])|-Infinity"
                 + @"|[\p{L}_$][\w.$-]*|(?<number>[0-9.+-][\w.+-]*)", RegexOptions.Singleline | RegexOptions.ExplicitCapture | RegexOptions.CultureInvariant);
@@ -49,11 +49,11 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Reads one value, strictly.</summary>
+        /// <summary>Reads one value from a text.</summary>
         /// <exception cref="JsonReaderException">The text is not one JSON value.</exception>
         internal static JToken Parse(string text, LineInfoHandling lines = LineInfoHandling.Ignore)
         {
-            // The reader would read 010 as 8, and 0x10 as 16.
+            // Rejects numbers such as 010 and 0x10, which the reader would read as 8 and 16.
             for (var match = TokenPattern.Match(text); match.Success; match = match.NextMatch())
             {
                 if (!match.Groups["number"].Success) continue;
@@ -79,7 +79,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns an object in a part of the file, with known keys only; empty if missing.</summary>
+        /// <summary>Returns an object in a part of the file, after checking that all its keys are known; an empty object if it is missing.</summary>
         internal JObject Part(JObject whole, string place, string key, IEnumerable<string> known)
         {
             var token = whole[key];
@@ -102,7 +102,7 @@ namespace Collektive.Headless
             return token == null ? otherwise : (T)Convert(token, typeof(T), key);
         }
 
-        /// <summary>Sets fields of an object from a part of the file. Objects in fields are filled in the same strict way.</summary>
+        /// <summary>Sets fields of an object from a part of the file. If a field contains an object, sets the fields of that object in the same way.</summary>
         internal void Fill(object target, IEnumerable<FieldInfo> fields, JObject part, string place)
         {
             foreach (var field in fields)
@@ -121,7 +121,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Converts a value to a .NET type. An integer type accepts only exactly representable numbers.</summary>
+        /// <summary>Converts a value to a .NET type. An integer type accepts only whole numbers in its range.</summary>
         internal object Convert(JToken token, Type type, string key)
         {
             var kind = token.Type;
@@ -142,12 +142,13 @@ namespace Collektive.Headless
             }
             catch (Exception error) when (error is OverflowException || error is ArgumentException)
             {
-                // The value does not fit the type.
+                // The value is out of the range of the type. The error below reports it.
             }
             var names = type.IsEnum ? " (one of " + string.Join(", ", Enum.GetNames(type)) + ")" : "";
             throw Error(token, NotOfType(token, key, type) + names);
         }
 
+        /// <summary>Returns an error with the path of the file and the line of a token.</summary>
         /// <param name="column">Column in the token's line, from 1; 0 if unknown.</param>
         internal ScenarioException Error(JToken token, string message, int column = 0)
         {
@@ -159,7 +160,8 @@ namespace Collektive.Headless
         private static string NotOfType(JToken token, string key, Type type) =>
             "'" + key + "' is " + token.ToString(Formatting.None) + "; it must be of type " + NameOf(type);
 
-        /// <summary>Returns the matching name, ignoring case, or an empty text. <c>Enum.Parse</c> would also accept numbers and lists of names.</summary>
+        /// <summary>Returns the name of the enum's value that equals a text, ignoring case, or an empty text.</summary>
+        /// <remarks>Without this check, <c>Enum.Parse</c> would also accept numbers and lists of names.</remarks>
         private static string NameIn(Type type, string text) =>
             Array.Find(Enum.GetNames(type), name => name.Equals(text, StringComparison.OrdinalIgnoreCase)) ?? "";
 
@@ -170,7 +172,7 @@ namespace Collektive.Headless
             return strings;
         }
 
-        /// <summary>Name of a type in messages.</summary>
+        /// <summary>Returns the name of a type for messages.</summary>
         internal static string NameOf(Type type)
         {
             if (type == typeof(int) || type == typeof(long)) return "whole number";
@@ -186,7 +188,7 @@ namespace Collektive.Headless
         {
             switch (value)
             {
-                // JValue would write it as a signed number.
+                // A JValue would be written as a signed number.
                 case ulong number: return new JRaw(number.ToString(CultureInfo.InvariantCulture));
                 case Enum name: return new JValue(name.ToString());
                 case IEnumerable<string> strings: return new JArray(strings);

@@ -12,10 +12,13 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The connection of a <see cref="LiveRun"/> with <c>./collektive live</c>. Commands are lines of JSON. Each message starts with its length, a
-    /// little-endian u32: the JSON of an event and a zero, then the bytes of a frame (FORMAT.md, Segment) if it is one. A frame that was not sent
-    /// when the next one is ready is dropped, so the simulation never waits. The process ends when the channel is closed.
+    /// The connection between a <see cref="LiveRun"/> and <c>./collektive live</c>. The process ends when the connection is closed.
     /// </summary>
+    /// <remarks>
+    /// Commands are lines of JSON. A message in the other direction consists of its length (a little-endian u32), the JSON of an event, and a zero. The event
+    /// <c>frame</c> is followed by the bytes of the frame (FORMAT.md, Segment). If a frame has not been sent when the next one is ready, it is dropped,
+    /// so the simulation never waits.
+    /// </remarks>
     internal sealed class LiveChannel
     {
         private const int CloseOnExec = 1;
@@ -35,7 +38,8 @@ namespace Collektive.Headless
             new Thread(WriteMessages) { IsBackground = true }.Start();
         }
 
-        /// <param name="milliseconds">Time to wait for a command.</param>
+        /// <summary>Waits for a command and removes it from the queue; false if none has arrived in time.</summary>
+        /// <param name="milliseconds">Maximum time to wait.</param>
         internal bool TryTake(int milliseconds, out JObject command) => commands.TryTake(out command, milliseconds);
 
         internal void Send(JObject message)
@@ -58,7 +62,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Waits until all messages are sent.</summary>
+        /// <summary>Waits until all messages have been sent.</summary>
         internal void Flush()
         {
             lock (gate)
@@ -81,7 +85,7 @@ namespace Collektive.Headless
         {
             var reader = new StreamReader(stream, Encoding.UTF8);
             for (string line; (line = reader.ReadLine()) != null;) commands.Add(JObject.Parse(line));
-            // The command has ended.
+            // The command has ended and closed the connection.
             Syscall._exit(1);
         }
 

@@ -10,17 +10,20 @@ using Object = UnityEngine.Object;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Plays a scene in real time, and lets <c>./collektive live</c> control it. Commands, one key each: <c>run</c> (true or false), <c>step</c> (number of
-    /// ticks), <c>speed</c> (simulated seconds per second), <c>reload</c>, <c>add</c> (number of nodes, <c>at</c> a point), <c>remove</c> (id), <c>select</c>
-    /// (id or null), <c>parameter</c> (<c>program</c>, <c>name</c>, <c>value</c>). Events: <c>header</c> (FORMAT.md, Header, and controls),
-    /// <c>frame</c>, <c>reload</c>, <c>warning</c>, <c>stopped</c>.
+    /// Plays a scene in real time. <c>./collektive live</c> controls it with commands, and receives events.
     /// </summary>
+    /// <remarks>
+    /// A command is a JSON object with one of these keys: <c>run</c> (true or false), <c>step</c> (number of ticks), <c>speed</c> (simulated seconds per
+    /// second), <c>reload</c>, <c>add</c> (number of nodes; with the point <c>at</c>), <c>remove</c> (id), <c>select</c> (id or null), <c>parameter</c> (its
+    /// name; with <c>program</c> and <c>value</c>). The events are <c>header</c> (the header of FORMAT.md, with data for the controls), <c>frame</c>,
+    /// <c>reload</c>, <c>warning</c> and <c>stopped</c>.
+    /// </remarks>
     internal sealed class LiveRun
     {
-        /// <summary>Limit for a tick, because the page shows nothing new while a tick hangs.</summary>
+        /// <summary>Maximum time limit of a tick. It is short, because the page cannot be updated while a tick hangs.</summary>
         private const int StepLimitMs = 4000;
 
-        /// <summary>Nodes that one command can add.</summary>
+        /// <summary>Maximum number of nodes that one command can add.</summary>
         private const int MaxAdded = 10000;
 
         private const int SlotsPerRow = 1024;
@@ -62,6 +65,7 @@ namespace Collektive.Headless
             recorder = new ReplayRecorder(scenario, scene, runMetrics, manager, metadata => writer = new ReplayWriter(metadata, SendFrame));
         }
 
+        /// <summary>Plays until the user ends the run or the simulation stops.</summary>
         /// <param name="frame">Runs a frame of the player.</param>
         /// <param name="isEnded">Returns whether the user ended the run.</param>
         internal void Play(Action frame, Func<bool> isEnded)
@@ -69,7 +73,7 @@ namespace Collektive.Headless
             recorder.Add(0);
             while (!isEnded())
             {
-                // Handles signals between two waits.
+                // Waits for at most 100 ms, so that isEnded is checked often.
                 var wait = isRunning || steps > 0 ? nextTickMs - clock.Elapsed.TotalMilliseconds : 100;
                 if (channel.TryTake(Math.Max(0, (int)Math.Min(wait, 100)), out var command)) Execute(command);
                 else if ((isRunning || steps > 0) && nextTickMs <= clock.Elapsed.TotalMilliseconds) Tick(frame);
@@ -83,7 +87,7 @@ namespace Collektive.Headless
         private void Tick(Action frame)
         {
             var interval = 1000 * scenario.Settings.deltaTime / speed;
-            // A simulation that is too slow for real time does not catch up.
+            // If the simulation is too slow for real time, it does not try to catch up later.
             nextTickMs = Math.Max(nextTickMs + interval, clock.Elapsed.TotalMilliseconds - interval);
             var tick = manager.Tick;
             runMetrics.Prepare(manager, rows.IsDue(ticks + 1));
@@ -124,7 +128,7 @@ namespace Collektive.Headless
             }
             catch (Exception error)
             {
-                // For example, the scene may not expect nodes to be removed.
+                // For example, the scene may not expect that the user removes nodes.
                 hasMetricsFailed = true;
                 newMetrics = null;
                 Notify("the metrics of the scene failed and are no longer measured: " + error.Message);
@@ -172,7 +176,7 @@ namespace Collektive.Headless
             if (count < 1 || count > MaxAdded) throw new ArgumentException("from 1 to " + MaxAdded + " nodes can be added at once");
             if (manager.Nodes.Count == 0)
             {
-                Notify("no nodes were added: a new node is a copy of another one, and the scene has none");
+                Notify("no nodes were added: a new node is a copy of an existing one, and the scene has no nodes");
                 return;
             }
             var template = manager.Nodes[manager.Nodes.Count - 1];
@@ -180,7 +184,7 @@ namespace Collektive.Headless
             var gap = 2.5f * Mathf.Max(writer.NodeRadius, 0.05f);
             for (var i = 0; i < count; i++)
             {
-                // The golden angle.
+                // With the golden angle, the places are evenly distributed.
                 var angle = i * 2.39996f;
                 var distance = gap * Mathf.Sqrt(i);
                 var place = centre + new Vector3(distance * Mathf.Cos(angle), 0, distance * Mathf.Sin(angle));
@@ -212,7 +216,7 @@ namespace Collektive.Headless
             if (node != null) Object.DestroyImmediate(node.gameObject);
         }
 
-        /// <summary>Sends the current frame again, for a page that shows a paused simulation.</summary>
+        /// <summary>Sends the current frame again, so that the page shows the effect of a command while the simulation is paused.</summary>
         private void Refresh()
         {
             recorder.AddNow();

@@ -10,24 +10,24 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Writes manifest.json with the inputs, versions and results of a run, to repeat and compare it. Measured times are in keys with "_ms" and in
-    /// "wall_seconds".
+    /// Writes manifest.json with the inputs, versions and results of a run, so that users can repeat the run and compare results. Only the keys with "_ms"
+    /// and "wall_seconds" contain measured times.
     /// </summary>
     internal sealed class Manifest
     {
         /// <summary><see cref="Outcome"/> of a run that completed all its ticks, or that a script ended normally.</summary>
         internal const string Complete = "complete";
 
-        /// <summary><see cref="Outcome"/> of a complete run without its pictures. The command creates them, then sets <see cref="Complete"/>.</summary>
+        /// <summary><see cref="Outcome"/> of a complete run without pictures. The command creates them, and then sets <see cref="Complete"/>.</summary>
         internal const string WithoutPictures = "the pictures are missing";
 
-        /// <summary>The other files of a run.</summary>
+        /// <summary>The other output files of a run.</summary>
         private static readonly string[] Files = { "metrics.csv", "nodes.csv", "replay.html", "run.clkrec" };
 
         private readonly string path;
 
-        /// <summary>Describes a run that has not begun.</summary>
-        /// <param name="fields">All fields of the scene, before it was built.</param>
+        /// <summary>Creates the manifest of a run that has not begun.</summary>
+        /// <param name="fields">All fields of the scene before it is built.</param>
         internal Manifest(Scenario scenario, Options options, JObject fields)
         {
             path = Path.Combine(options.Out, "manifest.json");
@@ -42,12 +42,18 @@ namespace Collektive.Headless
 
         internal JObject Root { get; }
 
-        /// <summary>"running" during the run, also if the process is killed; then <see cref="Complete"/>, or the reason why the run is not complete.</summary>
+        /// <summary>
+        /// The outcome: "running" during the run, then <see cref="Complete"/> or the reason why the run is not complete. If the process is killed, it remains
+        /// "running".
+        /// </summary>
         internal string Outcome { set => Root["outcome"] = value; }
 
+        /// <summary>Adds the results and the versions.</summary>
         /// <param name="parameters">Parameters of the programs that ran.</param>
-        /// <param name="ticks">Completed ticks.</param>
-        /// <param name="calls">Calls into the JVM.</param>
+        /// <param name="ticks">Number of completed ticks.</param>
+        /// <param name="start">Values of the metrics before the first tick.</param>
+        /// <param name="end">Values of the metrics after the last tick.</param>
+        /// <param name="calls">Number of calls into the JVM.</param>
         internal void AddResults(
             SimulationManager manager, JObject parameters, int ticks, RunMetrics metrics, IReadOnlyList<double> start, IReadOnlyList<double> end,
             double wallSeconds, ulong calls)
@@ -70,13 +76,13 @@ namespace Collektive.Headless
                     new JProperty("os", Environment.OSVersion.ToString()))));
         }
 
-        /// <summary>Simulated seconds at which metrics have converged.</summary>
+        /// <summary>Adds the simulated seconds at which metrics have converged.</summary>
         internal void AddConvergence(JObject times) => Root.Add("converged", times);
 
-        /// <summary>Types of the columns of nodes.csv.</summary>
+        /// <summary>Adds the types of the columns of nodes.csv.</summary>
         internal void AddNodeColumns(JObject types) => Root.Add("node_columns", types);
 
-        /// <summary>Quantiles over all ticks, in milliseconds.</summary>
+        /// <summary>Adds quantiles of the times of all ticks, in milliseconds.</summary>
         internal void AddTimes(List<double> rounds, List<double> step, List<double> total)
         {
             Root.Add("rounds_ms_median", Math.Round(Quantiles.Of(rounds, 0.5), 4));
@@ -89,15 +95,15 @@ namespace Collektive.Headless
             Root.Add("tick_ms_p99", Math.Round(Quantiles.Of(total, 0.99), 4));
         }
 
-        /// <summary>From the start of the process to the end of the first tick.</summary>
+        /// <summary>Adds the time from the start of the run to the end of the first tick.</summary>
         internal void AddFirstTick(TimeSpan time) => Root.Add("first_tick_ms", Math.Round(time.TotalMilliseconds));
 
-        /// <summary>Milliseconds spent on recording frames and writing the replay page.</summary>
+        /// <summary>Adds the milliseconds that were spent on recording frames and writing the replay page.</summary>
         internal void AddReplay(double milliseconds) => Root.Add("replay_ms", Math.Round(milliseconds));
 
         internal void Write() => ResultFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));
 
-        /// <summary>Writes the manifest after all other files, because it records whether they are complete.</summary>
+        /// <summary>Writes the final manifest. All other files are on the disk before it, because it states whether they are complete.</summary>
         internal void WriteLast()
         {
             foreach (var name in Files) ResultFile.Sync(Path.Combine(Path.GetDirectoryName(path), name));

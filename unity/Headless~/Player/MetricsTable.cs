@@ -9,8 +9,8 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Writes metrics.csv with a row per interval, by default a simulated second. Messages are summed over the ticks of the interval. Times are means in
-    /// milliseconds, so that the phases of a tick add up to it: "other" is the rest, outside the phases of <see cref="TickTimes"/>.
+    /// Writes metrics.csv, which has a row per interval, by default per simulated second. Counts of messages are sums over the ticks of the interval. Times are
+    /// means per tick in milliseconds. The phases add up to the tick, because "other_ms" is the time outside the phases of <see cref="TickTimes"/>.
     /// </summary>
     internal sealed class MetricsTable : IDisposable
     {
@@ -40,17 +40,17 @@ namespace Collektive.Headless
             writer.Write("second," + string.Join(",", NamesOf(metrics).Concat(Times).Select(CsvText.Header)) + "\n");
         }
 
-        /// <summary>The run's metrics at the last row.</summary>
+        /// <summary>The values of the run's metrics when they were last evaluated.</summary>
         internal IReadOnlyList<double> Values => values;
 
-        /// <summary>The reproducible metrics of a row: those of the run, then those of links and messages.</summary>
+        /// <summary>Returns the names of the reproducible columns: the metrics of the run, then the counts of links and messages.</summary>
         internal static IEnumerable<string> NamesOf(RunMetrics metrics)
         {
             foreach (var name in metrics.Names) yield return name;
             foreach (var name in Counts) yield return name;
         }
 
-        /// <summary>Returns the first metric with the name of an earlier column, or null.</summary>
+        /// <summary>Returns the first metric that has the name of another column, or null.</summary>
         internal static string FindDuplicate(RunMetrics metrics)
         {
             var known = new HashSet<string>(Counts.Concat(Times)) { "second" };
@@ -59,7 +59,7 @@ namespace Collektive.Headless
             return null;
         }
 
-        /// <summary>Adds a tick.</summary>
+        /// <summary>Adds the phases and messages of a tick.</summary>
         internal void Add(TickTimes times, NetworkCounts network)
         {
             ticks++;
@@ -75,14 +75,15 @@ namespace Collektive.Headless
             expired += network.Expired;
         }
 
-        /// <summary>Adds the milliseconds between the ends of the previous and of this tick.</summary>
+        /// <summary>Adds the milliseconds from the end of the previous tick to the end of this tick.</summary>
         internal void AddWhole(double milliseconds) => whole.Add(milliseconds);
 
-        /// <summary>Evaluates the metrics of this moment.</summary>
+        /// <summary>Evaluates the metrics at the current time.</summary>
         internal void Measure() => metrics.Measure(manager, values);
 
         /// <summary>
-        /// Writes the row of an interval that ended. Returns it without measured times, in the order of <see cref="NamesOf"/>, valid until the next call.
+        /// Writes the row of an interval that has ended. Returns the row without measured times, in the order of <see cref="NamesOf"/>. It is valid until
+        /// the next call.
         /// </summary>
         internal IReadOnlyList<double> EndInterval(double second, int links)
         {
@@ -98,7 +99,7 @@ namespace Collektive.Headless
                 text += "," + Text(time / Math.Max(1, ticks));
             text += "," + Text(Quantiles.Of(whole, 0.99));
             writer.Write(text + "\n");
-            // A killed run keeps its measurements.
+            // If the run is killed, the rows so far remain.
             writer.Flush();
             whole.Clear();
             ticks = 0;

@@ -10,12 +10,12 @@ using UnityEngine;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The columns of the table of nodes that metrics are computed from: data about each node and its last message, then the numbers, booleans and enums of its
-    /// last answer and of the sensor data of its last round, by their names in the schema. Missing data has no value.
+    /// The columns of the table of nodes, from which SQL metrics are computed. The first columns contain data about each node and its last message. The others
+    /// contain the numbers, booleans and enums of its last answer and of the sensor data of its last round, with their names in the schema.
     /// </summary>
     internal sealed class NodeColumns
     {
-        /// <summary>Maximum depth of nested fields: a table may contain its own type.</summary>
+        /// <summary>Maximum depth of nested fields. It is limited, because a table may contain fields of its own type.</summary>
         private const int MaxDepth = 3;
 
         private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
@@ -47,7 +47,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Names of the columns in use, in the order of <see cref="Read"/>.</summary>
+        /// <summary>Names of the columns that metrics use, in the order of <see cref="Read"/>.</summary>
         internal IEnumerable<string> Used
         {
             get
@@ -56,7 +56,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Number of columns in use.</summary>
+        /// <summary>Number of columns that metrics use.</summary>
         internal int Width => used.Count;
 
         /// <summary>Definitions of the columns in SQL. Names can also be written in Kotlin's camel case.</summary>
@@ -74,7 +74,7 @@ namespace Collektive.Headless
 
         internal static string Quoted(string name) => "\"" + name + "\"";
 
-        /// <summary>Restricts <see cref="Read"/> to these columns.</summary>
+        /// <summary>Sets the columns that metrics use. <see cref="Read"/> reads only these.</summary>
         internal void Use(IEnumerable<string> names)
         {
             foreach (var name in names)
@@ -83,7 +83,7 @@ namespace Collektive.Headless
             for (var i = 0; i < used.Count; i++) kept[i] = Array.Empty<double>();
         }
 
-        /// <summary>Whether columns in use need the sizes of messages.</summary>
+        /// <summary>Whether metrics use the sizes of messages.</summary>
         internal bool MeasuresMessages => used.Exists(column => column.Kind == Kind.Message);
 
         /// <summary>Copies the sensor data and messages of the nodes that were due in a tick, because the next tick overwrites them.</summary>
@@ -106,7 +106,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Prepares to read the current nodes.</summary>
+        /// <summary>Prepares the data of all nodes. Call this method before <see cref="Read"/>.</summary>
         internal void Begin(SimulationManager manager)
         {
             var capacity = manager.Simulation.IdCapacity;
@@ -200,11 +200,11 @@ namespace Collektive.Headless
             internal Kind Kind;
             internal int Index;
 
-            /// <summary>Whether ticks overwrite the values.</summary>
+            /// <summary>Whether the values must be kept, because the next tick overwrites them.</summary>
             internal bool IsKept => Kind == Kind.Sensor || Kind == Kind.Message;
         }
 
-        /// <summary>Reads fields of generated types without boxing.</summary>
+        /// <summary>Reads fields of generated types as numbers, without boxing.</summary>
         private abstract class Reader
         {
             internal List<string> Fields { get; } = new List<string>();
@@ -237,7 +237,7 @@ namespace Collektive.Headless
 
             private void Add(ParameterExpression data, Expression owner, Type type, string prefix, int depth)
             {
-                // In the order of the schema.
+                // Members are in the order of the schema.
                 foreach (var member in type.GetMembers(Public))
                 {
                     if (!(member is FieldInfo) && (member as PropertyInfo)?.GetIndexParameters().Length != 0) continue;

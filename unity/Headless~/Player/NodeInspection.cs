@@ -10,17 +10,17 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The data of one node after a tick, as text.</summary>
+    /// <summary>Describes one node after a tick, as text for the live page.</summary>
     internal static class NodeInspection
     {
         private const int MaxRows = 60;
 
-        /// <returns>Sensor data, answer, last error, incoming links, state and last round of a node; null for an unknown node.</returns>
+        /// <summary>Returns sensor data, answer, last error, incoming links, state and last round of a node; null for an unknown node.</summary>
         internal static JObject Of(SimulationManager manager, int id)
         {
             var node = id < 0 ? null : manager.Find(id);
             if (node == null) return null;
-            // None until a tick has inspected the node.
+            // The answer contains the state of the node only after a tick that has inspected it.
             var answer = manager.Tick > 0 && manager.Simulation.Answer.InspectedNode == id ? manager.Simulation.Answer : null;
             return new JObject(
                 new JProperty("id", id), new JProperty("program", manager.Settings.ProgramOf(node)),
@@ -30,7 +30,7 @@ namespace Collektive.Headless
                 new JProperty("roundMicros", answer?.InspectedRoundNanos / 1000.0));
         }
 
-        /// <summary>Returns path and text of each stored value.</summary>
+        /// <summary>Returns the path and the text of each value in the node's state.</summary>
         private static JArray State(StepAnswer answer)
         {
             var rows = new JArray();
@@ -42,7 +42,7 @@ namespace Collektive.Headless
             return rows;
         }
 
-        /// <summary>Returns the sender and the length of each link on which a node receives.</summary>
+        /// <summary>Returns the sender and the length of each link on which a node receives messages.</summary>
         private static JArray Links(SimulationManager manager, int id)
         {
             var rows = new JArray();

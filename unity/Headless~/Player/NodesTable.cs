@@ -12,8 +12,8 @@ using Schema = org.collektive.schema;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Writes nodes.csv with a row per node and interval: fields of the program's last answer, by their names in the schema, and <c>position</c>. Cells of
-    /// missing answers are empty.
+    /// Writes nodes.csv, which has a row per node and interval. The columns are fields of the node's last answer, with their names in the schema, and
+    /// <c>position</c>. If a node has no answer, its cells are empty.
     /// </summary>
     internal sealed class NodesTable : IDisposable
     {
@@ -23,7 +23,7 @@ namespace Collektive.Headless
         private readonly SimulationManager manager;
         private readonly List<Column> columns = new List<Column>();
 
-        /// <param name="fields">Fields of the answers, and <c>position</c>.</param>
+        /// <param name="fields">Names of fields of the answers, or <c>position</c>.</param>
         internal NodesTable(string path, IEnumerable<string> fields, SimulationManager manager)
         {
             this.manager = manager;
@@ -33,7 +33,7 @@ namespace Collektive.Headless
             writer.Write("second,node," + string.Join(",", columns.SelectMany(column => column.Names)) + "\n");
         }
 
-        /// <summary>Type of each column, for tables of several runs.</summary>
+        /// <summary>Type of each column. Tables of several runs are merged with these types.</summary>
         internal JObject Types => new JObject(columns.SelectMany(column => column.Names.Select(name => new JProperty(name, column.Type))));
 
         internal void Add(double second)
@@ -67,17 +67,17 @@ namespace Collektive.Headless
                     + string.Join(", ", known));
         }
 
-        /// <summary>Generated code capitalises names differently from the schema.</summary>
+        /// <summary>Returns a name in a form in which names in the schema equal those in generated code.</summary>
         private static string Normalize(string name) => name.Replace("_", "").ToLowerInvariant();
 
         private sealed class Column
         {
             private const BindingFlags MemberFlags = BindingFlags.Public | BindingFlags.Instance | BindingFlags.IgnoreCase;
 
-            // The parts of a vector; empty for other types.
+            // The coordinates of a vector; empty for other types.
             private readonly MemberInfo[] parts;
 
-            /// <param name="field">Null for the node's position.</param>
+            /// <param name="field">The field of the answers; null for the node's position.</param>
             internal Column(string name, AnswerField field, Type type)
             {
                 Field = field;
@@ -96,7 +96,7 @@ namespace Collektive.Headless
 
             internal static bool IsSupported(Type type) => type.IsPrimitive || type.IsEnum || type == typeof(string) || PartsOf(type).Length > 0;
 
-            /// <summary>Writes a value with a comma before it, or before each part of a vector; empty cells for null.</summary>
+            /// <summary>Writes the cell of a value, or a cell for each part of a vector. Writes a comma before each cell. Cells for null are empty.</summary>
             internal void Write(TextWriter writer, object value)
             {
                 if (parts.Length == 0)

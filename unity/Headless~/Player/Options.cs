@@ -5,7 +5,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The player's command line; <c>./collektive run</c> writes it.</summary>
+    /// <summary>The command line of the player. <c>./collektive run</c> and other commands start the player with it.</summary>
     internal sealed class Options
     {
         internal const string Usage =
@@ -31,16 +31,16 @@ namespace Collektive.Headless
 
         internal string Out { get; private set; }
 
-        /// <summary>The folder to which the scenario's paths are relative; null for the default.</summary>
+        /// <summary>Folder to which the paths in the scenario are relative; null for the default.</summary>
         internal string Folder { get; private set; }
 
-        /// <summary>Whether the scenario's JVM settings may write files, open ports and load code.</summary>
+        /// <summary>Whether the JVM settings in the scenario may write files, open ports and load code.</summary>
         internal bool TrustJvm { get; private set; }
 
-        /// <summary>Hashes of the project's parts, for the manifest.</summary>
+        /// <summary>Hashes of the parts of the project, which are written to the manifest.</summary>
         internal JObject Inputs { get; private set; } = new JObject();
 
-        /// <summary>Descriptor of a socket, for <see cref="Server"/> and <see cref="LiveChannel"/>.</summary>
+        /// <summary>Descriptor of the socket of <see cref="Server"/> or <see cref="LiveChannel"/>; -1 for other commands.</summary>
         internal int Channel { get; private set; } = -1;
 
         internal string Template { get; private set; }
@@ -64,10 +64,10 @@ namespace Collektive.Headless
         /// <summary>Overrides of scenario keys on the command line.</summary>
         internal List<Assignment> Assignments { get; } = new List<Assignment>();
 
-        /// <summary>Values of fields of the scene, as <c>FIELD=VALUE</c>.</summary>
+        /// <summary>Values of fields of the scene on the command line, in the form <c>FIELD=VALUE</c>.</summary>
         internal List<string> FieldAssignments { get; } = new List<string>();
 
-        /// <summary>Returns the options of one of several runs, with its own folder.</summary>
+        /// <summary>Returns a copy of these options with another output folder, for one of several runs.</summary>
         internal Options For(string folder)
         {
             var options = (Options)MemberwiseClone();
@@ -100,7 +100,7 @@ namespace Collektive.Headless
                 FieldAssignments.Add(field);
                 return;
             }
-            // Fields are set after all keys, so earlier fields that this key changes become keys.
+            // Fields are set after all keys. An earlier assignment of a field that this key changes must become a key, so that it does not win.
             foreach (var earlier in FieldAssignments.FindAll(assignment.Changes))
             {
                 Assignments.Add(Assignment.OfField(earlier));

@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The run that a manifest describes, to be repeated and compared.</summary>
+    /// <summary>The run that a manifest describes. It can be repeated and compared with the repetition.</summary>
     internal sealed class OriginalRun
     {
         internal const string ScenarioKey = "scenario";
@@ -28,22 +28,22 @@ namespace Collektive.Headless
             if (Ticks < 1) throw new ScenarioException(path + ": the run has no ticks to repeat: choose the manifest of a complete run");
         }
 
-        /// <summary>Name of its scenario file.</summary>
+        /// <summary>Name of the run's scenario file.</summary>
         internal string File { get; }
 
-        /// <summary>Folder of its relative paths.</summary>
+        /// <summary>Folder to which the paths in the scenario are relative.</summary>
         internal string Folder { get; }
 
-        /// <summary>Number of ticks, which is less than in its scenario if the run was interrupted.</summary>
+        /// <summary>Number of completed ticks. If the run was interrupted, it is smaller than in the scenario.</summary>
         internal int Ticks { get; }
 
-        /// <summary>Compares the results of a run with those of this one, and prints the differences.</summary>
+        /// <summary>Returns whether a repetition has the same results as this run, and prints the result of the comparison.</summary>
         internal bool IsRepeatedBy(Manifest now)
         {
             var differences = new List<string>();
             foreach (var key in new[] { "ticks", "digest", "end" })
             {
-                // As in files, where NaN is a string.
+                // The values are compared as text, because NaN is a string in files.
                 if (Text(manifest[key]) != Text(now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", previously " + Text(manifest[key]));
             }
             if (differences.Count == 0)
@@ -55,7 +55,7 @@ namespace Collektive.Headless
             return false;
         }
 
-        /// <summary>Prints a line for each changed entry of the "inputs" or "versions".</summary>
+        /// <summary>Prints a line for each entry of "inputs" or "versions" that has changed since this run.</summary>
         internal void PrintDifferences(Manifest now, string key)
         {
             foreach (var property in ((JObject)now.Root[key]).Properties())

@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>Parameters of the nodes' programs, each with its value, or with all values if nodes differ.</summary>
+    /// <summary>Describes the parameters of the nodes' programs. Each parameter has its value, or a list of values if nodes have different ones.</summary>
     internal static class ParameterValues
     {
         internal static JObject Of(SimulationManager manager)

@@ -2,20 +2,22 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>An SQL expression over a node's id, its position in metres (x, y, z) and the simulated time. Not thread-safe.</summary>
+    /// <summary>An SQL expression with the columns id, time, x, y and z: a node's id, the simulated time, and the node's position in metres.</summary>
+    /// <remarks>Not thread-safe.</remarks>
     public sealed class PlaceExpression : IDisposable
     {
         private const string Before = "SELECT (";
         private const string Columns = "id, time, x, y, z";
-        // On a new line, so that a comment cannot hide it.
+        // This part begins on a new line, so that a comment at the end of the user's text cannot hide it.
         private const string After = "\n) FROM (SELECT ?1 AS id, ?2 AS time, ?3 AS x, ?4 AS y, ?5 AS z)";
 
         private readonly double[] values = new double[5];
         private readonly Sqlite database;
         private readonly Sqlite.Statement query;
 
-        /// <param name="limitMs">Milliseconds that an evaluation may take.</param>
-        /// <exception cref="ScenarioException">The text is not an expression of these columns.</exception>
+        /// <summary>Prepares an expression and evaluates it once, to check it.</summary>
+        /// <param name="limitMs">Maximum time of an evaluation in milliseconds.</param>
+        /// <exception cref="ScenarioException">The text is not an expression with these columns.</exception>
         public PlaceExpression(string sql, int limitMs)
         {
             database = new Sqlite(limitMs);
@@ -31,7 +33,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns the value; NaN for NULL.</summary>
+        /// <summary>Returns the value of the expression; NaN if it is NULL.</summary>
         public double Evaluate(int id, double time, double x, double y, double z)
         {
             values[0] = id;
@@ -43,7 +45,7 @@ namespace Collektive.Headless
             return query.Query() ?? double.NaN;
         }
 
-        /// <summary>Releases the engine.</summary>
+        /// <summary>Releases the database.</summary>
         public void Dispose()
         {
             query?.Dispose();

@@ -6,24 +6,24 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>Runs scenario files without Unity: the package's own sources over the stand-in of its API.</summary>
+    /// <summary>Runs scenario files without Unity. The package's sources are compiled against a stand-in for Unity's API.</summary>
     internal static class Program
     {
         private const int JvmStopLimitMs = 5000;
 
         private static int Main(string[] arguments)
         {
-            // The runtime prints exceptions of threads that a script started, then ends the process.
+            // If a thread that a script started throws an exception, the runtime prints it and ends the process. The JVM must be stopped before that.
             AppDomain.CurrentDomain.UnhandledException += (sender, unhandled) => StopJvm(1);
             var code = StopJvm(Run(arguments));
             Console.Out.Flush();
-            // Returning would wait for the foreground threads that scripts started.
+            // A return from Main would wait for the foreground threads that scripts have started.
             Syscall._exit(code);
             return code;
         }
 
-        /// <summary>Stops the JVM before the managed runtime, because its threads and signal handlers must not outlive Mono's.</summary>
-        /// <returns>The exit code.</returns>
+        /// <summary>Stops the JVM. This must happen before Mono ends, because the JVM's threads and signal handlers must not outlive it.</summary>
+        /// <returns>The exit code: <paramref name="code"/>, or at least 1 if the JVM did not stop.</returns>
         private static int StopJvm(int code)
         {
             try
@@ -74,7 +74,7 @@ namespace Collektive.Headless
             return 1;
         }
 
-        /// <summary>Prints the build steps that the run needs, as JSON.</summary>
+        /// <summary>Prints the inputs of the scenario as JSON. The command builds them before the run.</summary>
         private static void Plan(Scenario scenario) => Console.WriteLine(new JObject(
             new JProperty("scripts", scenario.Scripts),
             new JProperty("schema", scenario.Schema),

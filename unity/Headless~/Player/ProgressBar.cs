@@ -4,7 +4,7 @@ using System.Globalization;
 
 namespace Collektive.Headless
 {
-    /// <summary>Prints progress to standard error: a bar on a terminal, otherwise a line every few seconds.</summary>
+    /// <summary>Prints the progress of a run to standard error. On a terminal, it is a bar; otherwise, it is a line every few seconds.</summary>
     internal sealed class ProgressBar
     {
         private const int Width = 30;
@@ -21,7 +21,7 @@ namespace Collektive.Headless
 
         internal double Seconds => clock.Elapsed.TotalSeconds;
 
-        /// <summary>Whether it is time for a new line.</summary>
+        /// <summary>Whether it is time to print the progress again.</summary>
         internal bool Due => clock.Elapsed.TotalSeconds >= next;
 
         internal void Show(int tick, double simulated, string extra)

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Headless
 {
-    /// <summary>Order statistics.</summary>
+    /// <summary>Computes quantiles.</summary>
     internal static class Quantiles
     {
         /// <summary>Returns a quantile by the nearest-rank method; 0 for an empty list. Sorts the list.</summary>

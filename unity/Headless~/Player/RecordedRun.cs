@@ -5,10 +5,10 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>Flight recording that starts before the first tick of a run. Disposing it writes the file.</summary>
+    /// <summary>A flight recording of a run. It starts before the first tick, and its file is written when it is disposed.</summary>
     internal sealed class RecordedRun : IDisposable
     {
-        /// <summary>Frames per sample: aggregate programs nest deeply, and their own frames must not be cut off.</summary>
+        /// <summary>Number of stack frames per sample. Aggregate programs have deep stacks, and the frames of their own code must not be cut off.</summary>
         private const string StackDepth = "-XX:FlightRecorderOptions=stackdepth=512";
 
         internal RecordedRun(JvmSettings settings, string path)

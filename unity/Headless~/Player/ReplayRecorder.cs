@@ -9,16 +9,16 @@ using UnityEngine.SceneManagement;
 
 namespace Collektive.Headless
 {
-    /// <summary>Records the scene's nodes, links and static shapes for the pages.</summary>
+    /// <summary>Records the nodes, links and shapes of a scene for the replay page and the live page.</summary>
     internal sealed class ReplayRecorder : IDisposable
     {
-        /// <summary>Maximum number of frames per simulated second. Ticks in between are skipped.</summary>
+        /// <summary>Maximum number of frames per simulated second. Other ticks are not recorded.</summary>
         private const double MaxFrames = 10;
 
-        /// <summary>Maximum number of nodes in all frames of a simulated second. Large swarms have fewer frames.</summary>
+        /// <summary>Maximum number of nodes in the frames of a simulated second. Therefore, large swarms have fewer frames.</summary>
         private const double MaxNodes = 50000;
 
-        /// <summary>Maximum number of recorded moving shapes. Their poses are in the page's header.</summary>
+        /// <summary>Maximum number of moving shapes. It is limited, because all their poses are in the header of the page.</summary>
         private const int MaxMovers = 64;
 
         /// <summary>Maximum number of squares along each side of a terrain.</summary>
@@ -27,13 +27,13 @@ namespace Collektive.Headless
         private readonly ReplayWriter writer;
         private readonly SceneBuilder scene;
         private readonly SimulationManager manager;
-        // A node's value, by field of the replay.
+        // Functions that return a node's values, one for each field of the replay.
         private readonly List<Func<Node, double>> readers = new List<Func<Node, double>>();
         private readonly ReplayMetrics metrics;
         private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
-        // Colours by node id.
+        // Components that colour nodes, by node id; null if no node has one.
         private readonly Dictionary<int, IColours> colours;
-        // By node id; null if the scene has colourings.
+        // Number of neighbours by node id; null unless it is a field of the replay.
         private int[] neighbours;
         private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
         private readonly Stopwatch clock = new Stopwatch();
@@ -66,23 +66,23 @@ namespace Collektive.Headless
 
         /// <summary>Adds a row of the metrics.</summary>
         /// <param name="time">Simulated seconds.</param>
-        /// <param name="values">By <see cref="MetricsTable.NamesOf"/>.</param>
+        /// <param name="values">Values in the order of <see cref="MetricsTable.NamesOf"/>.</param>
         internal void Measure(double time, IReadOnlyList<double> values) => metrics.Add(time, values);
 
-        /// <summary>Records a frame if one is due. Called between ticks.</summary>
+        /// <summary>Records a frame if one is due. Call this method between ticks.</summary>
         /// <param name="time">Simulated seconds.</param>
         internal void Add(double time)
         {
             if (time >= last + Math.Max(1 / MaxFrames, manager.Nodes.Count / MaxNodes) - 1e-6) Record(time);
         }
 
-        /// <summary>Records a frame of the current time, unless the last one has the same time.</summary>
+        /// <summary>Records a frame of the current time, unless the last frame has the same time.</summary>
         internal void AddNow()
         {
             if (manager.SimulatedTime > last) Record(manager.SimulatedTime);
         }
 
-        /// <summary>Writes the page, which ends at the current time.</summary>
+        /// <summary>Records the last frame, and writes the page.</summary>
         internal void Finish(string template, string path)
         {
             AddNow();
@@ -91,7 +91,7 @@ namespace Collektive.Headless
             clock.Stop();
         }
 
-        /// <summary>Returns and removes the poses of each moving shape so far.</summary>
+        /// <summary>Returns the poses of each moving shape since the last call.</summary>
         internal JArray TakePoses() => new JArray(movers.ConvertAll(mover => (object)mover.Value.TakePoses()));
 
         private void Record(double time)
@@ -101,7 +101,7 @@ namespace Collektive.Headless
             if (neighbours != null) CountNeighbours();
             writer.BeginFrame(time, manager.Simulation.PresentLinks.Count);
             var nodes = manager.Nodes;
-            // Releases memory after many nodes have left.
+            // If many nodes have left, releases the memory of their entries.
             if (colours?.Count > 2 * nodes.Count) colours.Clear();
             for (var i = 0; i < nodes.Count; i++)
             {
@@ -176,7 +176,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns the scene's colourings and then its colours. Without colourings, returns its colours and then fields of the answers.</summary>
+        /// <summary>Returns the scene's colourings, then its colours. Without colourings, returns its colours, then fields of the answers.</summary>
         private List<ReplayField> Fields()
         {
             var fields = new List<ReplayField>();
@@ -200,7 +200,8 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Infinity and numbers beyond the range of float, such as the distance without a source, count as missing, because the page stores floats.
+        /// Returns a value that the page can store as a float. Numbers beyond the range of float, and infinity, such as the distance without a source, count
+        /// as missing.
         /// </summary>
         private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
 
@@ -230,7 +231,7 @@ namespace Collektive.Headless
 
         private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
-        /// <summary>Returns the static box with the largest top, if all nodes are above it. The page draws its own floor instead.</summary>
+        /// <summary>Returns the static box with the largest top, if all nodes are above it, or null. The page draws its own floor instead.</summary>
         private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;
@@ -276,7 +277,7 @@ namespace Collektive.Headless
             Add(metadata, corners, collider.sharedMesh.triangles, collider.transform.position, collider.transform.rotation);
         }
 
-        /// <summary>Adds a terrain with a subset of its samples.</summary>
+        /// <summary>Adds a terrain. Uses only a part of its samples, so that the page stays small.</summary>
         private static void Add(ReplayMetadata metadata, TerrainCollider collider)
         {
             var data = collider.terrainData;

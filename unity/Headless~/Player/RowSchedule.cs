@@ -3,10 +3,10 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>Determines when rows of a table are due. Counts ticks, because sums of times drift: 50 times 0.02f is less than 1.</summary>
+    /// <summary>Determines when rows of a table are due. It counts ticks, because sums of times are inexact: 50 times 0.02f is less than 1.</summary>
     internal sealed class RowSchedule
     {
-        /// <summary>Tolerance of quotients of seconds.</summary>
+        /// <summary>Tolerance with which quotients of times are compared.</summary>
         private const double Tolerance = 1e-6;
 
         private readonly double ticksPerRow;
@@ -16,14 +16,14 @@ namespace Collektive.Headless
         internal RowSchedule(double interval, float deltaTime)
         {
             ticksPerRow = interval / SimulatedSeconds.Exact(deltaTime);
-            // An interval of 1 has three ticks of 0.3333333, however many rows there are.
+            // For example, an interval of 1 has exactly three ticks of 0.3333333, even after many rows.
             if (Math.Abs(ticksPerRow - Math.Round(ticksPerRow)) < Tolerance * ticksPerRow) ticksPerRow = Math.Round(ticksPerRow);
         }
 
         /// <summary>Returns whether the next row is due after a number of ticks.</summary>
         internal bool IsDue(int ticks) => ticks >= rows * ticksPerRow - Tolerance;
 
-        /// <summary>Advances to the row after the next one.</summary>
+        /// <summary>Advances to the following row. Call this method after a row was written.</summary>
         internal void Advance() => rows++;
     }
 }

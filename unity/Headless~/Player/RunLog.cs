@@ -4,14 +4,14 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless
 {
-    /// <summary>Omits the message of a stopped simulation, because the run ends with the same text.</summary>
+    /// <summary>Passes on all log messages except that of a stopped simulation, because the run ends with the same text.</summary>
     internal sealed class RunLog : ILogHandler
     {
         private readonly ILogHandler inner;
 
         private RunLog(ILogHandler inner) => this.inner = inner;
 
-        /// <summary>Filters the messages from now on.</summary>
+        /// <summary>Installs this filter for all later messages.</summary>
         internal static void Install() => Debug.unityLogger.logHandler = new RunLog(Debug.unityLogger.logHandler);
 
         public void LogFormat(LogType logType, Object context, string format, params object[] args)

@@ -4,7 +4,7 @@ using Collektive.Unity;
 
 namespace Collektive.Headless
 {
-    /// <summary>All metrics of a run: those of the scene, then the scenario's SQL, then its functions.</summary>
+    /// <summary>All metrics of a run: first those of the scene, then those of the scenario in SQL, then those that are functions of programs.</summary>
     internal sealed class RunMetrics : IDisposable
     {
         private readonly SceneBuilder scene;
@@ -26,13 +26,13 @@ namespace Collektive.Headless
 
         internal IReadOnlyList<string> Names => names;
 
-        /// <summary>Requests what metrics need from the next tick on.</summary>
+        /// <summary>Requests the data that the metrics need, beginning with the next tick.</summary>
         internal void Begin(SimulationManager manager) => queries.Begin(manager);
 
-        /// <summary>Decides whether the next tick evaluates functions.</summary>
+        /// <summary>Sets whether the next tick evaluates the functions.</summary>
         internal void Prepare(SimulationManager manager, bool isDue) => functions.Prepare(manager, isDue);
 
-        /// <summary>Copies the data that the next tick overwrites.</summary>
+        /// <summary>Copies the data of a tick, because the next tick overwrites it.</summary>
         internal void Ticked(SimulationManager manager)
         {
             queries.Ticked(manager);

@@ -4,8 +4,8 @@ using System.Text.RegularExpressions;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The JVM flags that cannot write files, open ports or load code, which a scenario file may set without <c>--trust-jvm</c>. Unknown flags are unsafe,
-    /// because new JVMs have new flags. The native library rejects flags that endanger the process.
+    /// The JVM flags that a scenario file may set without <c>--trust-jvm</c>, because they cannot write files, open ports or load code. Unknown flags are
+    /// considered unsafe, because new JVMs have new flags. The native library rejects flags that endanger the process, even with the option.
     /// </summary>
     internal static class SafeJvmFlags
     {
@@ -26,12 +26,13 @@ namespace Collektive.Headless
             @"--(enable-preview|((illegal-(access|final-field-mutation|native-access))|sun-misc-unsafe-memory-access|finalization)=\w+)",
         }.Select(form => new Regex("^(" + form + @")\z", RegexOptions.CultureInvariant | RegexOptions.Singleline)).ToArray();
 
-        /// <summary>Parts of the names of switches that make the JVM write files, open ports, or load code.</summary>
+        /// <summary>Parts of the names of switches with which the JVM may write files, open ports or load code.</summary>
         private const string UnsafeSwitches =
             "Dump|Save|LogVM|LogCompilation|LogFile|Record|Archive|JVMCI|Replay|ManagementServer|AttachListener|IdealGraph|PauseAt";
 
         /// <summary>
-        /// Suffixes of options whose value is a path, even if it looks like a number, or a limit at which the JVM ends the process.
+        /// Suffixes of the names of options that are never safe. The value is a path, even if it looks like a number, or a limit at which the JVM ends the
+        /// process.
         /// </summary>
         private const string PathSuffixes = "MallocLimit|File|Path|List|Exit|At|Cache|Output|Configuration|Config|Options|Command|Recording|Only|Error|Mode";
 

@@ -10,7 +10,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// A scenario file, or the scenario in the manifest of a run to repeat. Paths in the file are relative to its folder. Here they are absolute.
+    /// A scenario, from a scenario file or from the manifest of a run to repeat. In the file, paths are relative to its folder. The properties contain
+    /// absolute paths.
     /// </summary>
     internal sealed class Scenario
     {
@@ -21,7 +22,7 @@ namespace Collektive.Headless
 
         private const string StandardScene = "standard";
 
-        /// <summary>The sources of the standard scene, in the clone that contains this program.</summary>
+        /// <summary>Folder with the sources of the standard scene, in the clone that contains this program.</summary>
         private static readonly string StandardFolder =
             System.IO.Path.GetFullPath(System.IO.Path.Combine(AppDomain.CurrentDomain.BaseDirectory, "../../unity/Headless~/Standard"));
 
@@ -31,7 +32,7 @@ namespace Collektive.Headless
             "outputs",
         };
 
-        /// <summary>The settings that are also keys of a scenario. The other settings have different keys.</summary>
+        /// <summary>The fields of the settings that are also keys of a scenario. Other keys set the remaining fields.</summary>
         private static readonly FieldInfo[] Shared = typeof(SimulationSettings).GetFields(BindingFlags.Public | BindingFlags.Instance).Where(field =>
             !new[]
             {
@@ -54,7 +55,7 @@ namespace Collektive.Headless
             Path = path;
             Folder = folder;
             Scene = file.Required<string>(root, "scene");
-            // The copies that sweeps write set both keys.
+            // Sweeps write copies of the scenario in which both keys are set.
             var isOurs = Scene == StandardScene && root["scripts"] == null && root["schema"] == null;
             Scripts = isOurs ? StandardFolder : ExistingPath(file, root, "scripts", folder, directory: true);
             Schema = isOurs ? System.IO.Path.Combine(StandardFolder, "standard.fbs") : ExistingPath(file, root, "schema", folder, directory: false);
@@ -74,7 +75,7 @@ namespace Collektive.Headless
             if (Settings.runtime == AggregateRuntime.Collektive)
             {
                 RuntimeJars = ExistingPath(file, root, nameof(SimulationSettings.runtimeJars), folder, directory: true);
-                // A jar contains compiled programs.
+                // The compiler plugin is needed only for sources. A jar contains compiled programs.
                 if (Directory.Exists(Programs)) RuntimePlugin = ExistingPath(file, root, nameof(SimulationSettings.runtimePlugin), folder, directory: false);
             }
             Jvm = ReadJvm(file, file.Part(root, "", "jvm", JvmSetting.All.Select(setting => setting.Key)), folder, trustsJvm);
@@ -98,10 +99,10 @@ namespace Collektive.Headless
 
         internal string Path { get; }
 
-        /// <summary>Folder that relative paths start from.</summary>
+        /// <summary>Folder to which the paths in the file are relative.</summary>
         internal string Folder { get; }
 
-        /// <summary>The run to repeat; null unless the file is a manifest.</summary>
+        /// <summary>The run to repeat, if the file is a manifest; otherwise null.</summary>
         internal OriginalRun OriginalRun { get; private set; }
 
         internal string Scene { get; }
@@ -115,7 +116,7 @@ namespace Collektive.Headless
 
         internal string Programs { get; }
 
-        /// <summary>Folder of data files; empty without one.</summary>
+        /// <summary>Folder of data files; empty if the scenario has none.</summary>
         internal string Data { get; } = "";
 
         /// <summary>Folder of Collektive's jars; empty with the built-in runtime.</summary>
@@ -126,7 +127,7 @@ namespace Collektive.Headless
 
         internal JObject Fields { get; }
 
-        /// <summary>The settings that scenario and inspector share.</summary>
+        /// <summary>The settings of the simulation, which Unity shows in the inspector of the manager.</summary>
         internal SimulationSettings Settings { get; } = new SimulationSettings();
 
         internal double Seconds { get; private set; }
@@ -141,19 +142,19 @@ namespace Collektive.Headless
         /// <summary>Simulated seconds between two rows of the metrics.</summary>
         internal double Interval { get; }
 
-        /// <summary>Fields in the table of nodes; empty if no table is written.</summary>
+        /// <summary>Fields of the answers in the table of nodes; empty if the table is not written.</summary>
         internal string[] NodeFields { get; }
 
-        /// <summary>Simulated seconds between two rows of each node.</summary>
+        /// <summary>Simulated seconds between two rows of a node in the table of nodes.</summary>
         internal double NodeInterval { get; }
 
-        /// <summary>SQL of the scenario's metrics, by name.</summary>
+        /// <summary>Definitions of the scenario's metrics, by name.</summary>
         internal JObject Queries { get; }
 
         /// <summary>The metrics that are functions of the programs.</summary>
         internal FunctionMetrics Functions { get; }
 
-        /// <summary>Criteria of convergence.</summary>
+        /// <summary>The criteria by which metrics converge.</summary>
         internal Convergence Convergence { get; }
 
         /// <summary>Whether the run ends when all metrics of <see cref="Convergence"/> have converged.</summary>
@@ -165,10 +166,11 @@ namespace Collektive.Headless
 
         internal bool Record { get; }
 
+        /// <summary>Reads and checks a scenario.</summary>
         /// <param name="path">A scenario file, or the manifest of a run.</param>
-        /// <param name="folder">Folder of relative paths; null for the folder of the file, or the original one for a manifest.</param>
-        /// <param name="trustsJvm">Whether the file's JVM settings may write files, open ports and load code.</param>
-        /// <param name="assignments">Values that replace those of the file; none for a manifest.</param>
+        /// <param name="folder">Folder to which paths are relative; null for the folder of the file or, for a manifest, of the original file.</param>
+        /// <param name="trustsJvm">Whether the JVM settings in the file may write files, open ports and load code.</param>
+        /// <param name="assignments">Values that replace those in a scenario file. They do not affect a manifest.</param>
         internal static Scenario Read(string path, string folder, bool trustsJvm, params Assignment[] assignments)
         {
             var file = JsonFile.Read(path);
@@ -185,7 +187,7 @@ namespace Collektive.Headless
             return new Scenario(file, path, run, folder, trustsJvm) { OriginalRun = original };
         }
 
-        /// <summary>Applies the overrides of the command line.</summary>
+        /// <summary>Replaces seed and duration with those of the command line, unless they are null.</summary>
         internal void Override(ulong? seed, double? seconds)
         {
             Settings.seed = seed ?? Settings.seed;
@@ -193,7 +195,7 @@ namespace Collektive.Headless
             if (seconds != null) Count(message => new ScenarioException("--seconds " + seconds + ": " + message));
         }
 
-        /// <summary>Checks and prepares the metrics. The schema's code must be loaded.</summary>
+        /// <summary>Checks and prepares the metrics in SQL. The schema's code must be loaded.</summary>
         internal SqlMetrics MakeMetrics() => new SqlMetrics(File, Queries, Queries.Count == 0 ? null : Schemas.Find(""), Settings.stepLimitMs);
 
         /// <summary>Copies the shared settings to those of the manager.</summary>
@@ -222,7 +224,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns a value as text for programs.</summary>
+        /// <summary>Returns the value of a parameter as the text that programs receive.</summary>
         private static string ProgramText(object value) =>
             value is bool truth ? truth ? "true" : "false" : value is double number ? number.ToString("R", System.Globalization.CultureInfo.InvariantCulture)
                 : System.Convert.ToString(value, System.Globalization.CultureInfo.InvariantCulture);
@@ -242,7 +244,7 @@ namespace Collektive.Headless
         private double ReadInterval(JsonFile file, JObject part, string place)
         {
             var interval = file.Optional(part, "interval", System.Math.Max(1.0, SimulatedSeconds.Exact(Settings.deltaTime)));
-            // An invalid delta time is reported with the settings.
+            // An invalid delta time is reported later, with the other settings.
             if (interval >= SimulatedSeconds.Exact(Settings.deltaTime) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
             throw file.Error(
                 part["interval"] ?? root,
@@ -250,7 +252,7 @@ namespace Collektive.Headless
                     ? "that is at most " + Text(MaxTicks) : "that is at least 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime))));
         }
 
-        /// <summary>Returns the scenario as a scenario file without defaults.</summary>
+        /// <summary>Returns the scenario as a scenario file in which all keys are set, including those with default values.</summary>
         internal JObject ToJson(JObject fields)
         {
             var jvm = new JObject();
@@ -285,7 +287,7 @@ namespace Collektive.Headless
 
         private void Count(System.Func<string, ScenarioException> error)
         {
-            // An invalid delta time is rejected together with the other settings.
+            // An invalid delta time is reported later, with the other settings.
             var deltaTime = SimulatedSeconds.Exact(Settings.deltaTime);
             var ticks = deltaTime > 0 ? System.Math.Round(Seconds / deltaTime) : 1;
             if (!(Seconds > 0) || double.IsInfinity(Seconds)) throw error("'seconds' is " + Text(Seconds) + ": it must be a number greater than 0");
@@ -320,7 +322,7 @@ namespace Collektive.Headless
             return settings;
         }
 
-        /// <summary>A scenario file may come from someone else. The user decides whether its JVM settings may affect this machine.</summary>
+        /// <summary>Rejects JVM settings that may affect this machine. The scenario may be from someone else, so the user must trust them first.</summary>
         private static void RejectUnsafeSettings(JsonFile file, JObject root, JvmSettings settings)
         {
             const string hint = "; add --trust-jvm if you trust the file, or remove it";
@@ -342,7 +344,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns the absolute path. Mono reads two leading slashes as a Windows share.</summary>
+        /// <summary>Returns the absolute path. Removes a second leading slash, because Mono would interpret the path as a Windows share.</summary>
         private static string FullPath(string path) =>
             System.IO.Path.GetFullPath(path.StartsWith("//", StringComparison.Ordinal) ? "/" + path.TrimStart('/') : path);
 

@@ -15,7 +15,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless
 {
-    /// <summary>One run of a scenario. Builds its scene, plays it for its duration, and writes its outputs.</summary>
+    /// <summary>Runs a scenario once: builds the scene, plays it for its duration, and writes the outputs.</summary>
     internal sealed class ScenarioRun
     {
         private readonly Scenario scenario;
@@ -34,7 +34,7 @@ namespace Collektive.Headless
         private string cause = "";
         private int completedTicks;
 
-        /// <param name="startTime">Start time of the run; by default, of the process.</param>
+        /// <param name="startTime">Start time of the run; null for the start time of the process.</param>
         internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, DateTime? startTime = null)
         {
             this.scenario = scenario;
@@ -50,9 +50,10 @@ namespace Collektive.Headless
             scenario.Override(options.Seed, options.Seconds);
         }
 
+        /// <summary>Runs the scenario.</summary>
         /// <returns>
-        /// The exit code: that of a script's <c>Application.Quit</c>; 130 after Ctrl-C; 1 if the simulation stopped early, if rounds, sensors or actuators
-        /// failed, or if a repeated run had different results; otherwise 0.
+        /// The exit code. After <c>Application.Quit</c> in a script, it is the script's exit code; after Ctrl-C, it is 130. It is 1 if the simulation stopped
+        /// early, if rounds, sensors or actuators failed, or if a repeated run had different results. Otherwise, it is 0.
         /// </returns>
         internal int Run()
         {
@@ -62,7 +63,7 @@ namespace Collektive.Headless
             Loop.PhysicsThreads = scenario.Settings.threads;
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
             RunLog.Install();
-            // Each frame runs one tick, regardless of the tick's length.
+            // Allows frames as long as a tick, so that each frame runs one tick.
             Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, scenario.Settings.deltaTime);
             var manager = MakeManager();
             var scene = MakeScene(manager);
@@ -93,9 +94,9 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Checks a scenario and its scene's fields, and throws a <see cref="ScenarioException"/> for an error. Builds and starts nothing.
+        /// Checks a scenario and the fields of its scene. Does not build the scene or start the JVM. Throws a <see cref="ScenarioException"/> for an error.
         /// </summary>
-        /// <returns>Names of the run's metrics.</returns>
+        /// <returns>The names of the run's metrics.</returns>
         internal static IReadOnlyList<string> Check(Scenario scenario, Options options)
         {
             var run = new ScenarioRun(scenario, options, null);
@@ -123,12 +124,12 @@ namespace Collektive.Headless
             settings.jvm.settings = scenario.Jvm;
             FindProblem(settings);
             manager.enabled = true;
-            // Subscribed before the scene's handlers, which may throw.
+            // This handler is added before those of the scene, which may throw exceptions.
             manager.Ticked += Count;
             return manager;
         }
 
-        /// <summary>Ends the process if a frame does not end.</summary>
+        /// <summary>Ends the process, because a frame does not end.</summary>
         private void GiveUp()
         {
             Console.Error.WriteLine("collektive: " + limit.Message);
@@ -157,7 +158,7 @@ namespace Collektive.Headless
             return scene;
         }
 
-        /// <summary>Adds the scene builder to an object, which stays inactive.</summary>
+        /// <summary>Adds the scene builder to an object, sets its fields and checks them. The object stays inactive.</summary>
         private SceneBuilder AddScene(GameObject holder)
         {
             var type = Assembly.LoadFrom(options.Scripts).GetType(scenario.SceneClass);
@@ -189,11 +190,11 @@ namespace Collektive.Headless
 
         private int Play(SimulationManager manager, SceneBuilder scene)
         {
-            // An interrupted run is repeated up to its last tick.
+            // If the original run was interrupted, the repetition ends at the same tick.
             var ticks = scenario.OriginalRun == null ? scenario.Ticks : Math.Min(scenario.Ticks, scenario.OriginalRun.Ticks);
             if (options.IsCheck) ticks = Math.Min(ticks, 1);
             var hasReplay = scenario.Replay && !options.IsCheck;
-            // Like the original run, a repetition continues after failures.
+            // The original run may have continued after failures, so a repetition continues too.
             var stopsAtFailures = !options.KeepGoing && scenario.OriginalRun == null;
             JObject parameters = null;
             var hadNodes = manager.Nodes.Count > 0;
@@ -216,7 +217,7 @@ namespace Collektive.Headless
                 for (var frame = 1; frame <= ticks && !interrupt.Requested && !Loop.QuitRequested && !manager.Finished && !HasConverged; frame++)
                 {
                     var before = completedTicks;
-                    // A repetition of a run that ended early measures at the same ticks.
+                    // Compares with the scenario's number of ticks, so that the repetition of an interrupted run measures at the same ticks.
                     runMetrics.Prepare(manager, rows.IsDue(completedTicks + 1) || frame == (options.IsCheck ? ticks : scenario.Ticks));
                     limit.Begin(completedTicks + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
@@ -276,7 +277,7 @@ namespace Collektive.Headless
                 manifest.Outcome = problem;
                 return 1;
             }
-            // A script that quits determines the exit code.
+            // If a script has ended the run, the script determines the exit code.
             if (!hadNodes && !Loop.QuitRequested)
             {
                 const string Problem = "the run had no nodes";
@@ -286,7 +287,7 @@ namespace Collektive.Headless
             }
             manifest.Outcome = scenario.Pictures ? Manifest.WithoutPictures : Manifest.Complete;
             var isRepeated = scenario.OriginalRun?.IsRepeatedBy(manifest) ?? true;
-            // Exit codes have eight bits: 256 would become 0.
+            // Exit codes have only eight bits, so 256 would become 0.
             var quitCode = Loop.ExitCode == 0 ? 0 : Math.Max(1, Loop.ExitCode & 0xff);
             if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
             if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
@@ -298,7 +299,7 @@ namespace Collektive.Headless
         private ReplayRecorder NewRecorder(SimulationManager manager, SceneBuilder scene) => new ReplayRecorder(
             scenario, scene, runMetrics, manager, metadata => new ReplayWriter(Path.Combine(options.Out, "replay.tmp"), metadata));
 
-        /// <summary>Plays the scene in real time until its user ends it.</summary>
+        /// <summary>Plays the scene in real time until the user ends the run.</summary>
         private int PlayLive(SimulationManager manager, SceneBuilder scene)
         {
             interrupt.BeginPlay();
@@ -328,7 +329,7 @@ namespace Collektive.Headless
             return new ScenarioException("stopped at " + tick + ": " + failure);
         }
 
-        /// <summary>Returns the likely reason why a frame had no tick.</summary>
+        /// <summary>Returns the probable reason why a frame has run no tick, or an empty text.</summary>
         private static string ReasonForMissingTick(SimulationManager manager)
         {
             if (!manager) return ": a script destroyed the Simulation Manager";
@@ -337,7 +338,7 @@ namespace Collektive.Headless
             return Time.timeScale == 1 ? "" : ": a script set Time.timeScale to " + Time.timeScale.ToString(CultureInfo.InvariantCulture);
         }
 
-        /// <summary>Whether all metrics have converged and the scenario ends in that case.</summary>
+        /// <summary>Whether the run must end because all metrics have converged.</summary>
         private bool HasConverged => scenario.StopWhenConverged && scenario.Convergence.IsComplete;
 
         private JObject ProgramsWithParameters(SimulationManager manager)

@@ -9,12 +9,12 @@ using UnityEngine;
 
 namespace Collektive.Headless
 {
-    /// <summary>Sets public fields of a scene builder, from the scenario file and from the command line, and reads them all.</summary>
+    /// <summary>Sets public fields of a scene builder from the scenario file and the command line, and reads all of them.</summary>
     internal static class SceneFields
     {
         private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
 
-        /// <summary>The values of all fields that a scenario can set, including defaults.</summary>
+        /// <summary>Returns the values of all fields that a scenario can set, including defaults.</summary>
         internal static JObject Get(SceneBuilder builder) => (JObject)ToJson(builder, typeof(SceneBuilder));
 
         internal static void Set(SceneBuilder builder, Scenario scenario, IReadOnlyList<string> assignments)
@@ -42,7 +42,7 @@ namespace Collektive.Headless
                 "the scene " + builder.GetType().FullName + " has no public field '" + name + "'; it has: " + string.Join(", ", names));
         }
 
-        /// <summary>Returns the error of a scene. If its message begins with a quoted field that the scenario sets, the error has the field's line.</summary>
+        /// <summary>Returns an error for a problem of a scene. If the text begins with a quoted field of the scenario, adds the line of the field.</summary>
         internal static ScenarioException Error(Scenario scenario, string problem)
         {
             JToken found = scenario.Fields;
@@ -111,12 +111,12 @@ namespace Collektive.Headless
             type.IsArray ? type.GetElementType()
                 : type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>) ? type.GetGenericArguments()[0] : null;
 
-        /// <summary>Whether the scene's code defines a plain class whose fields are keys.</summary>
+        /// <summary>Returns whether a type is a plain class of the scene's code. In a scenario, it is an object whose keys are its fields.</summary>
         private static bool IsObject(Type type) =>
             type.IsClass && !type.IsAbstract && !typeof(UnityEngine.Object).IsAssignableFrom(type) && !typeof(IEnumerable).IsAssignableFrom(type)
                 && !typeof(Delegate).IsAssignableFrom(type) && type.Assembly != typeof(object).Assembly && type.GetConstructor(Type.EmptyTypes) != null;
 
-        /// <summary>Reads command-line text as JSON. Strings need no quotes.</summary>
+        /// <summary>Reads a value of the command line as JSON. Strings need no quotes.</summary>
         private static JToken Token(string text, FieldInfo field)
         {
             if (field.FieldType == typeof(string) || field.FieldType.IsEnum) return new JValue(text);

@@ -8,8 +8,8 @@ using Collektive.Bridge;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Checks the external references of compiled scripts. If one may leave state in the process, such as a culture, a thread or an environment
-    /// variable, each run needs its own process.
+    /// Checks the types and members to which compiled scripts refer. If one of them may leave state in the process, such as a culture, a thread or an
+    /// environment variable, each run needs its own process.
     /// </summary>
     internal static class ScriptReferences
     {
@@ -36,7 +36,7 @@ namespace Collektive.Headless
         /// <summary>Generic types with any number of parameters.</summary>
         private static readonly HashSet<string> GenericTypes = new HashSet<string> { "Action", "Func", "Tuple", "ValueTuple" };
 
-        /// <summary>Types of which scripts may use only some members.</summary>
+        /// <summary>Types of which scripts may use only the named members.</summary>
         private static readonly Dictionary<string, string> Members = new Dictionary<string, string>
         {
             ["System.Threading.Interlocked"] = "CompareExchange",
@@ -101,7 +101,8 @@ namespace Collektive.Headless
             return null;
         }
 
-        /// <summary>Whether the compiler generated the type, for constants or lambdas that capture no variables. C# source cannot use its name.</summary>
+        /// <summary>Returns whether the compiler generated a type for constants, or for lambdas that capture no variables.</summary>
+        /// <remarks>The name of such a type contains "&lt;", which C# code cannot use.</remarks>
         internal static bool IsStateless(Type type) =>
             type.Name.IndexOf('<') >= 0 && type.IsDefined(typeof(CompilerGeneratedAttribute), false)
                 && type.GetFields(BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Instance).Length == 0;
@@ -114,7 +115,7 @@ namespace Collektive.Headless
             foreach (var constructor in type.GetConstructors(All)) yield return constructor;
         }
 
-        /// <summary>Whether a method can write to arbitrary addresses. Verifiable code does not use native integers.</summary>
+        /// <summary>Returns whether a method can write to arbitrary addresses. Only unverifiable code uses these instructions.</summary>
         private static bool UsesPointers(MethodBase method)
         {
             var body = method.GetMethodBody()?.GetILAsByteArray();
@@ -126,7 +127,7 @@ namespace Collektive.Headless
             return false;
         }
 
-        /// <summary>Whether the initial values of static fields could depend on the first run that needs them.</summary>
+        /// <summary>Returns whether the initial values of static fields could depend on the run in which the type is first used.</summary>
         private static bool DependsOnRun(Type type)
         {
             foreach (var instruction in Instructions.Of(type.TypeInitializer.GetMethodBody().GetILAsByteArray()))
@@ -143,8 +144,8 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Returns the types or members that the rows of a table of metadata name. Members of generic types that scripts construct cannot be resolved,
-        /// but their types can.
+        /// Returns the types or members in a table of the scripts' metadata. Skips members of generic types that scripts construct, which cannot be resolved.
+        /// Their types are in another table.
         /// </summary>
         private static IEnumerable<T> Resolve<T>(Func<int, T> resolve) where T : class
         {

@@ -6,8 +6,8 @@ using Collektive.Bridge;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Compares the static fields of a scene's scripts before and after a run: numbers, strings, structs of these, and arrays of them. With
-    /// any other static field, a list for instance, or a reference that <see cref="ScriptReferences"/> does not know, each run needs its own process.
+    /// Compares the static fields of a scene's scripts before and after a run. It can compare numbers, strings, structs of these, and arrays of them. If the
+    /// scripts have another static field, such as a list, or a reference that <see cref="ScriptReferences"/> does not allow, each run needs its own process.
     /// </summary>
     internal sealed class ScriptState
     {
@@ -26,7 +26,7 @@ namespace Collektive.Headless
                     if (!field.IsLiteral && !IsComparable(field)) Problem = Problem ?? type.FullName + "." + field.Name;
                 }
             }
-            // Reading a field runs its type's initializer, which must not be earlier than in a process with one run.
+            // Reading a field runs the initialiser of its type. With a problem, each run has its own process, in which initialisers must not run early.
             if (Problem != null) return;
             foreach (var type in scripts.GetTypes())
             {
@@ -40,17 +40,17 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>A possible remaining state that is not compared, or null.</summary>
+        /// <summary>The part of the scripts that could leave state which cannot be compared; null if none.</summary>
         internal string Problem { get; }
 
-        /// <summary>Whether the fields are unchanged.</summary>
+        /// <summary>Whether the static fields have the same values as before the first run.</summary>
         internal bool IsUnchanged => Problem == null && before.TrueForAll(field => AreEqual(field.Value, field.Key.GetValue(null)));
 
         private static bool IsComparable(FieldInfo field) =>
             IsLambda(field) || IsValueData(field.FieldType) || field.FieldType.IsArray && IsValueData(field.FieldType.GetElementType())
                 || field.IsInitOnly && IsWithoutState(field.FieldType);
 
-        /// <summary>Whether the field caches a lambda that captures no variables.</summary>
+        /// <summary>Returns whether the compiler generated a field to cache a lambda that captures no variables.</summary>
         private static bool IsLambda(FieldInfo field) =>
             field.Name.StartsWith("<>", StringComparison.Ordinal) && typeof(Delegate).IsAssignableFrom(field.FieldType);
 
@@ -65,7 +65,7 @@ namespace Collektive.Headless
             return true;
         }
 
-        /// <summary>Whether a type is a delegate or generated code of a schema.</summary>
+        /// <summary>Returns whether a type is a delegate or belongs to the bridge, like the generated code of a schema.</summary>
         private static bool IsWithoutState(Type type) => typeof(Delegate).IsAssignableFrom(type) || type.Assembly == typeof(DataSchema).Assembly;
 
         private static bool IsValueData(Type type)

@@ -16,13 +16,17 @@ using UnityEngine.Headless;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Runs a scenario for a sweep, one or more times with one JVM. Requests and answers are lines of JSON on the descriptor <c>--channel</c>; an answer has
-    /// the <c>id</c> of its request. <c>{"start": true, "set": {KEY: VALUE}}</c> starts the JVM. Its answer has <c>keepsState</c>: the part of the scripts
-    /// that could leave state for the next run, or null. <c>{"out": FOLDER, "set": ...}</c> runs the scenario; the answer has its exit <c>code</c>, and
-    /// <c>again</c>: whether another run may follow. A run prints to log.txt in its folder. <c>{"check": true, "set": ...}</c> reads the scenario
-    /// and the scene's fields, and runs nothing; the answer has the <c>problem</c>, or the names of the scene's <c>metrics</c>. The process
-    /// ends when the channel is closed.
+    /// Runs a scenario for a sweep, one or more times with the same JVM. Requests and answers are lines of JSON on the descriptor <c>--channel</c>. An
+    /// answer contains the <c>id</c> of its request. The process ends when the channel is closed.
     /// </summary>
+    /// <remarks>
+    /// <para><c>{"start": true, "set": {KEY: VALUE}}</c> starts the JVM. In the answer, <c>keepsState</c> is the part of the scripts that could leave state
+    /// for the next run, or null.</para>
+    /// <para><c>{"out": FOLDER, "set": ...}</c> runs the scenario, which prints to log.txt in the folder. In the answer, <c>code</c> is the exit code, and
+    /// <c>again</c> states whether another run may follow.</para>
+    /// <para><c>{"check": true, "set": ...}</c> checks the scenario and the scene's fields without running them. The answer contains the <c>problem</c>, or
+    /// the names of the run's <c>metrics</c>.</para>
+    /// </remarks>
     internal sealed class Server
     {
         private const int CloseOnExec = 1;
@@ -36,15 +40,15 @@ namespace Collektive.Headless
         internal Server(Options options)
         {
             this.options = options;
-            // Child processes of scripts must neither answer nor keep the channel open.
+            // Processes that scripts start must not inherit the channel. They could send answers, and would keep the channel open.
             Syscall.fcntl(options.Channel, FcntlCommand.F_SETFD, CloseOnExec);
             channel = new UnixStream(options.Channel);
-            // As in the editor, the JVM keeps running when a run ends.
+            // The JVM keeps running when a run ends, as in the editor.
             Loop.IsEditor = true;
             new Thread(ReadRequests) { IsBackground = true }.Start();
         }
 
-        /// <summary>Answers requests until a run leaves state that could affect the next one.</summary>
+        /// <summary>Answers requests until a run fails or leaves state that could affect the next run.</summary>
         internal void Serve()
         {
             while (true)
@@ -62,7 +66,7 @@ namespace Collektive.Headless
         {
             var reader = new StreamReader(channel, Encoding.UTF8);
             for (string line; (line = reader.ReadLine()) != null;) requests.Add(line);
-            // The sweep has ended.
+            // The sweep has ended and closed the channel.
             Syscall._exit(1);
         }
 
@@ -77,7 +81,7 @@ namespace Collektive.Headless
             }
             catch (Exception error) when (error is BridgeException || error is ScenarioException)
             {
-                // The run fails in the same way, and reports it.
+                // The run will fail in the same way and report the error.
             }
             return new JObject(new JProperty("keepsState", state.Problem));
         }

@@ -9,16 +9,16 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The metrics of a scenario: SQL aggregates over the current table of nodes, with a row per node in the order of ids. A metric without a value, for
-    /// example over zero nodes, is NaN.
+    /// The metrics of a scenario that are SQL. Each is an aggregate over the table of nodes, which has a row per node in the order of ids. A metric without a
+    /// value, for example the mean of zero nodes, is NaN.
     /// </summary>
     internal sealed class SqlMetrics : IDisposable
     {
         private const string Before = "SELECT (";
-        // On a new line, so that a comment cannot hide it.
+        // This part begins on a new line, so that a comment at the end of the user's text cannot hide it.
         private const string After = "\n) FROM " + Sqlite.Table;
 
-        /// <summary>Rows of one statement.</summary>
+        /// <summary>Number of rows that one statement inserts.</summary>
         private const int RowsPerInsert = 64;
 
         private readonly List<Metric> metrics = new List<Metric>();
@@ -29,7 +29,7 @@ namespace Collektive.Headless
         private readonly Sqlite.Statement clear, insert, insertMany;
         private readonly double[] rows;
 
-        /// <summary>Checks all metrics on an empty table and on a table with two nodes.</summary>
+        /// <summary>Prepares all metrics, and checks them on an empty table and on a table with two nodes.</summary>
         /// <param name="limitMs">Milliseconds that a metric may take.</param>
         internal SqlMetrics(JsonFile file, JObject root, DataSchema schema, int limitMs)
         {
@@ -51,13 +51,13 @@ namespace Collektive.Headless
 
         internal IReadOnlyList<string> Names => names;
 
-        /// <summary>Requests the data that metrics need from the next tick on.</summary>
+        /// <summary>Requests the data that the metrics need, beginning with the next tick.</summary>
         internal void Begin(SimulationManager manager) => manager.Simulation.MeasuresMessages = columns?.MeasuresMessages == true;
 
         /// <summary>Reads the sensor data and messages of a tick.</summary>
         internal void Ticked(SimulationManager manager) => columns?.Ticked(manager);
 
-        /// <summary>Evaluates the metrics at the current time into an array, starting at an index.</summary>
+        /// <summary>Evaluates the metrics at the current time, and writes their values to an array, starting at an index.</summary>
         internal void Measure(SimulationManager manager, double[] values, int first)
         {
             if (metrics.Count == 0) return;
@@ -92,7 +92,7 @@ namespace Collektive.Headless
         private Sqlite.Statement Insertion(int rows)
         {
             var used = columns.Used.Select(NodeColumns.Quoted).ToList();
-            // A table needs at least one column.
+            // An INSERT needs at least one column, even if the metrics use none.
             var row = used.Count == 0 ? "(NULL)" : "(" + string.Join(",", used.Select(name => "?")) + ")";
             return database.Prepare("INSERT INTO " + Sqlite.Table + " (" + (used.Count == 0 ? "id" : string.Join(",", used)) + ") VALUES "
                 + string.Join(",", Enumerable.Repeat(row, rows)));
@@ -114,8 +114,8 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Throws unless a metric has one row even without nodes, as aggregates do, and the same value for both orders of two nodes. SQLite accepts columns
-        /// outside of an aggregate function, and reads them from any node.
+        /// Throws an exception if a metric is not an aggregate. An aggregate has one row even without nodes, and the same value for both orders of two nodes.
+        /// SQLite itself accepts columns outside of aggregate functions, and reads them from any node.
         /// </summary>
         private void RequireAggregate(Metric metric)
         {
@@ -168,7 +168,7 @@ namespace Collektive.Headless
         private static int ColumnOf(IJsonLineInfo token, string text, int character)
         {
             if (!token.HasLineInfo() || text.Any(letter => letter < ' ' || letter == '"' || letter == '\\')) return 0;
-            // The position of a token is after its quote.
+            // LinePosition is the end of the token, after the closing quote.
             return Math.Max(0, token.LinePosition - text.Length + character);
         }
 

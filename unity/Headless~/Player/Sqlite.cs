@@ -7,8 +7,7 @@ using System.Text;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// A database in memory. Queries are untrusted: they can only read the table and call deterministic functions.
-    /// Not thread-safe.
+    /// A database in memory. Queries may be from someone else, so they can only read one table and call deterministic functions. Not thread-safe.
     /// </summary>
     internal sealed class Sqlite : IDisposable
     {
@@ -21,25 +20,25 @@ namespace Collektive.Headless
         private const int Done = 101;
         private const int Deny = 1;
 
-        // Actions that the authorizer may allow.
+        // The actions that the authorizer allows.
         private const int Read = 20;
         private const int Select = 21;
         private const int Function = 31;
 
-        /// <summary>Instructions of SQLite between two checks of the time limit: about a millisecond.</summary>
+        /// <summary>Number of SQLite's instructions between two checks of the time limit. They take about a millisecond.</summary>
         private const int InstructionsPerCheck = 100_000;
 
-        /// <summary>Bytes of all databases of the process.</summary>
+        /// <summary>Maximum memory of all databases in the process, in bytes.</summary>
         private const long MaxMemory = 1L << 30;
 
-        /// <summary>Numeric functions that depend only on their arguments.</summary>
+        /// <summary>The functions that queries can call. They are numeric and depend only on their arguments.</summary>
         private static readonly HashSet<string> Allowed = new HashSet<string>(
             ("avg count max median min percentile percentile_cont percentile_disc sum total "
                 + "cume_dist dense_rank first_value lag last_value lead nth_value ntile percent_rank rank row_number "
                 + "abs acos acosh asin asinh atan atan2 atanh ceil ceiling coalesce cos cosh degrees exp floor ifnull iif if ln log log10 log2 mod nullif "
                 + "pi pow power radians round sign sin sinh sqrt tan tanh trunc typeof").Split(' '), StringComparer.OrdinalIgnoreCase);
 
-        // Collected delegates would leave the database with dangling pointers.
+        // The database calls these delegates, so they must not be collected as garbage.
         private readonly Authorizer authorizer;
         private readonly ProgressHandler progress;
         private readonly IntPtr database;
@@ -80,9 +79,9 @@ namespace Collektive.Headless
         }
 
         /// <summary>Prepares a user's query, restricted to reading.</summary>
-        /// <param name="columns">Gets the names of the columns of the table that the query reads.</param>
+        /// <param name="columns">Set to which the names of the columns that the query reads are added; may be null.</param>
         /// <param name="parameters">Number of parameters in the player's part of the query.</param>
-        /// <exception cref="SqlException">The text is not one query with one column, or its action is not allowed.</exception>
+        /// <exception cref="SqlException">The text is not one query with one column, or does something that is not allowed.</exception>
         internal Statement PrepareQuery(string sql, ISet<string> columns, int parameters = 0)
         {
             var bytes = Bytes(sql);
@@ -111,7 +110,7 @@ namespace Collektive.Headless
 
         private string Message => Text(sqlite3_errmsg(database));
 
-        // Never throws: SQLite calls it.
+        // This method must not throw exceptions, because SQLite calls it.
         private int Authorize(IntPtr data, int action, IntPtr first, IntPtr second, IntPtr schema, IntPtr trigger)
         {
             switch (action)
@@ -124,8 +123,8 @@ namespace Collektive.Headless
             }
         }
 
-        /// <param name="column">Empty: only rows are counted.</param>
-        /// <param name="isInSchema">False for the rows of a subquery, and for all rows that are only counted.</param>
+        /// <param name="column">The column that is read; empty if rows are only counted.</param>
+        /// <param name="isInSchema">Whether the table belongs to a schema. False for subqueries, and if rows are only counted.</param>
         private int AuthorizeRead(string table, string column, bool isInSchema)
         {
             var isInternal = table.StartsWith("sqlite_", StringComparison.OrdinalIgnoreCase) || table.StartsWith("pragma_", StringComparison.OrdinalIgnoreCase);
@@ -167,7 +166,7 @@ namespace Collektive.Headless
 
             public void Dispose() => sqlite3_finalize(handle);
 
-            /// <summary>Executes a statement without results, with the first values of an array as its parameters; NaN becomes NULL.</summary>
+            /// <summary>Executes a statement without results. Its parameters are the first values of an array; NaN becomes NULL.</summary>
             internal void Execute(double[] values, int count)
             {
                 if (collektive_insert(handle, values, count) != Done) throw new InvalidOperationException("SQLite: " + owner.Message);
@@ -179,8 +178,8 @@ namespace Collektive.Headless
                 if (collektive_bind(handle, values, values.Length) != Ok) throw new InvalidOperationException("SQLite: " + owner.Message);
             }
 
-            /// <summary>Returns the number in the only row; NaN for NULL; null for zero rows.</summary>
-            /// <exception cref="SqlException">The query fails or returns any other result.</exception>
+            /// <summary>Returns the number in the only row; NaN if it is NULL; null if the result has no rows.</summary>
+            /// <exception cref="SqlException">The query fails, or has another result.</exception>
             internal double? Query()
             {
                 owner.clock.Restart();
@@ -278,10 +277,10 @@ namespace Collektive.Headless
 
         private int Character { get; }
 
-        /// <summary>Returns the place in a user's text that begins at an offset in the query; -1: not known.</summary>
+        /// <summary>Returns the position in a user's text, which begins at an offset in the query; -1 if the position is unknown.</summary>
         internal int CharacterIn(string text, int offset) => Character < offset ? -1 : Math.Min(Character - offset, text.Length);
 
-        /// <summary>Returns the message, with the place in a user's text and, for an unknown column, the known ones.</summary>
+        /// <summary>Returns the message with the position in a user's text. For an unknown column, also names the known columns.</summary>
         internal string Describe(string text, int offset, string columns)
         {
             var at = Character - offset;

@@ -9,7 +9,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The path of a node: its positions over time, or a single position.</summary>
+    /// <summary>The path of a node. It has positions over time, or a single position.</summary>
     public sealed class Track
     {
         private const double EarthRadius = 6371008.8;
@@ -34,7 +34,7 @@ namespace Collektive.Headless
         public int Line { get; }
 
         /// <summary>Reads the tracks of a CSV, GeoJSON or GPX file, in the order of the file.</summary>
-        /// <param name="isMoving">Whether all places need times.</param>
+        /// <param name="isMoving">Whether nodes follow the tracks, so that all positions must have times.</param>
         /// <exception cref="ScenarioException">The file is invalid.</exception>
         public static List<Track> Read(DataFile file, bool isMoving)
         {
@@ -48,11 +48,12 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Returns the position at a time, in metres, interpolated linearly between the points. Before the first and after the last point, it is at that point.
+        /// Returns the position at a time in metres. Between two points, the position is interpolated linearly. Before the first and after the last point, it
+        /// is the position of that point.
         /// </summary>
         public void PlaceAt(double time, out float x, out float z)
         {
-            // Start again if the time has gone back.
+            // If the time is earlier than in the last call, the search starts again.
             if (times[current] > time) current = 0;
             while (current + 1 < times.Count && times[current + 1] <= time) current++;
             var next = Math.Min(current + 1, times.Count - 1);
@@ -119,7 +120,7 @@ namespace Collektive.Headless
                         var lon = file.Number((string)point.Attribute("lon"), line, "lon");
                         var lat = file.Number((string)point.Attribute("lat"), line, "lat");
                         RequireGeographic(file, line, lon, lat);
-                        // Without times, only the first point counts.
+                        // If nodes do not follow the tracks, only the first point counts.
                         if (!isMoving && track.times.Count > 0) break;
                         var time = isMoving ? TimeOf(file, point) : double.NaN;
                         earliest = Math.Min(earliest, time);
@@ -207,7 +208,7 @@ namespace Collektive.Headless
                 + " are out of range; in degrees, they must be from -180 to 180 and from -90 to 90");
         }
 
-        /// <summary>Converts degrees to metres around the centre of all points: equirectangular, x to the east, z to the north.</summary>
+        /// <summary>Converts degrees to metres from the centre of all points, by equirectangular projection. x points east, and z north.</summary>
         private static void Project(List<Track> tracks)
         {
             double west = double.PositiveInfinity, east = double.NegativeInfinity, south = west, north = east;
@@ -221,7 +222,7 @@ namespace Collektive.Headless
                     north = Math.Max(north, track.z[i]);
                 }
             }
-            // The points are on both sides of the antimeridian.
+            // If the points are on both sides of the antimeridian, western longitudes continue beyond 180 degrees.
             if (east - west > 180)
             {
                 foreach (var track in tracks)

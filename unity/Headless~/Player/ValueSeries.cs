@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Headless
 {
-    /// <summary>Values over time of each node, or of all nodes together, from a CSV file with the column value, and optionally id and time.</summary>
+    /// <summary>Values over time, from a CSV file with the column value and optionally id and time. Without ids, the values are those of all nodes.</summary>
     public sealed class ValueSeries
     {
         private const int AllNodes = -1;
@@ -26,7 +26,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Returns the node's last value up to a time; NaN before the first one, and for nodes that are not in the file.</summary>
+        /// <summary>Returns the last value of a node up to a time; NaN before its first value, and for nodes that are not in the file.</summary>
         public double ValueAt(int id, double time)
         {
             if (!byId.TryGetValue(id, out var rows) && !byId.TryGetValue(AllNodes, out rows)) return double.NaN;
@@ -34,7 +34,7 @@ namespace Collektive.Headless
             while (low < high)
             {
                 var middle = (low + high) / 2;
-                // A value without a time applies from the start.
+                // The time of a value without a time is NaN, so it applies from the start.
                 if (rows[middle][2] > time) high = middle;
                 else low = middle + 1;
             }
