@@ -190,8 +190,8 @@ typedef struct clk_answer {
 } clk_answer;
 
 /* Opens a session, with the request frame in the caller's slot. On CLK_OK, `session` and `answer` are set. Returns CLK_MEMORY if 256 sessions are
- * already open. If a debugger stops the JVM, returns CLK_PENDING with `session` set, and clk_session_wait returns the result later. The other errors
- * are those of clk_step. After an error, no session was opened. */
+ * already open. If a debugger stops the JVM, returns CLK_PENDING with `session` set, and clk_session_wait returns the result later. For the
+ * other errors, see clk_step. After an error, no session was opened. */
 CLK_API int32_t clk_session_open(clk_slot slot, int32_t offset, int32_t length, int32_t limit_ms, clk_session *session, clk_answer *answer);
 
 /* Steps a session, with the request frame in the caller's slot. After an error, the session is in the same state as before the call, except after

@@ -15,7 +15,7 @@ namespace Collektive.Headless
     /// </summary>
     internal sealed class NodeColumns
     {
-        /// <summary>Maximum depth of nested fields. It is limited, because a table may contain fields of its own type.</summary>
+        /// <summary>Maximum depth of nested fields. It is limited, because a table may contain itself as a field.</summary>
         private const int MaxDepth = 3;
 
         private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;

@@ -8,7 +8,7 @@ namespace Collektive.Headless
     /// <summary>A flight recording of a run. It starts before the first tick, and its file is written when it is disposed.</summary>
     internal sealed class RecordedRun : IDisposable
     {
-        /// <summary>Number of stack frames per sample. Aggregate programs have deep stacks, and the frames of their own code must not be cut off.</summary>
+        /// <summary>Number of stack frames per sample. Aggregate programs have deep stacks, and none of their frames must be cut off.</summary>
         private const string StackDepth = "-XX:FlightRecorderOptions=stackdepth=512";
 
         internal RecordedRun(JvmSettings settings, string path)

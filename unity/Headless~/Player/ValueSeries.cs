@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Headless
 {
-    /// <summary>Values over time, from a CSV file with the column value and optionally id and time. Without ids, the values are those of all nodes.</summary>
+    /// <summary>Values over time, from a CSV file with the column value and optionally id and time. Without ids, the values apply to all nodes.</summary>
     public sealed class ValueSeries
     {
         private const int AllNodes = -1;
