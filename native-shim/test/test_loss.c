@@ -145,7 +145,7 @@ void signal_handlers_are_repaired(void) { skip("Windows has no signal handlers")
 
 void fork_loses_the_jvm(void) { skip("Windows has no fork"); }
 
-void stop_while_the_start_hangs(void) { skip("Windows has no named pipes in the file system, on which a start would hang"); }
+void stop_while_the_start_hangs(void) { skip("Windows has no pipes in the file system, which would make a start hang"); }
 #else
 void signal_handlers_are_repaired(void) {
     struct sigaction before, now;

@@ -8,11 +8,11 @@
 #include <windows.h>
 
 #include "prim.h"
-void own_without_resources(void) { skip("uses limits of POSIX"); }
-void own_without_processes(void) { skip("uses limits of POSIX"); }
-void own_out_of_memory(void) { skip("uses limits of POSIX"); }
-void own_needs_no_shared_memory_folder(void) { skip("needs Linux mounts"); }
-void own_continues_after_a_suspension(void) { skip("uses signals"); }
+void own_without_resources(void) { skip("Windows has no resource limits as in POSIX"); }
+void own_without_processes(void) { skip("Windows has no resource limits as in POSIX"); }
+void own_out_of_memory(void) { skip("Windows has no resource limits as in POSIX"); }
+void own_needs_no_shared_memory_folder(void) { skip("the folder /dev/shm exists only on Linux"); }
+void own_continues_after_a_suspension(void) { skip("Windows has no signals to suspend a process"); }
 
 static DWORD handles(void) {
     DWORD count = 0;
@@ -369,7 +369,7 @@ void own_without_processes(void) {
     struct rlimit limit = {0};
     int failures = 0, before = 0;
     if (getuid() == 0) CHECK(setgid(65534) == 0 && setuid(65534) == 0); /* the limit does not apply to root */
-    if (access(host_classes, R_OK) != 0 || access(java_home(), R_OK) != 0) skip("other users cannot read the build");
+    if (access(host_classes, R_OK) != 0 || access(java_home(), R_OK) != 0) skip("other users cannot read the build folder or the JVM");
     CHECK(getrlimit(RLIMIT_NPROC, &limit) == 0);
     for (rlim_t processes = 1;; processes += processes < 4 ? 1 : 4) {
         struct rlimit less = {.rlim_cur = processes, .rlim_max = limit.rlim_max};
@@ -412,7 +412,7 @@ void own_out_of_memory(void) {
 /* The shared memory has no file in /dev/shm, so the JVM also starts when this folder is full. */
 void own_needs_no_shared_memory_folder(void) {
     clk_session session;
-    if (unshare(CLONE_NEWNS) != 0) skip("mounts need root");
+    if (unshare(CLONE_NEWNS) != 0) skip("only root can mount file systems");
     CHECK(mount(NULL, "/", NULL, MS_REC | MS_PRIVATE, NULL) == 0 && mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=4k") == 0);
     FILE *file = fopen("/dev/shm/full", "w");
     CHECK(file != NULL);
@@ -425,8 +425,8 @@ void own_needs_no_shared_memory_folder(void) {
     CHECK_OK(step(session, GROW, 1 << 24, 60000));
 }
 #else
-void own_out_of_memory(void) { skip("setting limits of another process needs Linux"); }
-void own_needs_no_shared_memory_folder(void) { skip("private mounts need Linux"); }
+void own_out_of_memory(void) { skip("only Linux can limit the resources of another process"); }
+void own_needs_no_shared_memory_folder(void) { skip("the folder /dev/shm exists only on Linux"); }
 #endif
 #endif
 

@@ -27,7 +27,7 @@ static void write_file(const char *folder, const char *name, const char *text, m
 /* Creates a home that contains only the lib folder of the real JVM. */
 static const char *make_home_with_lib(void) {
 #if defined(_WIN32)
-    skip("a JVM without its bin/java.exe: its libraries are in bin, and symbolic links are for administrators only");
+    skip("on Windows, the JVM's libraries are in bin beside java.exe, and only administrators can create symbolic links");
 #else
     const char *home = scratch_folder();
     char target[4096], link[4096];
@@ -162,7 +162,7 @@ void class_path_missing(void) {
 /* Only the UTF-8 code page contains both characters of the path. */
 void class_path_beyond_ascii(void) {
     char path[4096];
-    if (GetACP() == CP_UTF8) skip("this Windows uses UTF-8 as its code page, which has all characters");
+    if (GetACP() == CP_UTF8) skip("the code page of this Windows is UTF-8, which can encode all characters");
     snprintf(path, sizeof path, "%s/\xC3\xA4\xE4\xB8\xAD", scratch_folder());
     wchar_t wide[4096];
     MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, 4096);

@@ -9,10 +9,10 @@ namespace CollektiveSamples.Crowd
     public sealed class GoalSensor : Sensor<SensorData>
     {
         [SerializeField]
-        [Tooltip("Goal of the walker.")]
+        [Tooltip("Position in metres to which the walker goes.")]
         private Vector3 goal;
 
-        /// <summary>Goal of the walker.</summary>
+        /// <summary>Position in metres to which the walker goes.</summary>
         public Vector3 Goal
         {
             get => goal;

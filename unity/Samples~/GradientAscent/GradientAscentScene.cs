@@ -40,7 +40,7 @@ namespace CollektiveSamples.GradientAscent
         public float fieldScale = 1;
 
         [SerializeField]
-        [Tooltip("Prefab of the nodes. If empty, the scene builds an equivalent object, as in runs without Unity.")]
+        [Tooltip("Prefab of the nodes. If empty, the scene builds an equivalent object. Runs without Unity do this too.")]
         private Node nodePrefab = null;
 
         [SerializeField]

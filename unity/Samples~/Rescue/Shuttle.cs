@@ -9,11 +9,11 @@ namespace CollektiveSamples.Rescue
     public sealed class Shuttle : MonoBehaviour
     {
         [SerializeField]
-        [Tooltip("Turning point, in metres.")]
+        [Tooltip("First turning point in metres.")]
         private Vector3 from;
 
         [SerializeField]
-        [Tooltip("Turning point, in metres.")]
+        [Tooltip("Second turning point in metres.")]
         private Vector3 to;
 
         [SerializeField]

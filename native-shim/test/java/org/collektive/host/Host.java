@@ -45,7 +45,7 @@ final class Host {
 
     static long control(long session, ByteBuffer request, int offset, int length, long slot, ByteBuffer answer, int limitMillis)
             throws Exception {
-        if (session != 0) throw new AssertionError("a control call must not have a session, but came with " + session);
+        if (session != 0) throw new AssertionError("the session of a control call must be 0, but is " + session);
         return step(session, request, offset, length, slot, answer, limitMillis);
     }
 
@@ -191,7 +191,7 @@ final class Host {
         all.add(answer);
         while (answer.capacity() < size) {
             answer = Shim.grow(slot, answer.capacity() + 1);
-            if (answer != Shim.grow(slot, answer.capacity())) throw new AssertionError("a slot that is large enough must not change");
+            if (answer != Shim.grow(slot, answer.capacity())) throw new AssertionError("Shim.grow must return the same buffer if it is large enough");
             all.add(answer);
         }
         for (int i = 0; i < all.size(); i++) {
@@ -199,7 +199,7 @@ final class Host {
         }
         for (int i = 0; i < all.size(); i++) {
             for (int at = 0; at < all.get(i).capacity(); at += 64) {
-                if (all.get(i).get(at) != i) throw new AssertionError("buffers of one call overlap");
+                if (all.get(i).get(at) != i) throw new AssertionError("two buffers of the same call overlap");
             }
         }
         for (int at = 0; at < size; at++) answer.put(at, (byte) at);
