@@ -57,9 +57,9 @@ typedef struct clk_point {
 
 /* A point near a place. */
 typedef struct clk_near {
-    int32_t index;  /* of the point in clk_neighbours_place */
-    int32_t id;     /* of the point */
-    float distance; /* from the place */
+    int32_t index;  /* index of the point in clk_neighbours_place */
+    int32_t id;     /* id of the point */
+    float distance; /* distance from the place */
 } clk_near;
 
 /*
@@ -79,8 +79,8 @@ typedef struct clk_search {
 /* A point to which a rule must have a link. */
 typedef struct clk_neighbour {
     int32_t id;        /* id of the point; not the rule's own point */
-    float length;      /* of the link */
-    float attenuation; /* of the link */
+    float length;      /* length of the link */
+    float attenuation; /* attenuation of the link */
 } clk_neighbour;
 
 /* A link. If rules and scripts set different values, the last values count. */
@@ -107,8 +107,8 @@ typedef struct clk_changes {
 
 /* One direction of a pair. */
 typedef struct clk_direction {
-    float length;       /* of the link */
-    float attenuation;  /* of the link */
+    float length;       /* length of the link */
+    float attenuation;  /* attenuation of the link */
     int32_t references; /* number of references; 0: no link */
     uint8_t is_sent;    /* private */
     uint8_t is_dirty;   /* private */
@@ -121,8 +121,8 @@ typedef struct clk_pair {
     int32_t low;        /* the lower id */
     int32_t high;       /* the higher id */
     int32_t next;       /* private */
-    clk_direction up;   /* from the lower to the higher id */
-    clk_direction down; /* from the higher to the lower id */
+    clk_direction up;   /* link from the lower to the higher id */
+    clk_direction down; /* link from the higher to the lower id */
 } clk_pair;
 
 /* All pairs, for reading. */

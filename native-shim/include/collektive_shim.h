@@ -78,10 +78,10 @@ enum clk_error {
 #define CLK_PENDING 1
 
 enum clk_jvm_state {
-    CLK_STATE_NONE = 0,    /* never started in this process */
-    CLK_STATE_RUNNING = 1, /* serves calls */
-    CLK_STATE_LOST = 2,    /* exited, aborted or not responding; another can start only if it had its own process */
-    CLK_STATE_STOPPED = 3  /* ended by clk_jvm_stop; another can start only if it had its own process */
+    CLK_STATE_NONE = 0,    /* no JVM has been started */
+    CLK_STATE_RUNNING = 1, /* the JVM serves calls */
+    CLK_STATE_LOST = 2,    /* the JVM has exited, aborted or stopped responding; another can start only if it had its own process */
+    CLK_STATE_STOPPED = 3  /* clk_jvm_stop has ended the JVM; another can start only if it had its own process */
 };
 
 /* ---- Version and errors ---------------------------------------------------------------------------------------------- */
@@ -103,8 +103,8 @@ CLK_API int32_t clk_last_error(char *buffer, int32_t capacity);
 /* ---- JVM ------------------------------------------------------------------------------------------------------------- */
 
 enum clk_placement {
-    CLK_IN_PROCESS = 0, /* on a thread of this process */
-    CLK_OWN_PROCESS = 1 /* in a child process, which `home`/bin/java runs and which ends with this process */
+    CLK_IN_PROCESS = 0, /* the JVM runs in this process, on the engine thread */
+    CLK_OWN_PROCESS = 1 /* the JVM runs in a child process, `home`/bin/java, which ends with this process */
 };
 
 /* Configuration of the JVM. */
@@ -115,7 +115,7 @@ typedef struct clk_jvm_config {
     const char *class_path;     /* jars of the host, with the platform's separator */
     const char *const *options; /* JVM options, one string each, in order; may be NULL when option_count is 0 */
     int32_t start_limit_ms;     /* limit of the whole call; 1 or greater */
-    int32_t check_options;      /* not 0: try the options in a child process first (recommended: invalid options can end the process) */
+    int32_t check_options;      /* not 0: try the options in a child process first; recommended, as invalid options can end this one */
     int32_t placement;          /* one of enum clk_placement */
     int32_t reserved;           /* 0 */
 } clk_jvm_config;
@@ -183,10 +183,10 @@ typedef uint64_t clk_session; /* 0 is never a session; the upper half is the gen
  * until the session is closed. The answer of clk_control is valid until the next clk_control. clk_jvm_stop invalidates all answers. */
 typedef struct clk_answer {
     uint32_t size;
-    int32_t offset;   /* of the frame, in bytes from `address` */
-    int32_t length;   /* of the frame, in bytes */
-    int32_t capacity; /* of the slot, in bytes */
-    uint8_t *address; /* of the slot's first byte; the frame begins at address + offset */
+    int32_t offset;   /* bytes from `address` to the frame */
+    int32_t length;   /* length of the frame in bytes */
+    int32_t capacity; /* size of the slot in bytes */
+    uint8_t *address; /* first byte of the slot; the frame begins at address + offset */
 } clk_answer;
 
 /* Opens a session, with the request frame in the caller's slot. On CLK_OK, `session` and `answer` are set. Returns CLK_MEMORY if 256 sessions are
@@ -229,9 +229,9 @@ CLK_API int32_t clk_log_read(int32_t *level, char *buffer, int32_t capacity);
 /* Counters, which start at 0 with the process unless stated otherwise. */
 typedef struct clk_stats {
     uint32_t size;
-    int32_t sessions;        /* open now */
-    int32_t slots;           /* acquired now, including those of answers */
-    int32_t process;         /* id of the JVM's own process, running or not; 0 if it runs in this process */
+    int32_t sessions;        /* number of sessions that are open now */
+    int32_t slots;           /* number of slots that are acquired now, including those of answers */
+    int32_t process;         /* id of the JVM's own process, even after its end; 0 if the JVM runs in this process */
     uint64_t steps;          /* calls of clk_step that reached the host */
     uint64_t slot_bytes;     /* size of the pool now, in use or not */
     uint64_t wrapped;        /* direct ByteBuffers that were created */

@@ -40,7 +40,7 @@ struct grid {
 /* The points that a search has found. A key has the point's index in its high half, and the bits of the distance in its low half. */
 struct hits {
     uint64_t *keys;
-    uint64_t *spare; /* for sorting */
+    uint64_t *spare; /* second array, which sorting needs */
     int32_t count, capacity, spare_capacity;
 };
 

@@ -9,7 +9,7 @@
 /* A flag for each id. Ids may be far apart, so the flags are in pages that are allocated on first use. */
 struct flags {
     uint8_t **pages;
-    int32_t capacity; /* of pages */
+    int32_t capacity; /* length of `pages` */
 };
 
 /* Most links exist in both directions. Therefore the table contains pairs of links, and one reference may cover both links of a pair. */
@@ -17,7 +17,7 @@ struct links {
     clk_pair *pairs;
     int32_t *buckets; /* hash table of the pairs; its size is `capacity`, a power of two */
     int32_t used, capacity, first_free;
-    int32_t count; /* of links */
+    int32_t count; /* number of links */
 
     int32_t *dirty; /* pairs in which a direction has changed */
     int32_t dirty_count, dirty_capacity;

@@ -71,7 +71,7 @@ struct clk_neighbours {
     float cell;
     clk_near *found;
     int32_t found_capacity;
-    struct changes *changes; /* of each search */
+    struct changes *changes; /* changes of each search */
     int32_t changes_capacity;
 
     /* The update in progress. */

@@ -76,7 +76,7 @@ static void signal_all(condition *changed) { pthread_cond_broadcast(changed); }
 
 struct workers {
     lock mutex;
-    condition has_work; /* also signalled when the workers are destroyed */
+    condition has_work; /* signalled for new work, and when the workers are destroyed */
     condition is_done;
     thread threads[MAX_WORKERS - 1];
     int32_t started;

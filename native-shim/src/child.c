@@ -240,6 +240,6 @@ int32_t child_stop(int32_t limit_ms, int64_t deadline) {
     if (!prim_semaphore_wait_until(&child.ended, deadline))
         return error_set(CLK_TIMEOUT, "the JVM did not end within %d ms; its process was killed, and flight recordings may be missing",
                          limit_ms);
-    prim_semaphore_post(&child.ended); /* for child_end */
+    prim_semaphore_post(&child.ended); /* child_end waits for it too */
     return CLK_OK;
 }

@@ -10,7 +10,7 @@
 
 /* Used on the engine thread only, except `security_exception`, which does not change after the start. */
 static struct {
-    JNIEnv *env; /* of the engine thread */
+    JNIEnv *env; /* JNI environment of the engine thread */
     jclass host;
     jmethodID start, close, stop, calls[HOST_CALLS];
     jmethodID to_string, get_name;

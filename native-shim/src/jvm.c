@@ -362,7 +362,7 @@ static bool halt(void) {
     prim_signals_repair(); /* without HotSpot's handlers, its threads could not stop at a safepoint */
     prim_semaphore_post(&jvm.halt_wake);
     if (!prim_semaphore_wait_until(&jvm.halted, prim_now() + HALT_LIMIT_MS * PRIM_MILLI)) return false;
-    prim_semaphore_post(&jvm.halted); /* for the next clk_jvm_stop */
+    prim_semaphore_post(&jvm.halted); /* the next clk_jvm_stop waits for it too */
     return true;
 }
 

@@ -13,8 +13,8 @@
 /* Records between two positions. A position is the number of all bytes before it since the start, modulo 2^32. The tail moves after a record was
  * written, so a process that dies while it writes leaves only whole records. */
 struct log_ring {
-    _Atomic uint32_t head; /* of the oldest record */
-    _Atomic uint32_t tail; /* after the latest record */
+    _Atomic uint32_t head; /* position of the oldest record */
+    _Atomic uint32_t tail; /* position after the latest record */
     _Atomic uint64_t dropped;
     char bytes[LOG_RING_BYTES];
 };

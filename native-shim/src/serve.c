@@ -81,7 +81,7 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     host_text(env, token, text, sizeof text);
     serve.memory = prim_child_attach(text);
     serve.channel = (struct channel *)(void *)serve.memory;
-    serve.blocks = calloc(PRIM_SHARED_BYTES / CHANNEL_ALIGNMENT, sizeof(struct block *)); /* only used pages need memory */
+    serve.blocks = calloc(PRIM_SHARED_BYTES / CHANNEL_ALIGNMENT, sizeof(struct block *)); /* pages that are not used need no memory */
     const char *problem = serve.memory == NULL || serve.blocks == NULL
                               ? "cannot map the memory of the caller; free memory or raise the limit of threads"
                           : serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel

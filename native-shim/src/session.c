@@ -28,7 +28,7 @@ static struct {
     struct session control;  /* owns the answer slot of clk_control; no caller opens it */
     struct host_call call;   /* the call that the host runs, or ran last */
     struct session *caller;  /* session of a call that returned CLK_PENDING and has not been completed; otherwise NULL */
-    int64_t limit, deadline; /* of the call, including the grace period */
+    int64_t limit, deadline; /* limit and deadline of the call, including the grace period */
     atomic_int count;
     _Atomic uint64_t steps;
 } sessions;

@@ -27,7 +27,7 @@ static struct {
     int32_t taken;
     uint64_t bytes;
     uint64_t unused_bytes;
-    struct block *unused[MAX_CLASS + 1]; /* by class */
+    struct block *unused[MAX_CLASS + 1]; /* list of unused blocks of each class */
     struct block *surplus;               /* blocks to be freed once the engine thread has deleted their wrappers */
 
     uint8_t *shared; /* NULL until slots_share; after that, all new blocks are ranges of this memory, which are never split */

@@ -11,12 +11,12 @@
 
 struct block {
     uint8_t *address;
-    uint64_t offset;  /* in the memory shared with the JVM's own process, where no block begins at 0; 0: in memory of this process only */
-    int32_t capacity; /* a power of two */
-    int32_t pins;     /* calls of the host that use it now */
-    bool counted;     /* in the pool's bytes: it has memory */
-    bool abandoned;   /* no slot owns it: the last unpin returns it to the pool */
-    void *wrapper;    /* global reference to its direct ByteBuffer, or NULL; engine thread only, while pinned */
+    uint64_t offset;     /* position in the memory that the JVM's own process shares; 0 for a block that is not shared */
+    int32_t capacity;    /* a power of two */
+    int32_t pins;        /* number of calls of the host that use the block now */
+    bool counted;        /* the block has memory, which is counted in the pool's size */
+    bool abandoned;      /* no slot owns the block, so the last unpin returns it to the pool */
+    void *wrapper;       /* global reference to its direct ByteBuffer, or NULL; used by the engine thread only, while pinned */
     struct block *older; /* the shared block created before */
     struct block *next;  /* the next block of the pool's list, or of the retired blocks of a call */
 };

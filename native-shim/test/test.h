@@ -36,7 +36,7 @@ void make_folder(const char *folder, const char *name);
 /* Starts the JVM of java_home() with the test host and with these options, which end with NULL. Checks the options in a child process first. */
 int32_t start(const char *const *options);
 const char *own_or(const char *own, const char *in_process); /* one of the texts, depending on `placement` */
-extern int32_t placement;                                    /* of the JVM in all starts */
+extern int32_t placement;                                    /* placement of the JVM in all starts */
 int32_t check(const char *const *options);                   /* runs the checks of start() only */
 int32_t check_texts(const char *const *options);             /* runs the same checks except those in the child process */
 int32_t start_at(const char *home, const char *class_path, const char *const *options, bool check_options, int32_t limit_ms);

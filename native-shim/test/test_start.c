@@ -313,7 +313,7 @@ void long_lines_of_the_jvm(void) {
     while (used < 9000) used += snprintf(class_path + used, sizeof class_path - (size_t)used, "%c%s", PRIM_PATH_SEPARATOR, host_classes);
     CHECK_OK(start_at(java_home(), class_path, OPTIONS("-Xlog:arguments=info"), false, 60000));
     while (clk_log_read(&level, line, sizeof line) >= 0) {
-        if (strstr(line, " VM warning: ") != NULL) continue; /* with Wine, the JVM prints a warning */
+        if (strstr(line, " VM warning: ") != NULL) continue; /* the JVM prints a warning with Wine */
         CHECK(line[0] == '[');                               /* all other lines begin with the time */
         if (strlen(line) == sizeof line - 1) cut++;
     }
