@@ -39,6 +39,7 @@ suite(stress stress LABELS all NEEDS build:jvm_modules
 # A run of all suites tests the shim and C# in process on the newest JDK, and C# with the JVM in its own process on the oldest.
 list(GET COLLEKTIVE_TEST_JDKS 0 oldest)
 list(GET COLLEKTIVE_TEST_JDKS -1 newest)
+set(usual mono-sgen --without Slow --without Repeats)
 foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   cmake_path(GET jdk FILENAME name)
   # A run of all suites includes slow tests only on the newest JDK.
@@ -62,13 +63,13 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(shim-slow-on-${name} shim LABELS ${slow} NEEDS build:shim_test PARALLEL ${java_home} COMMAND ${shim} -L slow)
   suite(sanitized-on-${name} sanitized LABELS extra NEEDS build:sanitized TIMEOUT 1800 ${java_home}
     COMMAND ctest --test-dir "${COLLEKTIVE_BUILD}/sanitized" --output-on-failure -j 2 --output-junit RESULTS/shim.xml)
-  suite(csharp-on-${name} csharp LABELS ${in_process} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
+  suite(csharp-on-${name} csharp LABELS ${in_process} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" ${usual})
   suite(csharp-own-process-on-${name} csharp LABELS ${own_process} NEEDS ${csharp_needs} NUNIT PARALLEL ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
-    SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --without Slow)
+    SCRIPT csharp.py RESULTS "${jdk}" ${usual})
   suite(csharp-debugger-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Debugger)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()
-# On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
+# Weekly, with all repetitions. On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
 suite(csharp-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --without Slow)
 suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --only Slow)
@@ -85,7 +86,7 @@ suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT PARALLEL SCRIPT faults/faults.py --results RESULTS/faults.xml)
 suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
-suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
+suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED SCRIPT pages.py page RESULTS)
 suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED SCRIPT pages.py live RESULTS)
@@ -105,7 +106,7 @@ set(one_machine "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 2)
 suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} ${one_machine} -m "not slow")
 suite(experiments-slow experiments LABELS extra NEEDS ${experiments_tests} ${one_machine} -m slow)
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
-suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing UNLOCKED
+suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing UNLOCKED PARALLEL
   SCRIPT chaos/chaos.py 6 3 3 1 12 --results RESULTS/chaos.xml)
 # Corpora and random inputs of the other fuzzers are cases of the suites jvm, roundtrip and shim.
 suite(fuzz fuzz LABELS all NEEDS build:runtime build:Collektive.Fuzz.exe SCRIPT fuzz.py 5 RESULTS/scenario.xml)

@@ -293,6 +293,7 @@ def code_block(language: str) -> str:
     return str(re.findall(rf"(?ms)^```{language}\n(.*?)^```$", (ROOT / "Documentation~/experiments.md").read_text())[0])
 
 
+@pytest.mark.slow
 def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     experiment = json.loads((GRADIENTS / "experiment.json").read_text())
     assert experiment == json.loads(code_block("json"))
@@ -337,6 +338,7 @@ def test_the_package_can_be_installed_with_pip(tmp_path: Path) -> None:
     assert (tmp_path / "collektive_experiments/__init__.py").exists()
 
 
+@pytest.mark.slow
 def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
     keys = {**EIGHT, "vary": {**EIGHT["vary"], "fields.lamps": [5]}}
     written = lamps.sweep("--slurm", out="slurm", **keys)

@@ -111,10 +111,20 @@ def crosses(start, end, box):
 
 
 class Repeatability(Folder):
+    def write(self, **changes) -> None:
+        """Writes the scenario of the case study with changes, without pictures."""
+        with open(os.path.join(SAMPLE, "scenario.json")) as file:
+            scenario = json.load(file)
+        for key in ("scripts", "schema", "programs"):
+            scenario[key] = os.path.join(SAMPLE, scenario[key])
+        with open(self.path("scenario.json"), "w") as file:
+            json.dump(scenario | {"outputs": {"metrics": True}} | changes, file)
+
     def test_equal_seeds_have_equal_digests_and_different_seeds_differ(self) -> None:
         digests = []
+        self.write(fields={"nodes": 80}, seconds=4)
         for seed, out in [("7", "a"), ("7", "b"), ("8", "c")]:
-            result = collektive("demo", "--nodes", "80", "--seconds", "4", "--seed", seed, "--out", self.path(out))
+            result = collektive("run", self.path("scenario.json"), "--seed", seed, "--out", self.path(out))
             self.assertEqual(result.returncode, 0, result.stderr)
             digests.append(self.manifest(self.path(out))["digest"])
         self.assertEqual(digests[0], digests[1])
@@ -122,15 +132,9 @@ class Repeatability(Folder):
 
     def test_results_do_not_depend_on_threads_or_placement(self) -> None:
         """Tests bodies that crowd around the source and push each other."""
-        with open(os.path.join(SAMPLE, "scenario.json")) as file:
-            scenario = json.load(file)
-        for key in ("scripts", "schema", "programs"):
-            scenario[key] = os.path.join(SAMPLE, scenario[key])
-        scenario |= {"fields": {"nodes": 300, "range": 3, "source": [-10, 0, 0]}, "seconds": 12, "outputs": {"metrics": True}}
         results = []
         for process, threads in enumerate([1, 2, 4, 2]):
-            with open(self.path("scenario.json"), "w") as file:
-                json.dump(scenario | {"threads": threads}, file)
+            self.write(fields={"nodes": 300, "range": 3, "source": [-10, 0, 0]}, seconds=12, threads=threads)
             out = self.path(f"out{process}")
             result = collektive("run", self.path("scenario.json"), "--out", out)
             self.assertEqual(result.returncode, 0, result.stderr)

@@ -10,6 +10,7 @@ import unittest
 from pathlib import Path
 
 import installed
+import pytest
 from command import collektive, jdk, last_error
 
 from build import metas
@@ -147,6 +148,7 @@ class PackageTest(Packaged):
         self.assertIn("--nonesuch", last_error(result))
 
 
+@pytest.mark.slow
 class JvmPackageTest(Packaged):
     OPTIONS = ("--jre",)
 

@@ -25,7 +25,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void A_sample_has_one_digest_in_any_order(string sample, string program, string size, int count) =>
             AssertOne(Few, () => PlaySample(sample, program, size, count));
 
-        [Test, Category("Slow")]
+        [Test, Category("Repeats")]
         [TestCase("Channel", "channel", "nodes", 120)]
         [TestCase("Crowd", "crowd", "walkers", 40)]
         [TestCase("GradientAscent", "gradient-ascent", "nodes", 60)]
