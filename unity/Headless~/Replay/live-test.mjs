@@ -380,6 +380,8 @@ suite('live', { timeout: 600000 }, async (t) => {
     await eventually(() => state(page.view), ({ nodes, tick }) => nodes === 100 && tick > 2, 'the lesson should run');
     await page.view.evaluate(() => window.replay.select(3));
     await page.view.waitForFunction(() => /State(?!value).+ > .+\d/.test(document.getElementById('inspection').textContent), null, { polling: 100 });
+    // Long values wrap, and leave room for the names.
+    assert.ok(await page.view.evaluate(() => [...document.querySelectorAll('#inspection dt')].every((term) => term.offsetWidth > 70)));
     await picture(current, 'lesson');
     await current.evaluate(() => window.live.send({ open: 'nothing' }));
     await current.waitForSelector('#warning >> text=unknown example');
