@@ -134,7 +134,7 @@ private const val HEADING_WEIGHT = 0.5
 private const val TURN = 0.6
 
 /** Factor by which robots nearer to the base repel more strongly than others. */
-private const val OUTWARDS = 5.0
+private const val OUTWARDS = 2.0
 
 /** Distance in metres from a robot's centre below which it avoids obstacles, and the weight of the avoidance. */
 private const val MIN_DISTANCE = 1.3
