@@ -11,7 +11,7 @@ import it.unibo.collektive.aggregate.api.mapNeighborhood
 import org.collektive.api.Device
 
 /**
- * The lengths of the links from the aligned neighbours in metres, and 0 for this device: `with(device) { distances() }`.
+ * Returns the lengths of the links from the aligned neighbours in metres, and 0 for this device.
  *
  * The scene's neighbourhood rule sets the lengths, so programs need no positions in their schema:
  *
@@ -22,7 +22,7 @@ import org.collektive.api.Device
 context(device: Device)
 public fun Aggregate<Int>.distances(): Field<Int, Double> = ofLinks("distances", device::distance)
 
-/** The attenuations of the links from the aligned neighbours, 0 (clear) or greater, and 0 for this device. See [distances]. */
+/** Returns the attenuations of the links from the aligned neighbours, and 0 for this device. The attenuation of a clear link is 0. */
 context(device: Device)
 public fun Aggregate<Int>.attenuations(): Field<Int, Double> = ofLinks("attenuations", device::attenuation)
 

@@ -16,19 +16,21 @@ import it.unibo.collektive.stdlib.util.Maybe
 import it.unibo.collektive.stdlib.util.aligned
 
 /**
- * Collects the [local] values downhill along [potential] on a spanning tree. Each device's result combines its own value with those of
- * its descendants in the tree; at a sink, these are all devices uphill.
+ * Collects the [local] values of all devices towards the sinks, which are the devices where [potential] has a minimum.
  *
- * This is single-path collection (Beal and Viroli's "C" block): a device sends what it collected only to its parent, which is the
- * least entry by [selectParent]; see [findParent] for ties. A device that is its own parent sends nothing.
+ * The values flow along a spanning tree. A device's result combines its own value with those of its descendants in the tree. At a sink,
+ * the descendants are all devices uphill.
  *
- * Self-stabilising: once values, links and potential stop changing, results are correct after as many rounds of every device as the
- * tree is deep. While the potential changes, values may be missing or counted twice.
+ * This is single-path collection (Beal and Viroli's "C" block). A device sends the collected value only to its parent, which is the
+ * device with the least entry by [selectParent]. [findParent] describes ties. A device that is its own parent sends nothing.
+ *
+ * The function is self-stabilising: once values, links and potential stop changing, the results are correct after as many rounds of
+ * every device as the tree has levels. While the potential changes, values may be missing or counted twice.
  *
  * @param local this device's value.
- * @param potential decreases towards the sinks, for example the distance to the nearest sink.
- * @param selectParent orders the entries; the least one is the parent. Parents must not form a cycle.
- * @param accumulateData combines the value collected so far with a child's. Children come in ascending order of their ids.
+ * @param potential a value that decreases towards the sinks, for example the distance to the nearest sink.
+ * @param selectParent the order of the entries. The least entry is the parent's. Parents must not form a cycle.
+ * @param accumulateData combines the value collected so far with a child's value. Children come in ascending order of their ids.
  */
 public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggregate<ID>.convergeCast(
     local: T,
@@ -37,7 +39,7 @@ public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggre
     noinline accumulateData: (T, T) -> T,
 ): T = collect(local, findParent(potential, selectParent), dataSharingMethod<Maybe<T>>(), accumulateData)
 
-/** [convergeCast] along this device's [potential] and the potentials of its neighbours' last rounds. */
+/** Runs [convergeCast] with this device's [potential] and the potentials that its neighbours had in their last rounds. */
 public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggregate<ID>.convergeCast(
     local: T,
     potential: P,
@@ -45,7 +47,11 @@ public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggre
     noinline accumulateData: (T, T) -> T,
 ): T = convergeCast(local, potentialField(potential, dataSharingMethod<P>()), selectParent, accumulateData)
 
-/** [convergeCast] to the nearest [sink] in hops. Stabilises after `hopDistanceTo` does. A device that reaches no sink sends nothing. */
+/**
+ * Runs [convergeCast] towards the nearest [sink] in hops.
+ *
+ * It stabilises after `hopDistanceTo` has done so. A device that cannot reach a sink sends nothing.
+ */
 public inline fun <reified ID : Any, reified T> Aggregate<ID>.convergeCast(
     local: T,
     sink: Boolean,
@@ -73,5 +79,5 @@ internal fun <ID : Any, T> Aggregate<ID>.collect(
     }
 }
 
-/** The field to send. [value] is boxed once by this call, not again for each neighbour. */
+/** Returns the field to send. As a generic parameter of this function, [value] is boxed once and not for each neighbour. */
 private fun <ID : Any, T> Field<ID, *>.toParent(parent: ID, value: T, none: T): Field<ID, T> = map { if (it.id == parent) value else none }

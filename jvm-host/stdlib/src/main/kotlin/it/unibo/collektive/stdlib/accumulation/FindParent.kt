@@ -14,8 +14,10 @@ import it.unibo.collektive.stdlib.collapse.minWith
 import it.unibo.collektive.stdlib.util.aligned
 
 /**
- * The id of the least entry of [potential] by [comparator]: the next device downhill, or this device at the bottom. On ties the
- * neighbour with the lowest id wins, and this device comes last, so two devices of equal potential may choose each other.
+ * Returns the id of the device with the least entry of [potential] by [comparator].
+ *
+ * This is the next device downhill, or this device itself at a minimum. If several entries are equal, the neighbour with the lowest id
+ * wins, and this device comes last. Two devices of equal potential may therefore choose each other.
  */
 @Suppress("UnusedReceiverParameter")
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParent(
@@ -23,20 +25,20 @@ public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.fi
     comparator: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): ID = potential.all.minWith(comparator).id
 
-/** [findParent] of this device's [potential] and the potentials of its neighbours' last rounds. */
+/** Runs [findParent] with this device's [potential] and the potentials that its neighbours had in their last rounds. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParent(
     potential: P,
     comparator: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): ID = findParent(potentialField(potential, dataSharingMethod<P>()), comparator)
 
-/** The ids of the neighbours whose entries of [potential] satisfy [isParent], ascending. By default, all neighbours downhill. */
+/** Returns the ids of the neighbours whose entries satisfy [isParent], in ascending order. By default, these are all neighbours downhill. */
 @Suppress("UnusedReceiverParameter")
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParents(
     potential: Field<ID, P>,
     isParent: (FieldEntry<ID, P>) -> Boolean = { it.value < potential.local.value },
 ): Set<ID> = potential.neighbors.list.filter(isParent).mapTo(LinkedHashSet()) { it.id }
 
-/** [findParents] of this device's [potential] and the potentials of its neighbours' last rounds. */
+/** Runs [findParents] with this device's [potential] and the potentials that its neighbours had in their last rounds. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParents(
     potential: P,
     isParent: (FieldEntry<ID, P>) -> Boolean = { it.value < potential },

@@ -8,72 +8,72 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.stdlib.spreading.hopDistanceTo
 
-/** The sum of [local] over all devices uphill, by [convergeCast]. */
+/** Returns the sum of [local] over this device and its descendants in the tree of [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
     local: Int,
     potential: Field<ID, P>,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Int = convergeCast(local, potential, selectParent, Int::plus)
 
-/** The sum of [local] over all devices uphill, computed with [convergeCast]. */
+/** Returns the sum of [local] over this device and its descendants in the tree of [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
     local: Int,
     potential: P,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Int = convergeCast(local, potential, selectParent, Int::plus)
 
-/** The sum of [local] over all devices whose nearest sink is this one, by [convergeCast]. */
+/** Returns the sum of [local] over this device and its descendants in the tree towards the nearest [sink]. */
 public inline fun <reified ID : Any> Aggregate<ID>.convergeSum(local: Int, sink: Boolean): Int = convergeCast(local, sink, Int::plus)
 
-/** The sum of [local] over all devices uphill, by [convergeCast]. */
+/** Returns the sum of [local] over this device and its descendants in the tree of [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
     local: Double,
     potential: Field<ID, P>,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Double = convergeCast(local, potential, selectParent, Double::plus)
 
-/** The sum of [local] over all devices uphill, by [convergeCast]. */
+/** Returns the sum of [local] over this device and its descendants in the tree of [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeSum(
     local: Double,
     potential: P,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Double = convergeCast(local, potential, selectParent, Double::plus)
 
-/** The sum of [local] over all devices whose nearest sink is this one, by [convergeCast]. */
+/** Returns the sum of [local] over this device and its descendants in the tree towards the nearest [sink]. */
 public inline fun <reified ID : Any> Aggregate<ID>.convergeSum(local: Double, sink: Boolean): Double =
     convergeCast(local, sink, Double::plus)
 
-/** The mean of [local] over all devices uphill, by [convergeCast] of sum and count. */
+/** Returns the mean of [local] over this device and its descendants in the tree of [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeMean(
     local: Double,
     potential: Field<ID, P>,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Double = convergeCast(local to 1, potential, selectParent, ::addPairs).let { (sum, count) -> sum / count }
 
-/** The mean of [local] over all devices uphill, by [convergeCast] of sum and count. */
+/** Returns the mean of [local] over this device and its descendants in the tree of [convergeCast]. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.convergeMean(
     local: Double,
     potential: P,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Double = convergeCast(local to 1, potential, selectParent, ::addPairs).let { (sum, count) -> sum / count }
 
-/** The mean of [local] over all devices whose nearest sink is this one, by [convergeCast] of sum and count. */
+/** Returns the mean of [local] over this device and its descendants in the tree towards the nearest [sink]. */
 public inline fun <reified ID : Any> Aggregate<ID>.convergeMean(local: Double, sink: Boolean): Double =
     convergeMean(local, hopDistanceTo(sink))
 
-/** The number of devices uphill, this one included, by [convergeCast]. */
+/** Returns the number of descendants in the tree of [convergeCast], including this device. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(
     potential: Field<ID, P>,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Int = convergeSum(1, potential, selectParent)
 
-/** The number of devices uphill, this one included, by [convergeCast]. */
+/** Returns the number of descendants in the tree of [convergeCast], including this device. */
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.countDevices(
     potential: P,
     selectParent: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): Int = convergeSum(1, potential, selectParent)
 
-/** The number of devices whose nearest sink is this device, including itself, computed with [convergeCast]. */
+/** Returns the number of descendants in the tree towards the nearest [sink], including this device. */
 public inline fun <reified ID : Any> Aggregate<ID>.countDevices(sink: Boolean): Int = convergeSum(1, sink)
 
 @PublishedApi

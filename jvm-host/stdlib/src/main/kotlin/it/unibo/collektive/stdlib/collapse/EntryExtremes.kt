@@ -4,76 +4,76 @@ import it.unibo.collektive.aggregate.CollapseAll
 import it.unibo.collektive.aggregate.CollapseNeighbors
 import it.unibo.collektive.aggregate.FieldEntry
 
-// On ties the first entry in the field's order wins: the neighbour with the lowest id, the device itself last.
+// If several entries are equal, the first one in the field's order wins: the neighbour with the lowest id, and the device itself last.
 
-/** The neighbour with the greatest value; `null` without neighbours. */
+/** Returns the id of the neighbour with the greatest value, or `null` without neighbours. */
 public fun <ID : Any, T : Comparable<T>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMax(): ID? = maxBy { it.value }?.id
 
-/** The neighbour whose entry's [selector] is greatest; `null` without neighbours. */
+/** Returns the id of the neighbour for whose entry [selector] returns the greatest result, or `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): ID? = maxBy(selector)?.id
 
-/** The device whose entry's [selector] is greatest. */
+/** Returns the id of the device for whose entry [selector] returns the greatest result. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMaxBy(selector: (FieldEntry<ID, T>) -> C): ID =
     maxBy(selector).id
 
-/** The neighbour whose entry is greatest in the order of [comparator]; `null` without neighbours. */
+/** Returns the id of the neighbour whose entry is the greatest by [comparator], or `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): ID? =
     maxWith(comparator)?.id
 
-/** The device whose entry is greatest in the order of [comparator]. */
+/** Returns the id of the device whose entry is the greatest by [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): ID = maxWith(comparator).id
 
-/** The value of the neighbour's entry whose [selector] is greatest; `null` without neighbours. */
+/** Returns the value of the neighbour for whose entry [selector] returns the greatest result, or `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): T? = maxBy(selector)?.value
 
-/** The value of the entry whose [selector] is greatest. */
+/** Returns the value of the device for whose entry [selector] returns the greatest result. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMaxBy(selector: (FieldEntry<ID, T>) -> C): T =
     maxBy(selector).value
 
-/** The value of the neighbour's entry that is greatest in the order of [comparator]; `null` without neighbours. */
+/** Returns the value of the neighbour whose entry is the greatest by [comparator], or `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): T? =
     maxWith(comparator)?.value
 
-/** The value of the entry that is greatest in the order of [comparator]. */
+/** Returns the value of the device whose entry is the greatest by [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMaxWith(comparator: Comparator<FieldEntry<ID, T>>): T =
     maxWith(comparator).value
 
-/** The neighbour with the least value; `null` without neighbours. */
+/** Returns the id of the neighbour with the least value, or `null` without neighbours. */
 public fun <ID : Any, T : Comparable<T>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMin(): ID? = minBy { it.value }?.id
 
-/** The neighbour whose entry's [selector] is least; `null` without neighbours. */
+/** Returns the id of the neighbour for whose entry [selector] returns the least result, or `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): ID? = minBy(selector)?.id
 
-/** The device whose entry's [selector] is least. */
+/** Returns the id of the device for whose entry [selector] returns the least result. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.idOfMinBy(selector: (FieldEntry<ID, T>) -> C): ID =
     minBy(selector).id
 
-/** The neighbour whose entry is least in the order of [comparator]; `null` without neighbours. */
+/** Returns the id of the neighbour whose entry is the least by [comparator], or `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): ID? =
     minWith(comparator)?.id
 
-/** The device whose entry is least in the order of [comparator]. */
+/** Returns the id of the device whose entry is the least by [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.idOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): ID = minWith(comparator).id
 
-/** The value of the neighbour's entry whose [selector] is least; `null` without neighbours. */
+/** Returns the value of the neighbour for whose entry [selector] returns the least result, or `null` without neighbours. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinBy(
     selector: (FieldEntry<ID, T>) -> C,
 ): T? = minBy(selector)?.value
 
-/** The value of the entry whose [selector] is least. */
+/** Returns the value of the device for whose entry [selector] returns the least result. */
 public inline fun <ID : Any, T, C : Comparable<C>> CollapseAll<FieldEntry<ID, T>>.valueOfMinBy(selector: (FieldEntry<ID, T>) -> C): T =
     minBy(selector).value
 
-/** The value of the neighbour's entry that is least in the order of [comparator]; `null` without neighbours. */
+/** Returns the value of the neighbour whose entry is the least by [comparator], or `null` without neighbours. */
 public fun <ID : Any, T> CollapseNeighbors<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): T? =
     minWith(comparator)?.value
 
-/** The value of the entry that is least in the order of [comparator]. */
+/** Returns the value of the device whose entry is the least by [comparator]. */
 public fun <ID : Any, T> CollapseAll<FieldEntry<ID, T>>.valueOfMinWith(comparator: Comparator<FieldEntry<ID, T>>): T =
     minWith(comparator).value

@@ -7,82 +7,82 @@ import it.unibo.collektive.aggregate.Collapse
 import it.unibo.collektive.aggregate.CollapseAll
 import it.unibo.collektive.aggregate.CollapseNeighbors
 
-// On ties the first element in the field's order wins: the neighbour with the lowest id, the device itself last.
+// If several elements are equal, the first one in the field's order wins: the neighbour with the lowest id, and the device itself last.
 
-/** The greatest of the neighbours' elements; `null` without neighbours. */
+/** Returns the greatest of the neighbours' elements, or `null` without neighbours. */
 public fun <E : Comparable<E>> CollapseNeighbors<E>.max(): E? = list.maxOrNull()
 
-/** The greatest of the neighbours' elements; `Int.MIN_VALUE` without neighbours. */
+/** Returns the greatest of the neighbours' elements, or `Int.MIN_VALUE` without neighbours. */
 @JvmName("maxOfInt")
 public fun CollapseNeighbors<Int>.max(): Int = max(Int.MIN_VALUE)
 
-/** The greatest of the neighbours' elements; `Double.NEGATIVE_INFINITY` without neighbours. */
+/** Returns the greatest of the neighbours' elements, or `Double.NEGATIVE_INFINITY` without neighbours. */
 @JvmName("maxOfDouble")
 public fun CollapseNeighbors<Double>.max(): Double = max(Double.NEGATIVE_INFINITY)
 
-/** The greatest element. */
+/** Returns the greatest element. */
 public fun <E : Comparable<E>> CollapseAll<E>.max(): E = list.max()
 
-/** The greatest of the elements and [base]. */
+/** Returns the greatest of the elements and [base]. */
 public fun <E : Comparable<E>> Collapse<E>.max(base: E): E = list.fold(base) { best, element -> maxOf(best, element) }
 
-/** The neighbours' element whose [selector] is greatest; `null` without neighbours. */
+/** Returns the neighbours' element for which [selector] returns the greatest result, or `null` without neighbours. */
 public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): E? = list.maxByOrNull(selector)
 
-/** The neighbours' element (possibly `null`) with the greatest [selector]; [None] without neighbours. */
+/** Returns the neighbours' element, which may be `null`, for which [selector] returns the greatest result, or [None] without neighbours. */
 @JvmName("maxByOption")
 public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.maxBy(selector: (E) -> C): Option<E?> =
     if (size == 0) None else Some(list.maxBy(selector))
 
-/** The element whose [selector] is greatest. */
+/** Returns the element for which [selector] returns the greatest result. */
 public inline fun <E, C : Comparable<C>> CollapseAll<E>.maxBy(selector: (E) -> C): E = list.maxBy(selector)
 
-/** The greatest of the neighbours' elements in the order of [comparator]; `null` without neighbours. */
+/** Returns the greatest of the neighbours' elements by [comparator], or `null` without neighbours. */
 public fun <E : Any> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): E? = list.maxWithOrNull(comparator)
 
-/** The greatest of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] without neighbours. */
+/** Returns the greatest of the neighbours' elements, which may be `null`, by [comparator], or [None] without neighbours. */
 @JvmName("maxWithOption")
 public fun <E> CollapseNeighbors<E>.maxWith(comparator: Comparator<in E>): Option<E?> =
     if (size == 0) None else Some(list.maxWith(comparator))
 
-/** The greatest element in the order of [comparator]. */
+/** Returns the greatest element by [comparator]. */
 public fun <E> CollapseAll<E>.maxWith(comparator: Comparator<in E>): E = list.maxWith(comparator)
 
-/** The least of the neighbours' elements; `null` without neighbours. */
+/** Returns the least of the neighbours' elements, or `null` without neighbours. */
 public fun <E : Comparable<E>> CollapseNeighbors<E>.min(): E? = list.minOrNull()
 
-/** The least of the neighbours' elements; `Int.MAX_VALUE` without neighbours. */
+/** Returns the least of the neighbours' elements, or `Int.MAX_VALUE` without neighbours. */
 @JvmName("minOfInt")
 public fun CollapseNeighbors<Int>.min(): Int = min(Int.MAX_VALUE)
 
-/** The least of the neighbours' elements; `Double.POSITIVE_INFINITY` without neighbours. */
+/** Returns the least of the neighbours' elements, or `Double.POSITIVE_INFINITY` without neighbours. */
 @JvmName("minOfDouble")
 public fun CollapseNeighbors<Double>.min(): Double = min(Double.POSITIVE_INFINITY)
 
-/** The least element. */
+/** Returns the least element. */
 public fun <E : Comparable<E>> CollapseAll<E>.min(): E = list.min()
 
-/** The least of the elements and [base]. */
+/** Returns the least of the elements and [base]. */
 public fun <E : Comparable<E>> Collapse<E>.min(base: E): E = list.fold(base) { best, element -> minOf(best, element) }
 
-/** The neighbours' element whose [selector] is least; `null` without neighbours. */
+/** Returns the neighbours' element for which [selector] returns the least result, or `null` without neighbours. */
 public inline fun <E : Any, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): E? = list.minByOrNull(selector)
 
-/** The neighbours' element (possibly `null`) with the least [selector]; [None] without neighbours. */
+/** Returns the neighbours' element, which may be `null`, for which [selector] returns the least result, or [None] without neighbours. */
 @JvmName("minByOption")
 public inline fun <E, C : Comparable<C>> CollapseNeighbors<E>.minBy(selector: (E) -> C): Option<E?> =
     if (size == 0) None else Some(list.minBy(selector))
 
-/** The element whose [selector] is least. */
+/** Returns the element for which [selector] returns the least result. */
 public inline fun <E, C : Comparable<C>> CollapseAll<E>.minBy(selector: (E) -> C): E = list.minBy(selector)
 
-/** The least of the neighbours' elements in the order of [comparator]; `null` without neighbours. */
+/** Returns the least of the neighbours' elements by [comparator], or `null` without neighbours. */
 public fun <E : Any> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): E? = list.minWithOrNull(comparator)
 
-/** The least of the neighbours' elements, which may be `null`, in the order of [comparator]; [None] without neighbours. */
+/** Returns the least of the neighbours' elements, which may be `null`, by [comparator], or [None] without neighbours. */
 @JvmName("minWithOption")
 public fun <E> CollapseNeighbors<E>.minWith(comparator: Comparator<in E>): Option<E?> =
     if (size == 0) None else Some(list.minWith(comparator))
 
-/** The least element in the order of [comparator]. */
+/** Returns the least element by [comparator]. */
 public fun <E> CollapseAll<E>.minWith(comparator: Comparator<in E>): E = list.minWith(comparator)

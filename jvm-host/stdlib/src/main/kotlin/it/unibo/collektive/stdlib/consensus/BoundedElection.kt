@@ -16,25 +16,27 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * Elects a leader at most [bound] away and returns its id. This is sparse leader election (the "S" block), as bounded election in
- * "Self-stabilising Priority-Based Multi-Leader Election and Network Partitioning" (Pianini, Casadei and Viroli, ACSOS 2022).
+ * Elects a leader at most [bound] away and returns its id.
  *
- * Each device starts from its own candidacy and passes on the best one that it receives within the bound, with the distance travelled.
- * It ignores its own candidacy when a neighbour returns it.
+ * This is sparse leader election (the "S" block). The algorithm is the bounded election of "Self-stabilising Priority-Based Multi-Leader
+ * Election and Network Partitioning" (Pianini, Casadei and Viroli, ACSOS 2022).
  *
- * Self-stabilising: once strengths, links and metric stop changing, the strongest device leads all devices within the bound. Among the
- * devices that remain, the strongest leads those within the bound of it, along paths of remaining devices, and so on. Each such level
- * takes up to 2 * bound / (least metric) rounds of every device, because the distance of a stale candidacy grows by the metric each
- * round until it exceeds the bound. A metric of 0 between neighbours keeps stale candidacies alive for ever.
+ * Each device starts with its own candidacy. It passes on the best candidacy that it receives within the bound, together with the
+ * distance travelled. It ignores its own candidacy when a neighbour returns it.
  *
- * Of equally strong candidates the nearest wins, then the one seen first.
+ * The function is self-stabilising. Once strengths, links and metric stop changing, the strongest device leads all devices within the
+ * bound. Of the remaining devices, the strongest leads those within the bound that it reaches through remaining devices, and so on. Each
+ * of these levels takes up to 2 * bound / (least metric) rounds of every device, because the distance of a stale candidacy grows by the
+ * metric in each round until it exceeds the bound. If the metric between two neighbours is 0, stale candidacies never disappear.
  *
- * @param strength this device's strength; the greatest wins.
+ * If candidates are equally strong, the nearest one wins, and then the one received first.
+ *
+ * @param strength this device's strength. The greatest strength wins.
  * @param bound the greatest distance between a device and its leader.
  * @param metric the distances to the neighbours.
  * @param bottom the distance of a device to itself.
  * @param accumulateDistance adds the distance to a neighbour to the neighbour's distance from its leader.
- * @param selectBest returns the better of two candidacies, the first on ties.
+ * @param selectBest returns the better of two candidacies, or the first if they are equally good.
  */
 public inline fun <reified ID : Any, reified D : Comparable<D>, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
     strength: S,
@@ -52,7 +54,7 @@ public inline fun <reified ID : Any, reified D : Comparable<D>, reified S : Comp
     selectBest,
 )
 
-/** [boundedElection] over distances of 0.0 or greater. */
+/** Runs [boundedElection] with distances of 0.0 or greater. */
 public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
     strength: S,
     bound: Double,
@@ -60,7 +62,7 @@ public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.bo
     noinline selectBest: Reducer<Candidacy<ID, Double, S>> = { a, b -> maxOf(a, b) },
 ): ID = boundedElection(strength, bound, metric, 0.0, Double::plus, selectBest)
 
-/** [boundedElection] over distances of 0 or greater, by default in hops. */
+/** Runs [boundedElection] with distances of 0 or greater, which are counted in hops by default. */
 public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.boundedElection(
     strength: S,
     bound: Int,
@@ -68,7 +70,7 @@ public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.bo
     noinline selectBest: Reducer<Candidacy<ID, Int, S>> = { a, b -> maxOf(a, b) },
 ): ID = boundedElection(strength, bound, metric, 0, Int::nonOverflowingPlus, selectBest)
 
-/** [boundedElection] where the greatest id wins. */
+/** Runs [boundedElection] in such a way that the greatest id wins. */
 public inline fun <reified ID : Comparable<ID>, reified D : Comparable<D>> Aggregate<ID>.boundedElection(
     bound: D,
     metric: Field<ID, D>,
@@ -77,14 +79,14 @@ public inline fun <reified ID : Comparable<ID>, reified D : Comparable<D>> Aggre
     noinline selectBest: Reducer<Candidacy<ID, D, ID>> = { a, b -> maxOf(a, b) },
 ): ID = boundedElection(localId, bound, metric, bottom, accumulateDistance, selectBest)
 
-/** [boundedElection] over distances of 0.0 or greater, where the greatest id wins. */
+/** Runs [boundedElection] with distances of 0.0 or greater. The greatest id wins. */
 public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(
     bound: Double,
     metric: Field<ID, Double>,
     noinline selectBest: Reducer<Candidacy<ID, Double, ID>> = { a, b -> maxOf(a, b) },
 ): ID = boundedElection(localId, bound, metric, selectBest)
 
-/** [boundedElection] over distances of 0 or greater, by default in hops, where the greatest id wins. */
+/** Runs [boundedElection] with distances of 0 or greater, which are counted in hops by default. The greatest id wins. */
 public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.boundedElection(
     bound: Int,
     metric: Field<ID, Int> = hops(),

@@ -3,11 +3,13 @@ package it.unibo.collektive.stdlib.consensus
 import kotlinx.serialization.Serializable
 
 /**
- * The candidacy of [candidate], with its [strength] and its [distance] from here. A stronger candidacy is greater; of equally strong
- * ones, the nearer is greater. `compareTo` ignores [candidate], so it is inconsistent with `equals`.
+ * The candidacy of a device in an election, as another device has received it.
+ *
+ * A stronger candidacy is greater than a weaker one. If both are equally strong, the nearer one is greater. `compareTo` ignores
+ * [candidate], so it is inconsistent with `equals`.
  *
  * @property candidate the device that stands for election.
- * @property distance from the candidate to this device, in units of the election's metric.
+ * @property distance the distance from the candidate to this device, in the unit of the election's metric.
  * @property strength the value that the election compares first.
  */
 @Serializable

@@ -9,15 +9,16 @@ import it.unibo.collektive.stdlib.util.Reducer
 import it.unibo.collektive.stdlib.util.hops
 
 /**
- * The id of the strongest device of the connected component; of several equally strong ones, the nearest by [metric], so that each
- * leads its own region.
+ * Returns the id of the strongest device of the connected component.
  *
- * This is [boundedElection] without a bound, so it is not self-stabilising: the candidacy of a leader that left circulates between the
- * devices that remain. Where leaders leave, bound the distance.
+ * If several devices are equally strong, the nearest by [metric] wins, so each of them leads its own region.
  *
- * @param strength this device's strength; the greatest wins.
+ * This is [boundedElection] without a bound, and it is not self-stabilising: the candidacy of a leader that has left circulates among
+ * the remaining devices. If leaders may leave, use [boundedElection].
+ *
+ * @param strength this device's strength. The greatest strength wins.
  * @param metric the distances to the neighbours.
- * @param selectBest returns the better of two candidacies, the first on ties.
+ * @param selectBest returns the better of two candidacies, or the first if they are equally good.
  */
 public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.globalElection(
     strength: S,
@@ -25,5 +26,5 @@ public inline fun <reified ID : Any, reified S : Comparable<S>> Aggregate<ID>.gl
     noinline selectBest: Reducer<Candidacy<ID, Int, S>> = { a, b -> maxOf(a, b) },
 ): ID = boundedElection(strength, Int.MAX_VALUE, metric, selectBest)
 
-/** The greatest id of the connected component, by [globalElection]. */
+/** Returns the greatest id of the connected component, elected with [globalElection]. */
 public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.globalElection(): ID = globalElection(localId)

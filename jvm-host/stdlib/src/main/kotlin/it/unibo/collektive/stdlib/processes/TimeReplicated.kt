@@ -11,23 +11,26 @@ import kotlinx.serialization.Serializable
 import kotlin.time.Duration
 import kotlin.time.Instant
 
-/** The number of a replica of [timeReplicated]. */
+/** The number of a replica that [timeReplicated] runs. */
 public typealias ReplicaID = ULong
 
 /**
- * Runs several overlapping replicas of [process] and returns the result of the oldest. A process that never forgets, such as
- * `nonStabilizingGossip`, then follows changes, because each replica and its state end after [timeToSpawn] * [maxReplicas].
+ * Runs several overlapping replicas of [process] and returns the result of the oldest one.
+ *
+ * Use this function for a process that never forgets, such as `nonStabilizingGossip`. The result then follows changes, because each
+ * replica and its state end after [timeToSpawn] * [maxReplicas]. [process] must settle within [timeToSpawn] * ([maxReplicas] - 1).
  *
  * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).
- * A device takes part in the youngest replica that a neighbour knows. It starts the next one in the round after [sharedTimeLeftTo] of
- * [timeToSpawn] was over, unless it has just started or adopted a replica, or receives a younger one. Replicas therefore start at least
- * two rounds apart. A device that joins begins with the youngest replica. Once inputs and links stop changing, the result no longer
- * depends on earlier ones after [timeToSpawn] * [maxReplicas] plus the time that a number takes to cross the connected component.
- * [process] must settle within [timeToSpawn] * ([maxReplicas] - 1).
+ * A device takes part in the youngest replica that it or a neighbour knows. When the wait of [sharedTimeLeftTo] for [timeToSpawn] is
+ * over, the device starts the next replica in its following round. It does not do so if it has just started or adopted a replica, or if
+ * it receives a younger one. Replicas therefore start at least two rounds apart. A device that joins begins with the youngest replica.
  *
- * @param currentTime this device's clock; only differences matter.
- * @param maxReplicas the number of replicas that run at the same time, 1 or greater.
- * @param timeToSpawn the time between the starts of two replicas; positive.
+ * Once inputs and links stop changing, the result no longer depends on earlier inputs after [timeToSpawn] * [maxReplicas], plus the
+ * time that the number of a new replica takes to cross the connected component.
+ *
+ * @param currentTime this device's clock. Only differences between its values matter.
+ * @param maxReplicas the number of replicas that run at the same time, which must be 1 or greater.
+ * @param timeToSpawn the time between the starts of two replicas, which must be positive.
  * @throws IllegalArgumentException when [maxReplicas] or [timeToSpawn] is out of range.
  */
 public inline fun <reified T> Aggregate<*>.timeReplicated(
@@ -51,7 +54,11 @@ internal fun <T> Aggregate<*>.replicated(currentTime: Instant, maxReplicas: Int,
     }
 }
 
-/** The youngest replica that this device or a neighbour knows, or the next one if this device's wait for it was over in its last round. */
+/**
+ * Returns the youngest replica that this device or a neighbour knows.
+ *
+ * If that is this device's own replica, and the wait for the next one was over in the last round, starts the next one and returns it.
+ */
 private fun Aggregate<*>.youngestReplica(isOver: Boolean): ReplicaID = aligned("youngestReplica") {
     val replica = share(Replica(0uL, false)) { seen ->
         val own = seen.local.value
@@ -62,6 +69,6 @@ private fun Aggregate<*>.youngestReplica(isOver: Boolean): ReplicaID = aligned("
     replica.id
 }
 
-/** The youngest replica that a device takes part in, and whether its wait for the next one [isOver]. */
+/** The youngest replica in which a device takes part, and whether the device's wait for the next replica [isOver]. */
 @Serializable
 private class Replica(val id: ReplicaID, val isOver: Boolean)

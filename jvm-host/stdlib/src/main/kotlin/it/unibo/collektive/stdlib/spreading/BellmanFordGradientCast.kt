@@ -13,25 +13,28 @@ import it.unibo.collektive.stdlib.util.aligned
 import it.unibo.collektive.stdlib.util.forEachNeighborWith
 
 /**
- * Brings the data of the nearest source to every device by the distributed Bellman-Ford algorithm: each device minimises a neighbour's
- * distance plus the distance to that neighbour. This is the cheapest gradient cast, because its messages contain no paths. Use it where
- * sources and links do not vanish; otherwise use [gradientCast].
+ * Brings the data of the nearest source to every device with the distributed Bellman-Ford algorithm.
  *
- * When a source or a link vanishes, the devices that relied on it rely on each other, and their distances rise only by the metric of a
- * few links per round ("count to infinity", the "rising value" problem). Two devices 0.1 apart take ten rounds to rise by 1. If no
- * source remains, the distances rise forever.
+ * Each device chooses the neighbour with the least sum of the neighbour's distance and the distance to that neighbour. This is the
+ * cheapest gradient cast, because its messages contain no paths. Use it if sources and links do not disappear. Otherwise use
+ * [gradientCast].
  *
- * While a source remains, it is self-stabilising: once sources, links, data and metric stop changing, distances that are too small are
- * correct after (greatest distance / least metric) rounds, and those that are too great after as many rounds as the longest shortest
- * path has hops.
+ * When a source or a link disappears, the devices that relied on it begin to rely on each other. Their distances then rise only by the
+ * metric of a few links per round. This is known as "count to infinity" or the "rising value" problem. For example, two devices that are
+ * 0.1 apart take ten rounds to rise by 1. If no source remains, the distances rise for ever.
+ *
+ * The function is self-stabilising as long as a source remains. Once sources, links, data and metric stop changing, distances that are
+ * too small are correct after (greatest distance / least metric) rounds. Distances that are too great are correct after as many rounds
+ * as the longest of the shortest paths has hops.
  *
  * @param source whether this device is a source.
- * @param local the data of a source. Where no source is reached, the result is the data of a neighbour, or [local] without neighbours.
+ * @param local the data of a source. On a device that no source reaches, the result is the data of a neighbour, or [local] if the device
+ *   has no neighbours.
  * @param bottom the distance of a source to itself, and the lower bound of [metric].
- * @param top infinity: the distance of a device before it is reached, and the upper bound of [metric].
- * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
- *   neighbour's data.
- * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source. The sum is coerced to
+ * @param top infinity: the distance of a device that no source has reached, and the upper bound of [metric].
+ * @param accumulateData computes the data on this device from the neighbour's distance to the source, the distance to the neighbour and
+ *   the neighbour's data.
+ * @param accumulateDistance adds the distance to a neighbour to that neighbour's distance from the source. The sum is coerced to
  *   [bottom]..[top].
  * @param metric the distances to the neighbours, coerced to [bottom]..[top].
  * @throws IllegalStateException when an aligned neighbour has no value in [metric], or when a sum is less than one of its parts.
@@ -55,7 +58,7 @@ public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggre
     metric,
 )
 
-/** [bellmanFordGradientCast] over distances in `0.0..POSITIVE_INFINITY`. */
+/** Runs [bellmanFordGradientCast] with distances in `0.0..POSITIVE_INFINITY`. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.bellmanFordGradientCast(
     source: Boolean,
     local: V,
@@ -86,7 +89,7 @@ internal fun <ID : Any, V, D : Comparable<D>> Aggregate<ID>.bellmanFordGradientC
     }
 }
 
-/** The nearest neighbour's distance and data as they arrive here; `null` without neighbours. */
+/** Returns the distance and the data that arrive from the nearest neighbour, or `null` without neighbours. */
 private fun <ID : Any, V, D : Comparable<D>> nearest(
     received: Field<ID, Pair<D, V>>,
     bottom: D,

@@ -10,14 +10,15 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * The length of the shortest path to the nearest [source], or [top] when none is reached: the classic gradient. Self-stabilising like
- * [gradientCast].
+ * Returns the length of the shortest path to the nearest [source], or [top] if this device cannot reach a source.
+ *
+ * This is the classic gradient. It stabilises like [gradientCast].
  *
  * @param bottom the distance of a source to itself, and the lower bound of [metric].
- * @param top infinity: the upper bound of [metric], and the result where no source is reached.
+ * @param top infinity: the upper bound of [metric], and the result of a device that cannot reach a source.
  * @param metric the distances to the neighbours.
  * @param maxDiameter see [gradientCast].
- * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance.
+ * @param accumulateDistance adds the distance to a neighbour to that neighbour's distance from the source.
  */
 public inline fun <reified ID : Any, reified D : Comparable<D>> Aggregate<ID>.distanceTo(
     source: Boolean,
@@ -37,7 +38,7 @@ public inline fun <reified ID : Any, reified D : Comparable<D>> Aggregate<ID>.di
     accumulateDistance,
 )
 
-/** [distanceTo] over distances in `0.0..POSITIVE_INFINITY`, by default in hops. */
+/** Runs [distanceTo] with distances in `0.0..POSITIVE_INFINITY`, which are counted in hops by default. */
 public inline fun <reified ID : Any> Aggregate<ID>.distanceTo(
     source: Boolean,
     metric: Field<ID, Double> = hops().toDouble(),
@@ -45,8 +46,10 @@ public inline fun <reified ID : Any> Aggregate<ID>.distanceTo(
 ): Double = distanceTo(source, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, Double::plus)
 
 /**
- * The number of hops to the nearest [source]; 0 at a source, and also where no source is reached. In the latter case, [distanceTo]
- * returns infinity, and `intGradientCast` a value of the caller's choice.
+ * Returns the number of hops to the nearest [source].
+ *
+ * The result is 0 at a source, but also on a device that cannot reach a source. To distinguish the two, use [distanceTo], which returns
+ * infinity in the latter case, or `intGradientCast`, which returns a value of your choice.
  *
  * @param maxDiameter see [gradientCast].
  */

@@ -15,23 +15,25 @@ import it.unibo.collektive.stdlib.util.aligned
 import kotlinx.serialization.Serializable
 
 /**
- * The best of all devices' [local] values: [reducer] chooses the better of two.
+ * Returns the best of all devices' [local] values, where [reducer] chooses the better of two values.
  *
- * This is gossip over self-avoiding paths: each value carries the devices that it passed. Offers are filtered as in [gradientCast], with
- * distances in hops, so a value whose origin changed or left cannot circulate and dies out. A device reduces its own value with each
- * offer that is left, those with shorter paths first, and takes the result if it improves the best one so far.
+ * This is gossip over self-avoiding paths: each value carries the list of the devices that it passed. A device ignores offers by the
+ * rules of [gradientCast], with distances in hops, so a value disappears after its origin has changed it or has left. The device combines
+ * its own value with each of the remaining offers, beginning with the shortest paths. It takes a result that is better than the best one
+ * so far.
  *
- * Self-stabilising if [reducer] chooses: once values and links stop changing, every device has the best value of its connected component
- * after as many rounds of every device as the longest simple path has hops, plus the component's diameter.
+ * The function is self-stabilising if [reducer] returns one of its arguments. Once values and links stop changing, every device has the
+ * best value of its connected component after as many rounds of every device as the longest simple path has hops, plus the diameter of
+ * the component.
  *
- * With a reducer that merges its arguments, such as a union or a sum, the result need not merge all values and need not stabilise,
- * because each offer arrives with its own history. To merge values, use [nonStabilizingGossip].
+ * If [reducer] merges its arguments, as a union or a sum does, the result may lack values and may never stabilise, because each offer
+ * may already contain other values. To merge values, use [nonStabilizingGossip].
  *
  * @param local this device's value.
- * @param maxDiameter the greatest number of hops of a value, counted at the neighbour: it travels one hop farther. With a limit, a device
- *   may miss a value within reach, where a better value displaces it on the way but does not reach the device itself.
- * @param reducer returns the better of its arguments, as a maximum does, or either of equally good ones. By default it returns the first,
- *   so every device keeps its own value.
+ * @param maxDiameter the greatest number of hops of a neighbour's value. Values therefore travel one hop farther. With a limit, a device
+ *   may miss a value within the limit, because a better value displaces it on the way but does not reach the device.
+ * @param reducer returns the better of its arguments, as a maximum does, or either of them if they are equally good. The default returns
+ *   the first, so every device keeps its own value.
  */
 public inline fun <reified ID : Comparable<ID>, reified V> Aggregate<ID>.gossip(
     local: V,
@@ -39,7 +41,7 @@ public inline fun <reified ID : Comparable<ID>, reified V> Aggregate<ID>.gossip(
     noinline reducer: Reducer<V> = { first, _ -> first },
 ): V = gossip(local, maxDiameter, dataSharingMethod<GossipValue<ID, V>>(), reducer)
 
-/** The greatest of all devices' [local] values, by [gossip]. */
+/** Returns the maximum of all devices' [local] values, spread by [gossip]. */
 public inline fun <reified ID : Comparable<ID>, reified V : Comparable<V>> Aggregate<ID>.gossipMax(
     local: V,
     maxDiameter: Int = Int.MAX_VALUE,
@@ -51,39 +53,43 @@ public inline fun <reified ID : Comparable<ID>, reified V : Comparable<V>> Aggre
     maxDiameter: Int = Int.MAX_VALUE,
 ): V = gossip(local, maxDiameter) { a, b -> minOf(a, b) }
 
-/** The [local] value of all devices for which [selector] returns the greatest result, by [gossip]. */
+/** Returns the [local] value for which [selector] returns the greatest result on all devices, spread by [gossip]. */
 public inline fun <reified ID : Comparable<ID>, reified V, C : Comparable<C>> Aggregate<ID>.gossipMaxBy(
     local: V,
     maxDiameter: Int = Int.MAX_VALUE,
     crossinline selector: (V) -> C,
 ): V = gossip(local, maxDiameter) { a, b -> if (selector(b) > selector(a)) b else a }
 
-/** The [local] value of all devices for which [selector] returns the least result, by [gossip]. */
+/** Returns the [local] value for which [selector] returns the least result on all devices, spread by [gossip]. */
 public inline fun <reified ID : Comparable<ID>, reified V, C : Comparable<C>> Aggregate<ID>.gossipMinBy(
     local: V,
     maxDiameter: Int = Int.MAX_VALUE,
     crossinline selector: (V) -> C,
 ): V = gossip(local, maxDiameter) { a, b -> if (selector(b) < selector(a)) b else a }
 
-/** The greatest of all devices' [local] values in the order of [comparator], by [gossip]. */
+/** Returns the greatest of all devices' [local] values by [comparator], spread by [gossip]. */
 public inline fun <reified ID : Comparable<ID>, reified V> Aggregate<ID>.gossipMaxWith(
     local: V,
     comparator: Comparator<V>,
     maxDiameter: Int = Int.MAX_VALUE,
 ): V = gossip(local, maxDiameter) { a, b -> if (comparator.compare(b, a) > 0) b else a }
 
-/** The least of all devices' [local] values in the order of [comparator], by [gossip]. */
+/** Returns the least of all devices' [local] values by [comparator], spread by [gossip]. */
 public inline fun <reified ID : Comparable<ID>, reified V> Aggregate<ID>.gossipMinWith(
     local: V,
     comparator: Comparator<V>,
     maxDiameter: Int = Int.MAX_VALUE,
 ): V = gossip(local, maxDiameter) { a, b -> if (comparator.compare(b, a) < 0) b else a }
 
-/** Whether [condition] holds on any device of the connected component now. Stabilises like [gossip], also back to `false`. */
+/**
+ * Returns whether [condition] currently holds on any device of the connected component.
+ *
+ * It stabilises like [gossip], and returns to `false` when the condition no longer holds.
+ */
 public inline fun <reified ID : Comparable<ID>> Aggregate<ID>.isHappeningAnywhere(condition: () -> Boolean): Boolean =
     gossip(condition()) { a, b -> a || b }
 
-/** A [value] of [gossip] and the [path] of devices that it passed. */
+/** A [value] that [gossip] spreads, and the [path] of the devices that it passed. */
 @Serializable
 @PublishedApi
 internal data class GossipValue<ID : Any, V>(val value: V, val path: HopPath<ID>)
@@ -116,7 +122,7 @@ private fun <ID : Any, V> best(
             val offer = received.neighborValue(index)
             if (offer.path.size != hops) continue
             val value = reducer(mine.value, offer.value)
-            // The filters are costly and matter only if the offer would be taken.
+            // Check coherence last, because it is costly and matters only for an offer that improves the result.
             if (value == best || reducer(best, value) == best || !received.isCoherent(index)) continue
             best = value
             from = index
@@ -130,7 +136,7 @@ private fun <ID : Any, V> best(
     return if (former.value == best && former.path.extends(path, id)) former else GossipValue(best, path + id)
 }
 
-/** The least number of hops, at least [least], among the received paths, or -1 if no path was received. */
+/** Returns the length of the shortest received path with at least [least] hops, or -1 if no path is that long. */
 private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.shortestPath(least: Int): Int {
     var shortest = -1
     for (index in 0 until neighborCount) {
@@ -140,7 +146,7 @@ private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.shortestPath(least: Int)
     return shortest
 }
 
-/** Whether the offer at [index] is usable and no usable offer over fewer hops shares hops with it in another order. */
+/** Returns whether the offer at [index] is usable, and no usable offer with a shorter path has common hops in a different order. */
 private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.isCoherent(index: Int): Boolean {
     if (!isUsable(index)) return false
     val path = neighborValue(index).path
@@ -152,7 +158,7 @@ private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.isCoherent(index: Int): 
     return true
 }
 
-/** Whether the offer at [index] passed neither through this device nor through a neighbour with a shorter path. */
+/** Returns whether the offer at [index] passed neither through this device nor through a neighbour with a shorter path. */
 private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.isUsable(index: Int): Boolean {
     val path = neighborValue(index).path
     if (context.localId in path) return false

@@ -17,28 +17,33 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * Brings the data of the nearest source to every device along a shortest path; returns [local] where no source is reached.
+ * Brings the data of the nearest source to every device along a shortest path.
  *
- * This is a gradient cast (Beal and Viroli's "G" block) over self-avoiding paths, as in path-vector routing: each offer carries the
- * devices that it passed. A device ignores an offer whose path contains it, or contains a neighbour that is nearer than the offer or offers
- * nothing. It also ignores an offer that shares hops in another order with an offer over fewer hops, or with one over as many hops at another
- * distance. It takes the nearest of the others and sends the result to its neighbours; the neighbour whose offer it took gets the next best
- * one. On ties the neighbour with the lower id wins.
+ * On a device that cannot reach a source, the result is [local].
  *
- * Self-stabilising: once sources, links, data and metric stop changing, stale offers are gone after as many rounds of every device as
- * the longest simple path has hops (at most the number of devices, or [maxDiameter]). After as many further rounds as the shortest
- * paths have hops, values come from these paths. Stale offers cannot circulate, so values do not creep up when a source vanishes or a link
- * breaks, however small the metric is (the "rising value" problem of [bellmanFordGradientCast]).
+ * This is a gradient cast (Beal and Viroli's "G" block) over self-avoiding paths, as in path-vector routing: each offer to a neighbour
+ * carries the list of the devices that it passed. A device ignores these offers:
+ * - an offer whose path contains the device itself;
+ * - an offer whose path contains a neighbour that is nearer than the offer, or that offers nothing;
+ * - an offer that has common hops in a different order with an offer over fewer hops, or over as many hops at a different distance.
+ *
+ * The device takes the nearest of the remaining offers and sends the result to its neighbours. The neighbour that made this offer gets
+ * the next best one instead. If offers are equally near, the neighbour with the lower id wins.
+ *
+ * The function is self-stabilising. Once sources, links, data and metric stop changing, stale offers disappear after as many rounds of
+ * every device as the longest simple path has hops (at most the number of devices, or [maxDiameter]). All values come from shortest paths
+ * after as many further rounds as these paths have hops. Stale offers cannot circulate. However small the metric is, values therefore do
+ * not creep up when a source or a link disappears, unlike those of [bellmanFordGradientCast] (the "rising value" problem).
  *
  * @param source whether this device is a source.
- * @param local what a source offers, and the result where no source is reached.
+ * @param local the data of a source, and the result of a device that cannot reach a source.
  * @param bottom the distance of a source to itself, and the lower bound of [metric].
  * @param top infinity: the upper bound of [metric].
  * @param metric the distances to the neighbours, coerced to [bottom]..[top]. Paths are shortest only if distances exceed [bottom].
- * @param maxDiameter the greatest number of hops of an offer, counted at the neighbour: data travels one hop farther.
- * @param accumulateData computes the data on arrival from the neighbour's distance to the source, the distance to the neighbour and the
- *   neighbour's data. Called only for offers that are taken; must depend on its arguments alone.
- * @param accumulateDistance adds a distance to a neighbour to the neighbour's distance from the source. The sum is coerced to
+ * @param maxDiameter the greatest number of hops of a neighbour's offer. Data therefore travels one hop farther.
+ * @param accumulateData computes the data on this device from the neighbour's distance to the source, the distance to the neighbour and
+ *   the neighbour's data. It is called only for offers that are taken, and must depend on its arguments alone.
+ * @param accumulateDistance adds the distance to a neighbour to that neighbour's distance from the source. The sum is coerced to
  *   [bottom]..[top].
  * @throws IllegalStateException when an aligned neighbour has no value in [metric], or when a sum is less than one of its parts.
  */
@@ -54,7 +59,7 @@ public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggre
 ): V = GradientCast(bottom, top, metric, maxDiameter, accumulateData, accumulateDistance)
     .run(source, local, dataSharingMethod<PathValue<ID, V, D>?>())
 
-/** [gradientCast] over distances in `0.0..POSITIVE_INFINITY`. */
+/** Runs [gradientCast] with distances in `0.0..POSITIVE_INFINITY`. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.gradientCast(
     source: Boolean,
     local: V,
@@ -64,7 +69,7 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.gradientCast(
     noinline accumulateDistance: (Double, Double) -> Double = Double::plus,
 ): V = gradientCast(source, local, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, accumulateData, accumulateDistance)
 
-/** [gradientCast] over distances in `0..Int.MAX_VALUE`, which stands for infinity. */
+/** Runs [gradientCast] with distances in `0..Int.MAX_VALUE`, where `Int.MAX_VALUE` stands for infinity. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.intGradientCast(
     source: Boolean,
     local: V,
@@ -74,7 +79,7 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.intGradientCast(
     noinline accumulateDistance: (Int, Int) -> Int = Int::nonOverflowingPlus,
 ): V = gradientCast(source, local, 0, Int.MAX_VALUE, metric, maxDiameter, accumulateData, accumulateDistance)
 
-/** [gradientCast] over distances in hops. */
+/** Runs [gradientCast] with distances in hops. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.hopGradientCast(
     source: Boolean,
     local: V,
@@ -83,9 +88,9 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.hopGradientCast(
 ): V = intGradientCast(source, local, hops(), maxDiameter, accumulateData)
 
 /**
- * The [sum] of a neighbour's distance and the distance to it, limited to [bottom]..[top].
+ * Returns the [sum] of a neighbour's [distance] and the [step] to that neighbour, limited to [bottom]..[top].
  *
- * @throws IllegalStateException when it is less than [distance] or [step], as after an overflow.
+ * @throws IllegalStateException when the result is less than [distance] or [step], for example after an overflow.
  */
 internal fun <D : Comparable<D>> limitedSum(distance: D, step: D, sum: D, bottom: D, top: D): D {
     val limited = sum.coerceIn(bottom, top)
@@ -95,7 +100,7 @@ internal fun <D : Comparable<D>> limitedSum(distance: D, step: D, sum: D, bottom
     return limited
 }
 
-/** One gradient cast in one round. */
+/** The computation of one gradient cast in one round. */
 @PublishedApi
 internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     private val bottom: D,
@@ -115,11 +120,11 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         }
     }
 
-    /** The offer of a source. Returns [former] itself if nothing changed. */
+    /** Returns the offer of a source, which is [former] itself if nothing changed. */
     private fun atSource(local: V, former: PathValue<ID, V, D>?): PathValue<ID, V, D> =
         former?.takeIf { it.length == 0 && it.distance == bottom && it.data == local } ?: PathValue(bottom, local, HopPath.empty<ID>())
 
-    /** The field to send; its local value is this device's result. */
+    /** Returns the field to send. Its local value is this device's result. */
     private fun spread(received: Field<ID, PathValue<ID, V, D>?>): Field<ID, PathValue<ID, V, D>?> {
         val choice = received.context.aligned("choice") {
             received.context.evolve<Choice<ID, V, D>?>(null) { former -> choose(received, former) }
@@ -129,7 +134,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return received.map { if (it.id == best.id) choice.returned else taken }
     }
 
-    /** Returns the choice among the [received] offers. If they are unchanged, reuses the [former] choice without comparing paths. */
+    /** Chooses among the [received] offers. If they are unchanged, reuses the [former] choice and compares no paths. */
     private fun choose(received: Field<ID, PathValue<ID, V, D>?>, former: Choice<ID, V, D>?): Choice<ID, V, D> {
         val settled = former?.takeIf { it.isAmong(received) }
         val offers = if (settled != null) settled.offers else offers(received)
@@ -141,8 +146,10 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     }
 
     /**
-     * Whether this choice was made among the same offers as those [received]. Compares values by identity, because settled devices of this
-     * process send the same object. Creates no [Offer]s, because a settled network calls it in each round.
+     * Returns whether this choice was made among the same offers as those [received].
+     *
+     * A settled network calls this in each round, so it compares values by identity, and creates no [Offer]s. Settled devices of this
+     * process send the same object again.
      */
     private fun Choice<ID, V, D>.isAmong(received: Field<ID, PathValue<ID, V, D>?>): Boolean {
         if (maxDiameter != this@GradientCast.maxDiameter || offers.size != received.neighborCount) return false
@@ -155,10 +162,10 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return true
     }
 
-    /** The distance from the source of [value] to here, before it is limited; of a neighbour that offers nothing its own distance. */
+    /** Returns the distance from the source of [value] to this device before it is limited, or [step] if the neighbour offers nothing. */
     private fun sum(value: PathValue<ID, V, D>?, step: D): D = if (value == null) step else accumulateDistance(value.distance, step)
 
-    /** The offers of the neighbours, in the field's order. */
+    /** Returns the offers of the neighbours, in the field's order. */
     private fun offers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
         val offers = ArrayList<Offer<ID, V, D>>(received.neighborCount)
         received.forEachNeighborWith(metric) { id, value, distance ->
@@ -169,7 +176,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return offers
     }
 
-    /** The nearest coherent one of the [offers] not yet considered, the first on ties; `null` if none is left. */
+    /** Returns the nearest coherent one of the [offers] that were not considered before, or `null` if none is left. */
     private fun nextCoherent(offers: List<Offer<ID, V, D>>, myself: ID): Offer<ID, V, D>? {
         while (true) {
             var nearest: Offer<ID, V, D>? = null
@@ -183,7 +190,7 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         }
     }
 
-    /** Whether this offer is usable and no usable offer contradicts it. */
+    /** Returns whether this offer is usable and no usable offer contradicts it. */
     private fun Offer<ID, V, D>.isCoherent(offers: List<Offer<ID, V, D>>, myself: ID): Boolean {
         if (!isUsable(offers, myself)) return false
         for (index in offers.indices) {
@@ -206,7 +213,11 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         return true
     }
 
-    /** The value of [offer] on this device. Returns [former] itself if nothing changed, so that a settled network allocates no paths. */
+    /**
+     * Returns the value of [offer] on this device.
+     *
+     * Returns [former] itself if nothing changed, so a settled network allocates no paths.
+     */
     private fun take(offer: Offer<ID, V, D>, former: PathValue<ID, V, D>?): PathValue<ID, V, D> {
         val value = checkNotNull(offer.value)
         val data = accumulateData(value.distance, offer.step, value.data)
@@ -221,8 +232,10 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
 }
 
 /**
- * The choice of a device in a round among [offers] of at most [maxDiameter] hops: the [best] one for itself and all neighbours but the one
- * that made it, which gets [returned] through the [second] best.
+ * The choice of a device in a round among [offers] of at most [maxDiameter] hops.
+ *
+ * The device and its neighbours get the [best] offer. Only the neighbour that made it gets [returned], which results from the [second]
+ * best offer.
  */
 private class Choice<ID : Any, V, D : Comparable<D>>(
     val offers: List<Offer<ID, V, D>>,
@@ -233,8 +246,10 @@ private class Choice<ID : Any, V, D : Comparable<D>>(
 )
 
 /**
- * The offer of the neighbour [id], which is [step] away. [value] is `null` if it offers nothing. [distance] is the limited [sum]: the
- * distance from the source, or from the neighbour if it offers nothing, to this device.
+ * The offer of the neighbour [id], which is [step] away.
+ *
+ * [value] is `null` if the neighbour offers nothing. [distance] is the limited [sum]: the distance to this device from the source, or
+ * from the neighbour if it offers nothing.
  */
 private class Offer<ID : Any, V, D : Comparable<D>>(
     val id: ID,
@@ -247,10 +262,13 @@ private class Offer<ID : Any, V, D : Comparable<D>>(
 
     var considered: Boolean = false
 
-    /** Whether the offer passes neither through this device nor through a neighbour that refutes it; `null` before the first query. */
+    /** Whether the offer passed neither this device nor a neighbour that refutes it, or `null` before the first query. */
     var usable: Boolean? = null
 
-    /** Whether this offer shares hops with the [other] in another order, and has fewer of them, or as many at another distance. */
+    /**
+     * Returns whether this offer and [other] have common hops in different orders, and this offer has fewer hops, or as many at a different
+     * distance.
+     */
     fun contradicts(other: Offer<ID, V, D>): Boolean {
         val mine = path ?: return false
         val others = other.path ?: return false

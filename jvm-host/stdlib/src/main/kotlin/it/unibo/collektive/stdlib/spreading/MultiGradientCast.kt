@@ -9,11 +9,13 @@ import it.unibo.collektive.stdlib.util.hops
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
- * Runs one [gradientCast] for each of [sources]. Returns, by source, the data that arrives here, or [local] if the source is not
- * reached. Each gradient cast stabilises independently, among the devices that list its source.
+ * Runs one [gradientCast] for each of [sources], and returns the data that arrives on this device by source.
  *
- * @param sources the sources' ids; repeated ids count once. Data of a source passes only through devices that list it.
- * @param local what this device offers if it is a source, and the result for sources that are not reached.
+ * The value of a source that this device cannot reach is [local]. Each gradient cast stabilises independently, among the devices that
+ * list its source.
+ *
+ * @param sources the ids of the sources. Repeated ids count once. Data of a source passes only through devices that list it.
+ * @param local the data of this device if it is a source, and the result for sources that it cannot reach.
  */
 public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggregate<ID>.multiGradientCast(
     sources: Iterable<ID>,
@@ -34,7 +36,7 @@ public inline fun <reified ID : Any, reified V, reified D : Comparable<D>> Aggre
     return results
 }
 
-/** [multiGradientCast] over distances in `0.0..POSITIVE_INFINITY`. */
+/** Runs [multiGradientCast] with distances in `0.0..POSITIVE_INFINITY`. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiGradientCast(
     sources: Iterable<ID>,
     local: V,
@@ -43,7 +45,7 @@ public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiGradientCast(
     noinline accumulateData: (fromSource: Double, toNeighbor: Double, data: V) -> V = { _, _, data -> data },
 ): Map<ID, V> = multiGradientCast(sources, local, 0.0, Double.POSITIVE_INFINITY, metric, maxDiameter, accumulateData, Double::plus)
 
-/** [multiGradientCast] over distances in `0..Int.MAX_VALUE`, by default in hops. */
+/** Runs [multiGradientCast] with distances in `0..Int.MAX_VALUE`, which are counted in hops by default. */
 public inline fun <reified ID : Any, reified V> Aggregate<ID>.multiIntGradientCast(
     sources: Iterable<ID>,
     local: V,

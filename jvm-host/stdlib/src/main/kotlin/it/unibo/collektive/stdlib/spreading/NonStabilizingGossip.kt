@@ -12,21 +12,24 @@ import it.unibo.collektive.stdlib.util.Reducer
 import it.unibo.collektive.stdlib.util.aligned
 
 /**
- * Merges the values that devices had in their first rounds into one: flooding.
+ * Merges the values that all devices had in their first rounds into one by flooding.
  *
- * Converges to the reduction over the connected component after as many rounds as its diameter. It is **not** self-stabilising: a merged
- * value remains, even when its origin changes its value or leaves. Use [gossip] where values must be forgotten.
+ * After as many rounds as the diameter of the connected component, the result contains the values of all its devices. The function is
+ * **not** self-stabilising: a merged value remains even after its origin has changed it or has left. If values must be forgotten, use
+ * [gossip].
  *
- * @param value this device's value in the first round; later ones are ignored.
- * @param reducer merges two values. Must be associative, commutative and idempotent, as a maximum or a union is, because a value can
+ * @param value this device's value in its first round. Later values are ignored.
+ * @param reducer merges two values. It must be associative, commutative and idempotent, as a maximum or a union is, because a value can
  *   arrive more than once.
  */
 public inline fun <ID : Any, reified V> Aggregate<ID>.nonStabilizingGossip(value: V, noinline reducer: Reducer<V>): V =
     nonStabilizingGossip(value, dataSharingMethod<V>(), reducer)
 
 /**
- * Whether [condition] held in the first round of a device whose messages have reached this one, directly or through others. Once `true`,
- * it stays `true`. Later rounds call [condition] but ignore its result; to watch for an event, see [isHappeningAnywhere].
+ * Returns whether [condition] held in the first round of any device whose messages have reached this one, directly or through others.
+ *
+ * Once the result is `true`, it stays `true`. Later rounds call [condition] but ignore its result. To watch for an event, use
+ * [isHappeningAnywhere].
  */
 public fun <ID : Any> Aggregate<ID>.everHappened(condition: () -> Boolean): Boolean = nonStabilizingGossip(condition()) { a, b -> a || b }
 

@@ -8,7 +8,7 @@ import it.unibo.collektive.stdlib.util.aligned
 import kotlin.time.Duration
 import kotlin.time.Instant
 
-/** The time since this device's last round, by its own clock: zero in the first round, and when the clock was set back. */
+/** Returns the time since this device's last round by its own clock, which is zero in the first round and after the clock was set back. */
 public fun Aggregate<*>.localDeltaTime(now: Instant): Duration = aligned("localDeltaTime") {
     evolving(now) { last -> now.yielding { (now - last).coerceAtLeast(Duration.ZERO) } }
 }

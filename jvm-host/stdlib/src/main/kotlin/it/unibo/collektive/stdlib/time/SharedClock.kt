@@ -10,15 +10,15 @@ import kotlin.time.Duration
 import kotlin.time.Instant
 
 /**
- * A monotonic clock that all devices of a connected component share: the greatest clock received, or this device's last value advanced
- * by the time since its last round if that is greater.
+ * Returns the time of a monotonic clock that all devices of a connected component share.
  *
- * Once links stop changing, clocks differ by no more than the age of the messages between them, after as many rounds as the
- * component's diameter. Not self-stabilising: one clock that is set too far ahead advances all others for ever.
+ * The clock starts at [Instant.DISTANT_PAST], whatever the devices' own clocks show. In each round, a device advances its last value by
+ * the time since its last round. If a neighbour has sent a greater value, the device adopts that value.
  *
- * It starts at [Instant.DISTANT_PAST], independently of the devices' own clocks.
+ * Once links have stopped changing for as many rounds as the component's diameter, clocks differ by no more than the age of the messages
+ * between them. The function is not self-stabilising: one clock that is set too far ahead advances all others for ever.
  *
- * @param localTime this device's own clock; only differences matter.
+ * @param localTime this device's own clock. Only differences between its values matter.
  */
 public fun Aggregate<*>.sharedClock(localTime: Instant): Instant = aligned("sharedClock") {
     val passed = localDeltaTime(localTime)
@@ -30,8 +30,10 @@ public fun Aggregate<*>.sharedClock(localTime: Instant): Instant = aligned("shar
 }
 
 /**
- * The time left until [timeToWait] has passed on the [sharedClock] since this device first called the function, or since the last wait
- * ended. Waits repeat. The result is zero or negative only in the round in which a wait ends.
+ * Returns the time left until [timeToWait] has passed on the [sharedClock].
+ *
+ * The first wait begins when this device first calls the function, and the next one begins when a wait ends. The result is zero or
+ * negative only in the round in which a wait ends.
  */
 public fun Aggregate<*>.sharedTimeLeftTo(now: Instant, timeToWait: Duration): Duration = aligned("sharedTimeLeftTo") {
     val clock = sharedClock(now)

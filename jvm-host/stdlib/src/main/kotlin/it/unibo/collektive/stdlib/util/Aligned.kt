@@ -8,8 +8,10 @@ import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 
 /**
- * Runs [body] below [pivot]. The library aligns its functions explicitly, so that they behave the same in programs compiled with and
- * without the compiler plugin. Unlike `alignedOn`, it may return a field: [pivot] is a constant, so all callers stay aligned.
+ * Runs [body] below [pivot] in the path.
+ *
+ * The library aligns its functions explicitly, so they behave the same in programs compiled with and without the compiler plugin. Unlike
+ * the body of `alignedOn`, [body] may return a field, because [pivot] is a constant and all callers stay aligned.
  */
 internal inline fun <R> Aggregate<*>.aligned(pivot: String, body: () -> R): R {
     align(pivot)

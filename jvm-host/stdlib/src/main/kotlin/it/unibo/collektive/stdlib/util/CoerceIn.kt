@@ -3,9 +3,9 @@ package it.unibo.collektive.stdlib.util
 import it.unibo.collektive.aggregate.Field
 
 /**
- * This value, limited to [min]..[max].
+ * Returns this value, limited to [min]..[max].
  *
- * @throws IllegalArgumentException when [min] is greater than [max]. The same applies to all overloads.
+ * @throws IllegalArgumentException when [min] is greater than [max]. The other overloads throw it too.
  */
 public fun <T : Comparable<T>> T.coerceIn(min: T, max: T): T {
     require(min <= max) { "the range is empty: $min is greater than $max" }
@@ -18,11 +18,11 @@ public fun <T : Comparable<T>> T.coerceIn(min: T, max: T): T {
     }
 }
 
-/** This value, limited to [range]. */
+/** Returns this value, limited to [range]. */
 public fun <T : Comparable<T>> T.coerceIn(range: ClosedRange<T>): T = coerceIn(range.start, range.endInclusive)
 
-/** Each value, limited to [min]..[max]. */
+/** Limits each value to [min]..[max]. */
 public fun <ID : Any, T : Comparable<T>> Field<ID, T>.coerceIn(min: T, max: T): Field<ID, T> = mapValues { it.coerceIn(min, max) }
 
-/** Each value, limited to [range]. */
+/** Limits each value to [range]. */
 public fun <ID : Any, T : Comparable<T>> Field<ID, T>.coerceIn(range: ClosedRange<T>): Field<ID, T> = mapValues { it.coerceIn(range) }

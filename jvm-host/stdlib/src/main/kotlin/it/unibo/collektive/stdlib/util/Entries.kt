@@ -2,8 +2,8 @@ package it.unibo.collektive.stdlib.util
 
 import it.unibo.collektive.aggregate.FieldEntry
 
-/** The entries' ids. */
+/** Returns the ids of the entries. */
 public fun <ID : Any> Sequence<FieldEntry<ID, *>>.ids(): Sequence<ID> = map { it.id }
 
-/** The entries' values. */
+/** Returns the values of the entries. */
 public fun <T> Sequence<FieldEntry<*, T>>.values(): Sequence<T> = map { it.value }

@@ -3,10 +3,10 @@ package it.unibo.collektive.stdlib.util
 import kotlinx.serialization.Serializable
 
 /**
- * The devices that a value passed, from its origin to the last. Immutable.
+ * An immutable list of the devices that a value passed, beginning with its origin.
  *
- * A path shares all hops but the last with the path that it extends. [mask] is a Bloom filter of one word: it answers most look-ups of
- * devices that are not on the path without a walk.
+ * A path shares all hops except the last with the path that it extends. [mask] is a Bloom filter of one word. With it, most look-ups of
+ * devices that are not on the path need no walk along the path.
  */
 @Serializable(with = HopPathSerializer::class)
 @PublishedApi
@@ -22,12 +22,12 @@ internal class HopPath<ID : Any> private constructor(
 
     override fun contains(element: ID): Boolean = prefixUpTo(element) != null
 
-    /** Whether this path is [path] with [id] appended. Compares [path] by identity, so it takes constant time. */
+    /** Returns whether this path is [path] with [id] appended. Compares [path] by identity, which takes constant time. */
     fun extends(path: HopPath<ID>, id: ID): Boolean = previous === path && hop == id
 
     /**
-     * Whether the devices common to this path and [last], and to the [other] path and [otherLast], are in the same order. The last
-     * devices differ.
+     * Returns whether two paths have their common devices in the same order: this path extended by [last], and [other] extended by
+     * [otherLast]. The two last devices must differ.
      */
     fun hasSameHopOrder(last: ID, other: HopPath<ID>, otherLast: ID): Boolean {
         val mine = prefixUpTo(otherLast)
@@ -40,7 +40,10 @@ internal class HopPath<ID : Any> private constructor(
         }
     }
 
-    /** Whether the devices common to this path and [whole] are in the same order, and are in [prefix], with which [whole] begins. */
+    /**
+     * Returns whether this path and [whole] have their common devices in the same order, and all of them are in [prefix], with which
+     * [whole] begins.
+     */
     private fun inOrderOf(prefix: HopPath<ID>, whole: HopPath<ID>): Boolean {
         var mine = this
         var rest = prefix
@@ -67,7 +70,7 @@ internal class HopPath<ID : Any> private constructor(
 
     override fun toString(): String = toList().toString()
 
-    /** The prefix of this path that ends with [id]; `null` when [id] is not on it. */
+    /** Returns the prefix of this path that ends with [id], or `null` if [id] is not on the path. */
     private fun prefixUpTo(id: ID): HopPath<ID>? {
         val bit = bitOf(id)
         var path: HopPath<ID>? = this
@@ -81,11 +84,11 @@ internal class HopPath<ID : Any> private constructor(
     companion object {
         private val EMPTY = HopPath<Nothing>(null, null, 0, 0)
 
-        /** The path of a value on the device where it originates. */
+        /** Returns the path of a value on the device of its origin, which is empty. */
         @Suppress("UNCHECKED_CAST")
         fun <ID : Any> empty(): HopPath<ID> = EMPTY as HopPath<ID>
 
-        /** The path over [hops]. */
+        /** Returns the path over [hops]. */
         fun <ID : Any> of(hops: List<ID>): HopPath<ID> = hops.fold(empty()) { path, id -> path + id }
 
         private fun bitOf(id: Any): Long = 1L shl (id.hashCode() * -0x61c88647 ushr 26)

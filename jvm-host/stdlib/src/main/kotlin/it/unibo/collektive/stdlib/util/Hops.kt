@@ -7,5 +7,5 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.neighborhood
 
-/** The distance in hops: 1 to each neighbour, 0 to itself. */
+/** Returns the distances in hops, which are 1 for each neighbour and 0 for this device. */
 public fun <ID : Any> Aggregate<ID>.hops(): Field<ID, Int> = aligned("hops") { neighborhood().map { if (it.id == localId) 0 else 1 } }

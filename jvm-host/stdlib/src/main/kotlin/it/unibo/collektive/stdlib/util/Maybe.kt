@@ -8,22 +8,22 @@ import kotlinx.serialization.Serializable
 /**
  * An [Option] that can be serialised. Its value may be `null`.
  *
- * @property option the value, or none.
+ * @property option the value, or [None].
  */
 @JvmInline
 @Serializable(with = MaybeSerializer::class)
 public value class Maybe<out T> internal constructor(public val option: Option<T>) {
     public companion object {
-        /** No value. */
+        /** The absence of a value. */
         public val none: Maybe<Nothing> = Maybe(None)
 
-        /** The value [value]. */
+        /** Returns a [Maybe] that contains [value]. */
         public fun <T> some(value: T): Maybe<T> = Maybe(Some(value))
 
-        /** This option, so that it can be serialised. */
+        /** Returns this option as a [Maybe], which can be serialised. */
         public fun <T> Option<T>.serializable(): Maybe<T> = Maybe(this)
 
-        /** Both values combined by [combiner], or the only one, or none. */
+        /** Combines both values with [combiner]. If only one value is present, returns it unchanged. */
         public inline fun <T> Option<T>.merge(other: Option<T>, combiner: (T, T) -> T): Option<T> = when (this) {
             is None -> other
 
@@ -33,7 +33,7 @@ public value class Maybe<out T> internal constructor(public val option: Option<T
             }
         }
 
-        /** Both values combined by [combiner], or the only one, or none. */
+        /** Combines both values with [combiner]. If only one value is present, returns it unchanged. */
         public inline fun <T> Maybe<T>.merge(other: Maybe<T>, combiner: (T, T) -> T): Maybe<T> =
             option.merge(other.option, combiner).serializable()
     }

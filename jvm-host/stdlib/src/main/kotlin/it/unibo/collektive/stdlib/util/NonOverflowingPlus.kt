@@ -1,4 +1,4 @@
 package it.unibo.collektive.stdlib.util
 
-/** The sum, saturated at the limits of [Int], so `Int.MAX_VALUE` can represent infinity. */
+/** Returns the sum, limited to the range of [Int], so `Int.MAX_VALUE` can represent infinity. */
 public fun Int.nonOverflowingPlus(other: Int): Int = (toLong() + other).coerceIn(Int.MIN_VALUE.toLong(), Int.MAX_VALUE.toLong()).toInt()

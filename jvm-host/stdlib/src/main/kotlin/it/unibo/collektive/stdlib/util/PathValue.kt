@@ -4,11 +4,11 @@ import kotlinx.serialization.Serializable
 import kotlinx.serialization.Transient
 
 /**
- * A device's offer to its neighbours in a gradient cast: [data], at a [distance] from its source.
+ * A device's offer to its neighbours in a gradient cast.
  *
  * @property distance the accumulated distance from the source to the offering device.
  * @property data the source's data as it arrived at the offering device.
- * @property hops the devices that the data passed, the source first, without the offering device.
+ * @property hops the devices that the data passed, beginning with the source and without the offering device.
  */
 @Serializable
 public data class PathValue<ID : Any, Value, Distance : Comparable<Distance>>(
@@ -22,16 +22,16 @@ public data class PathValue<ID : Any, Value, Distance : Comparable<Distance>>(
     /** The number of hops from the source to the offering device. */
     public val length: Int get() = hops.size
 
-    /** The source of the data; none at the source itself. */
+    /** The source of the data. The offer of the source itself has no hops, and throws [NoSuchElementException]. */
     public val source: ID get() = hops.first()
 
-    /** The device from which the offering device received the data; none at the source. */
+    /** The device that sent the data to the offering device. The offer of the source itself throws [NoSuchElementException]. */
     public val nextHop: ID get() = hops.last()
 
-    /** Whether the data passed the device [id]. */
+    /** Returns whether the data passed through the device [id]. */
     public operator fun contains(id: ID): Boolean = id in path
 
-    /** This offer after its arrival from [neighbor], [distanceToNeighbor] away and limited to [bottom]..[top]. */
+    /** Returns this offer as it arrives from [neighbor], with the distance [distanceToNeighbor] limited to [bottom]..[top]. */
     public inline fun update(
         neighbor: ID,
         distanceToNeighbor: Distance,
@@ -45,6 +45,6 @@ public data class PathValue<ID : Any, Value, Distance : Comparable<Distance>>(
         return PathValue(total, accumulateData(distance, step, data), hops + neighbor)
     }
 
-    /** The nearer offer is less. */
+    /** Compares the distances of the offers. */
     override fun compareTo(other: PathValue<ID, Value, Distance>): Int = distance.compareTo(other.distance)
 }

@@ -7,37 +7,37 @@ import kotlin.math.sqrt
 @Serializable
 @JvmInline
 public value class Point2D(public val coordinates: Pair<Double, Double>) {
-    /** The coordinate x. */
+    /** The x coordinate. */
     public val x: Double get() = coordinates.first
 
-    /** The coordinate y. */
+    /** The y coordinate. */
     public val y: Double get() = coordinates.second
 
-    /** The coordinate x. */
+    /** Returns the x coordinate. */
     public operator fun component1(): Double = x
 
-    /** The coordinate y. */
+    /** Returns the y coordinate. */
     public operator fun component2(): Double = y
 
-    /** The sum of two vectors. */
+    /** Returns the sum of this vector and [other]. */
     public operator fun plus(other: Point2D): Point2D = Point2D(x + other.x to y + other.y)
 
-    /** The vector from [other] to this point. */
+    /** Returns the vector from [other] to this point. */
     public operator fun minus(other: Point2D): Point2D = Point2D(x - other.x to y - other.y)
 
-    /** The vector, [scalar] times as long. */
+    /** Returns this vector multiplied by [scalar]. */
     public operator fun times(scalar: Double): Point2D = Point2D(x * scalar to y * scalar)
 
-    /** The vector, divided by [scalar]. */
+    /** Returns this vector divided by [scalar]. */
     public operator fun div(scalar: Double): Point2D = Point2D(x / scalar to y / scalar)
 
-    /** The vector itself. */
+    /** Returns this vector. */
     public operator fun unaryPlus(): Point2D = this
 
-    /** The opposite vector. */
+    /** Returns the opposite vector. */
     public operator fun unaryMinus(): Point2D = Point2D(-x to -y)
 
-    /** The Euclidean distance to [other]. */
+    /** Returns the Euclidean distance to [other]. */
     public fun distanceTo(other: Point2D): Double {
         val dx = x - other.x
         val dy = y - other.y

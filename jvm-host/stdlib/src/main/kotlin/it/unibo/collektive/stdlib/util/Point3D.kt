@@ -7,43 +7,43 @@ import kotlin.math.sqrt
 @Serializable
 @JvmInline
 public value class Point3D(internal val coordinates: Triple<Double, Double, Double>) {
-    /** The coordinate x. */
+    /** The x coordinate. */
     public val x: Double get() = coordinates.first
 
-    /** The coordinate y. */
+    /** The y coordinate. */
     public val y: Double get() = coordinates.second
 
-    /** The coordinate z. */
+    /** The z coordinate. */
     public val z: Double get() = coordinates.third
 
-    /** The coordinate x. */
+    /** Returns the x coordinate. */
     public operator fun component1(): Double = x
 
-    /** The coordinate y. */
+    /** Returns the y coordinate. */
     public operator fun component2(): Double = y
 
-    /** The coordinate z. */
+    /** Returns the z coordinate. */
     public operator fun component3(): Double = z
 
-    /** The sum of two vectors. */
+    /** Returns the sum of this vector and [other]. */
     public operator fun plus(other: Point3D): Point3D = Point3D(Triple(x + other.x, y + other.y, z + other.z))
 
-    /** The vector from [other] to this point. */
+    /** Returns the vector from [other] to this point. */
     public operator fun minus(other: Point3D): Point3D = Point3D(Triple(x - other.x, y - other.y, z - other.z))
 
-    /** The vector, [scalar] times as long. */
+    /** Returns this vector multiplied by [scalar]. */
     public operator fun times(scalar: Double): Point3D = Point3D(Triple(x * scalar, y * scalar, z * scalar))
 
-    /** The vector, divided by [scalar]. */
+    /** Returns this vector divided by [scalar]. */
     public operator fun div(scalar: Double): Point3D = Point3D(Triple(x / scalar, y / scalar, z / scalar))
 
-    /** The vector itself. */
+    /** Returns this vector. */
     public operator fun unaryPlus(): Point3D = this
 
-    /** The opposite vector. */
+    /** Returns the opposite vector. */
     public operator fun unaryMinus(): Point3D = Point3D(Triple(-x, -y, -z))
 
-    /** The Euclidean distance to [other]. */
+    /** Returns the Euclidean distance to [other]. */
     public fun distanceTo(other: Point3D): Double {
         val dx = x - other.x
         val dy = y - other.y
