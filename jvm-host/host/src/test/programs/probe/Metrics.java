@@ -4,11 +4,11 @@ import org.collektive.api.Metric;
 import org.collektive.api.NetworkSnapshot;
 import org.collektive.api.NodeSnapshot;
 
-/** Metrics of the probe's network. */
+/** The metrics of the tests. */
 public final class Metrics {
   private Metrics() {}
 
-  /** The sum of all sensor data of this tick. */
+  /** Returns the sum of all sensor data of this tick. */
   @Metric(name = "sensed")
   public static double sensed(NetworkSnapshot<SensorData, ActuatorData> network) {
     double sum = 0;
@@ -18,7 +18,7 @@ public final class Metrics {
     return sum;
   }
 
-  /** The sum of the last answers, NaN if a node has none. */
+  /** Returns the sum of the last answers, or NaN if a node has not answered yet. */
   @Metric(name = "answered")
   public static double answered(NetworkSnapshot<SensorData, ActuatorData> network) {
     double sum = 0;
@@ -28,7 +28,7 @@ public final class Metrics {
     return sum;
   }
 
-  /** The sum over all links of the sender's id, plus ten times the length. */
+  /** Returns the sum over all links of the sender's id plus ten times the link's length. */
   @Metric(name = "links")
   public static double links(NetworkSnapshot<SensorData, ActuatorData> network) {
     return network.getNodes().stream()

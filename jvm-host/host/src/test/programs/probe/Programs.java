@@ -11,11 +11,11 @@ import org.collektive.api.Device;
 import org.collektive.api.Program;
 import org.slf4j.LoggerFactory;
 
-/** Programs that succeed, or fail in the way that their sensors select. */
+/** Programs that succeed, or fail in the way that the sensor data selects. */
 public final class Programs {
   private Programs() {}
 
-  /** The sum of this node's value and those of its neighbours, the number of successful rounds, a random number, the wind. */
+  /** Returns the sum of the values of this node and its neighbours, the number of successful rounds, a random number and the wind. */
   @Program(name = "sum")
   public static ActuatorData sum(Aggregate<Integer> aggregate, SensorData sensors, Device device) {
     long sum = sensors.value();

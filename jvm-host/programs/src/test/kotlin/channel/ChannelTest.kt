@@ -9,8 +9,10 @@ import java.nio.ByteOrder
 import kotlin.test.assertEquals
 
 /**
- * The expected values are calculated by hand. Nodes 0 to 4 are in a row, 10 m apart, from source to target;
- * 5 is 8 m beside 2, and 6 almost between 0 and 2. The path through 6 is 40.1 m long, that through 5 is 56 m.
+ * Tests the channel with values that are calculated by hand.
+ *
+ * Nodes 0 to 4 are in a row, 10 m apart. Node 0 is the source and node 4 the target. Node 5 is 8 m beside node 2, and node 6 is almost
+ * between nodes 0 and 2. The path through node 6 is 40.1 m long, and the path through node 5 is 56 m long.
  */
 class ChannelTest {
     private val row = (0..4).associateWith { Point2D(10.0 * it to 0.0) } + mapOf(5 to Point2D(20.0 to 8.0), 6 to Point2D(10.0 to 1.0))
@@ -80,7 +82,7 @@ class ChannelTest {
     }
 
     private companion object {
-        /** Number of ticks after which nothing changes. */
+        /** The number of ticks after which the answers no longer change. */
         const val STABLE = 30
     }
 }

@@ -15,7 +15,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Walkers on the ground; those within 6 m of each other are linked. */
+/** Tests walkers on the ground. Walkers within 6 m of each other are linked. */
 class CrowdTest {
     private fun <T> walk(walkers: Map<Int, Walker>, use: (Swarm<SensorData, ActuatorData>) -> T): T =
         Swarm(6.0, mapOf("speed" to "1.4", "limit" to "0.9", "hops" to "2"), { id, place ->
@@ -44,8 +44,8 @@ class CrowdTest {
         val walkers =
             mapOf(0 to Walker(Point2D(-0.6 to 0.0), Point2D(10.0 to 0.0)), 1 to Walker(Point2D(0.6 to 0.0), Point2D(-10.0 to 0.0)))
         val (left, right) = walk(walkers) { it.ticks(2) }.values.map { it.velocity.onGround() }
-        assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "$left: forward, but slower, and to the right, which is -z")
-        assertEquals(-left.first to -left.second, right, "the same seen from the other side")
+        assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "it must go forward more slowly, and to the right, which is -z: $left")
+        assertEquals(-left.first to -left.second, right, "the other walker must do the same in the opposite direction")
     }
 
     @Test
@@ -62,7 +62,7 @@ class CrowdTest {
 
     @Test
     fun `a warning about density spreads two hops, and warned walkers go at half speed`() {
-        // Twelve within 2 m of each other, and a chain of three 5 m apart.
+        // Twelve walkers are within 2 m of each other, and three more are in a chain, 5 m apart.
         val dense = (0 until 12).associateWith { Point2D(0.3 * (it % 4) to 0.3 * (it / 4)) }
         val chain = mapOf(12 to Point2D(5.0 to 0.0), 13 to Point2D(10.0 to 0.0), 14 to Point2D(15.0 to 0.0))
         val answers = walk((dense + chain).mapValues { (_, place) -> Walker(place, Point2D(100.0 to 0.0)) }) { it.ticks(5) }

@@ -26,19 +26,19 @@ class ShapeTest {
     @Test
     fun `the strokes of the letters have the same places everywhere`() {
         val letters = SHAPES.last()
-        // H has two strokes of 2.4 radii and one of 1.2, and I one of 2.4 and two of 0.8.
+        // The letter H has two strokes of 2.4 radii and one of 1.2 radii. The letter I has one of 2.4 radii and two of 0.8 radii.
         assertEquals(Point3D(Triple(-1.11 * RADIUS, 0.0, -1.2 * RADIUS)).toString(), letters.pointAt(0.0, 0.0, RADIUS).toString())
         assertEquals(1.2 * RADIUS, letters.pointAt(2.4 / 10, 0.0, RADIUS).z, 1e-9)
         assertEquals(1.3 * RADIUS, letters.pointAt(1.0, 0.0, RADIUS).x, 1e-9)
     }
 
-    /** The distances to the nearest of 10,000 even places are those of the sphere, apart from its poles and from crossing strokes. */
     @Test
     fun `drones are spread about evenly on all shapes`() {
         for ((number, shape) in SHAPES.withIndex()) {
             val cells = grid(100).map { (u, v) -> shape.pointAt(u, v, RADIUS) }.groupBy { Triple(cell(it.x), cell(it.y), cell(it.z)) }
             val area = 4 * PI * RADIUS * RADIUS
-            // A cell of the side a of a flat part contains about a * a / area of all places, and up to three times as many on slopes and crossings.
+            // A cube of side a on a flat part contains about a * a / area of all places. Slopes and crossing strokes have up to three times
+            // as many.
             val most = cells.values.maxOf { it.size } / 10_000.0
             assertTrue(most < 4 * CELL * CELL / area, "shape $number: $most")
         }

@@ -10,7 +10,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
-/** Drones that stay where they are. */
+/** Tests drones that stay where they are. */
 class SwarmTest {
     private val places = sortedMapOf<Int, Point3D>()
     private val network = TestNetwork(deltaTime = 0.05)
@@ -18,7 +18,7 @@ class SwarmTest {
     @Test
     fun `the greatest id leads, and each shape spreads one hop per round`() {
         line(10)
-        // The greatest id leads from the start. For one round, the others also consider themselves leaders.
+        // The drone with the greatest id leads from the start. In the first round, the others also consider themselves leaders.
         val shapes = List(12) { tick().values.map { it.shape } }
         assertEquals(List(10) { 0 }, shapes.last())
         assertEquals(listOf(9), tick().filterValues { it.leads }.keys.toList())
@@ -47,7 +47,7 @@ class SwarmTest {
         repeat(3) { tick() }
         val (left, right) = tick().values.map { it.target }
         assertTrue(right.x - left.x > 4, "$left $right")
-        assertTrue(left.y > 5 && right.y > 5, "the sphere is above them: $left $right")
+        assertTrue(left.y > 5 && right.y > 5, "they must rise, because the sphere is above them: $left $right")
     }
 
     @Test

@@ -9,7 +9,7 @@ import org.collektive.testkit.Network
 import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
-/** Node 0 at the origin senses 10, node 1 at (3, 1, 4) senses 20. The expected values are calculated by hand. */
+/** Tests two nodes with values that are calculated by hand. Node 0 at the origin senses 10, and node 1 at (3, 1, 4) senses 20. */
 class GradientAscentTest {
     private val network = Network(AggregateRuntimes(), 0, 1)
 
@@ -25,8 +25,8 @@ class GradientAscentTest {
     @Test
     fun `both nodes climb, including the one in front`() {
         round(0, null, low)
-        assertEquals(listOf(3.6f, 1f, 4.8f), round(1, 0, high), "away from the lower one")
-        assertEquals(listOf(0.6f, 1f, 0.8f), round(0, 1, low), "towards the higher one")
+        assertEquals(listOf(3.6f, 1f, 4.8f), round(1, 0, high), "it must move away from the lower node")
+        assertEquals(listOf(0.6f, 1f, 0.8f), round(0, 1, low), "it must move towards the higher node")
     }
 
     @Test
@@ -47,7 +47,7 @@ class GradientAscentTest {
     @Test
     fun `pull and push add up`() {
         round(1, null, high)
-        // The neighbour pulls by 10 along (0.6, 0.8), the obstacle pushes by 2 / 0.25 = 8 along -z: (6, 0).
+        // The neighbour pulls by 10 along (0.6, 0.8), and the obstacle pushes by 2 / 0.25 = 8 along -z. The sum is (6, 0).
         assertEquals(listOf(1f, 1f, 0f), round(0, 1, sensors(10f, Vector3Value(0f, 1f, 0f), Vector3Value(0f, 0f, 0.5f))))
     }
 

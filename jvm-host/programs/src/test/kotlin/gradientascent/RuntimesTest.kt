@@ -9,7 +9,7 @@ import kotlin.random.Random
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** The case study moves a swarm the same way on the project's own runtime and on Collektive's public API. */
+/** Tests that the case study moves a swarm in the same way on the project's own runtime and on Collektive's public API. */
 class RuntimesTest {
     @Test
     fun `both runtimes compute the same positions for hundreds of ticks`() {
@@ -18,7 +18,7 @@ class RuntimesTest {
         assertEquals(TICKS, own.distinct().size, "the swarm moves")
     }
 
-    /** All targets of each tick, while nodes move and are added and removed. */
+    /** Returns the targets of each tick while nodes move, and while nodes are added and removed. */
     private fun run(runtime: String): List<Map<Int, List<Float>>> =
         Swarm(RANGE, mapOf("step" to "1.0"), { _, place -> sense(place) }, Aggregate<Int>::gradientAscent, runtime).use { swarm ->
             val random = Random(7)

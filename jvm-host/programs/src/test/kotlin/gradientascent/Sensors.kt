@@ -4,7 +4,7 @@ import com.google.flatbuffers.FlatBufferBuilder
 import org.collektive.schema.Vector3
 import org.collektive.schema.Vector3Value
 
-/** The sensor data of a node at [position]. */
+/** Returns the sensor data of a node at [position]. */
 internal fun sensors(intensity: Float, position: Vector3Value, vararg obstacles: Vector3Value): SensorData {
     val builder = FlatBufferBuilder()
     SensorData.startObstaclesVector(builder, obstacles.size)

@@ -8,7 +8,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import kotlin.test.assertEquals
 
-/** Nodes 0 to 5 are in a row, 10 m apart, linked to the next ones. The expected values are calculated by hand. */
+/** Tests the leader election with values that are calculated by hand. Nodes 0 to 5 are in a row, 10 m apart, each linked to the next. */
 class LeaderElectionTest {
     private fun swarm(radius: String) =
         Swarm(11.0, mapOf("radius" to radius), { _, place -> sensors(place) }, Aggregate<Int>::leaderElection).apply {
@@ -51,7 +51,7 @@ class LeaderElectionTest {
     }
 
     private companion object {
-        /** Number of ticks after which nothing changes. */
+        /** The number of ticks after which the answers no longer change. */
         const val STABLE = 40
     }
 }

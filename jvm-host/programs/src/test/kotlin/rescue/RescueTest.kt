@@ -10,7 +10,7 @@ import kotlin.math.hypot
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Robots on the ground; those within 9 m of each other are linked. Node 0 is the base, the others stand in a row every 8 m. */
+/** Tests robots in a row, 8 m apart, of which node 0 is the base. Robots within 9 m of each other are linked. */
 class RescueTest {
     private val casualties = mutableMapOf<Int, Int>()
     private val obstacles = mutableMapOf<Int, Point2D>()
@@ -103,7 +103,7 @@ class RescueTest {
     }
 
     private companion object {
-        /** Number of ticks after which nothing changes. */
+        /** The number of ticks after which the answers no longer change. */
         const val STABLE = 40
     }
 }

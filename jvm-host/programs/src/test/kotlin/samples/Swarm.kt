@@ -6,7 +6,9 @@ import org.collektive.api.Device
 import org.collektive.testing.TestNetwork
 
 /**
- * Devices on the ground. All run [round] in each tick, on the data that [sense] returns for id and position. Two are linked while they are
+ * Devices on the ground.
+ *
+ * In each tick, all devices run [round] on the data that [sense] returns for their id and position. Two devices are linked while they are
  * less than [range] metres apart.
  */
 internal class Swarm<S : Any, A : Any>(
@@ -22,7 +24,11 @@ internal class Swarm<S : Any, A : Any>(
     private val network = TestNetwork(deltaTime = DELTA, runtime = runtime)
     private val links = HashSet<Pair<Int, Int>>()
 
-    /** Runs one tick and returns the answers by id. @throws IllegalStateException when a round failed. */
+    /**
+     * Runs one tick and returns the answers by id.
+     *
+     * @throws IllegalStateException when a round failed.
+     */
     fun tick(): Map<Int, A> {
         val gone = network.nodes - places.keys
         gone.forEach(network::remove)
@@ -33,7 +39,7 @@ internal class Swarm<S : Any, A : Any>(
         return network.round { device -> round(seen.getValue(device.id), device) }
     }
 
-    /** Runs [count] ticks and returns the answers of the last. */
+    /** Runs [count] ticks and returns the answers of the last one. */
     fun ticks(count: Int): Map<Int, A> {
         repeat(count - 1) { tick() }
         return tick()

@@ -3,7 +3,7 @@ package org.collektive.spi
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** Sizes of messages are those of a compact binary format. */
+/** Tests that message sizes are computed as for a compact binary format. */
 class MessageSizeTest {
     private enum class Colour { RED }
 

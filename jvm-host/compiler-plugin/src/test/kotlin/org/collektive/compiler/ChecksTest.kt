@@ -5,7 +5,7 @@ import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Each source marks the lines where a check must report (`// NAME`, or `// NAME NAME`); everywhere else it must be silent. */
+/** Tests the checks. Sources mark lines where checks must report with `// NAME` or `// NAME NAME`. On other lines, no check may report. */
 class ChecksTest {
     @Test
     fun `a branch that returns a field is an error`() = assertReports(
@@ -531,7 +531,7 @@ class ChecksTest {
     }
 
     private companion object {
-        /** Warnings of the compiler about the style of the sources. */
+        /** The compiler's own warnings about the style of the sources, which the tests ignore. */
         val COMPILERS_OWN = setOf("UNUSED_EXPRESSION", "UNUSED_VARIABLE", "NOTHING_TO_INLINE")
     }
 }

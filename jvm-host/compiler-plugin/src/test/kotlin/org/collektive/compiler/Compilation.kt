@@ -29,11 +29,15 @@ internal data class Report(val severity: CompilerMessageSeverity, val line: Int,
     val name: String get() = text.substringAfter('[', "").substringBefore(']')
 }
 
-/** A Kotlin source, compiled by the real compiler with the plugin, loaded as users load it. */
+/** A Kotlin source that the real compiler has compiled with the plugin. */
 internal class Compilation private constructor(val succeeded: Boolean, val reports: List<Report>, private val classes: Path) {
     private val loader by lazy { URLClassLoader(arrayOf(classes.toUri().toURL()), javaClass.classLoader) }
 
-    /** The top-level function [name] of the source, after its package if it has one, as a program; its further parameters get [arguments]. */
+    /**
+     * Returns a top-level function of the source as a program.
+     *
+     * [name] begins with the package of the source if it has one. The parameters after the receiver get [arguments].
+     */
     fun program(name: String, vararg arguments: Any?): Aggregate<Int>.() -> Any? {
         check(succeeded) { "the source does not compile: $reports" }
         val method = loader.loadClass(name.replaceAfterLast('.', "${FILE}Kt", "${FILE}Kt")).methods.single {
@@ -49,7 +53,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
         }
     }
 
-    /** The text of the file [path] among the compiled classes, or `null`. */
+    /** Returns the text of the file [path] among the compiled classes, or `null`. */
     fun output(path: String): String? = classes.resolve(path).toFile().takeIf(File::exists)?.readText()
 
     companion object {
@@ -57,12 +61,12 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
 
         private const val IMPORTS = "import it.unibo.collektive.aggregate.*; import it.unibo.collektive.aggregate.api.*;"
 
-        /** Compiles [source]; its first line is line 1, all names of the DSL are imported. */
+        /** Compiles [source] with imports of all names of the DSL. Reports count the lines as they are written. */
         fun of(source: String, vararg options: String, module: String = "programs"): Compilation {
             val folder = Files.createTempDirectory("compilation")
             Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
             val text = source.trimIndent()
-            // A file annotation or a package comes before imports, which share the first line so that lines count as written.
+            // Imports must follow a file annotation or a package. They are added to the first line, so the line numbers stay the same.
             val firstCode = if (text.startsWith("@file:") || text.startsWith("package ")) text.indexOf('\n') else 0
             val file = folder.resolve("$FILE.kt").toFile()
             file.writeText(text.substring(0, firstCode) + " " + IMPORTS + text.substring(firstCode))
@@ -96,7 +100,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
             return Compilation(code == ExitCode.OK, reports.sortedBy { it.line }, folder.resolve("classes"))
         }
 
-        /** The plugin's classes and its services; some builds put them into two folders. */
+        /** The folders or jars of the plugin's classes and its services. Some builds write these to two folders. */
         private val PLUGIN: Array<String> = CompilerPluginRegistrar::class.java.name.let { service ->
             val services = CollektivePlugin::class.java.classLoader.getResources("META-INF/services/$service").asSequence()
                 .filter { it.protocol == "file" }
@@ -104,7 +108,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
             (services + placeOf(CollektivePlugin::class.java)).distinct().toList().toTypedArray()
         }
 
-        /** The jar or folder from which [type] was loaded. */
+        /** Returns the jar or folder from which [type] was loaded. */
         private fun placeOf(type: Class<*>): String = File(type.protectionDomain.codeSource.location.toURI()).path
     }
 

@@ -4,7 +4,7 @@ import org.junit.jupiter.api.assertThrows
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** The path of a failure is recorded, although the stack is empty when the exception leaves the round. */
+/** Tests that the path of a failure is recorded, although the stack is empty when the exception leaves the round. */
 class FailureTest {
     @Test
     fun `an exception has the path where it was thrown`() = assertFails("plain", "helper > if > deep", "Program.kt:2")

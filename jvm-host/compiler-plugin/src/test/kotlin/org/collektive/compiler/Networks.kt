@@ -11,7 +11,7 @@ import org.collektive.testkit.ReferenceDevice
 import org.collektive.testkit.ReferenceDevices
 import kotlin.test.assertEquals
 
-/** Reference devices, all linked, that do not implement `AlignmentStack` if they are [plain]. */
+/** Creates reference devices that are all linked to each other. If they are [plain], they do not implement `AlignmentStack`. */
 internal fun referenceNetwork(vararg ids: Int, plain: Boolean = false) = Network(ReferenceDevices(isAligned = !plain), *ids).apply {
     for (a in ids) for (b in ids) if (a < b) link(a, b)
 }
@@ -28,17 +28,17 @@ internal fun trace(program: Aggregate<Int>.() -> Any?): Pair<Any?, List<String>>
     return network.round(program)[0] to network.first.visited
 }
 
-/** Compares the neighbours that [program] returns on some of four devices, all linked, in the second round. */
+/** Compares the neighbours that [program] returns in the second round on some of four devices, which are all linked to each other. */
 internal fun assertSeen(compiled: Compilation, program: String, expected: Array<out Pair<Int, Set<Int>>>, plainToo: Boolean = true) {
     for (plain in if (plainToo) listOf(false, true) else listOf(false)) {
         val network = referenceNetwork(0, 1, 2, 3, plain = plain)
         network.round(compiled.program(program))
         val seen = network.round(compiled.program(program))
-        for ((id, ids) in expected) assertEquals<Any?>(ids, seen[id], "$program of device $id (plain: $plain)")
+        for ((id, ids) in expected) assertEquals<Any?>(ids, seen[id], "$program on device $id (plain: $plain)")
     }
 }
 
-/** All ways of running four devices in a row, by name: the reference devices and those of users. */
+/** Returns networks of four devices in a row by name: one of reference devices, and one for each kind of device that users run. */
 internal fun rows(): Map<String, Network> = mapOf(
     "reference" to ReferenceDevices(),
     WITHOUT_STACK to ReferenceDevices(isAligned = false),

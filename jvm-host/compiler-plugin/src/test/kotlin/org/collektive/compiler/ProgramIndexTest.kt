@@ -3,7 +3,7 @@ package org.collektive.compiler
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** The programs of a module and their parameters are listed next to its classes. */
+/** Tests the index of a module's programs and their parameters, which is written beside its classes. */
 class ProgramIndexTest {
     @Test
     fun `programs are listed with their sensor data, parameters, defaults, descriptions and constants`() {

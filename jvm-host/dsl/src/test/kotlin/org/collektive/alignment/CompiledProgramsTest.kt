@@ -7,7 +7,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertNull
 import kotlin.test.assertSame
 
-/** Tests the functions that compiled programs call, on a device without [AlignmentStack]. */
+/** Tests the functions that compiled programs call, on a device that does not implement [AlignmentStack]. */
 class CompiledProgramsTest {
     @Test
     fun `tokens are pivots of the device's own stack`() {

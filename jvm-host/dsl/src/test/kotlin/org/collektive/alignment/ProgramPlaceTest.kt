@@ -5,7 +5,7 @@ import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNull
 
-/** Tests readable tokens of compiled programs. */
+/** Tests how messages show the tokens of compiled programs. */
 class ProgramPlaceTest {
     private fun token(name: String, line: Int) = "$name@Swarm.kt:$line#0123456789abcdef"
 

@@ -9,7 +9,7 @@ import java.lang.management.ManagementFactory
 import java.util.concurrent.TimeUnit
 import kotlin.test.assertTrue
 
-/** The warm engine allocates nothing per tick. A control run that allocates shows that the measurement works. */
+/** Tests that the engine allocates nothing per tick after a warm-up. A control run that allocates shows that the measurement works. */
 @Tag("slow")
 class AllocationTest {
     private val threads = ManagementFactory.getThreadMXBean() as ThreadMXBean
@@ -35,14 +35,18 @@ class AllocationTest {
         for (schedule in Schedule.entries) {
             for (network in listOf(NetworkModel(), bad)) {
                 val control = bytesPerTick(schedule, network, allocates = true)
-                assertTrue(control > NODES * 32, "the control run allocates at least its arrays, but only $control B were measured")
+                assertTrue(control > NODES * 32, "the control run must allocate at least its arrays, but only $control B were measured")
                 val bytes = bytesPerTick(schedule, network, allocates = false)
                 assertTrue(bytes < 1, "$schedule, ${if (network.isIdeal) "ideal" else "bad"} network: $bytes B per tick")
             }
         }
     }
 
-    /** Bytes per tick that the calling thread and the pool allocate. The least of several runs: code that is not yet compiled allocates more. */
+    /**
+     * Returns the bytes that the calling thread and the pool allocate per tick.
+     *
+     * This is the minimum of several runs, because code that is not compiled yet allocates more.
+     */
     private fun bytesPerTick(schedule: Schedule, network: NetworkModel, allocates: Boolean): Long {
         Engine(EngineSettings(1, 2, schedule, network), AggregateRuntimes()).use { engine ->
             val tick = Tick()

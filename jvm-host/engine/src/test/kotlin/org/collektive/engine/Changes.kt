@@ -18,7 +18,7 @@ internal class Changes(
     val globals: Int?,
 ) {
     companion object {
-        /** A random valid sequence of [count] ticks that adds and removes nodes and links, some of them again in the same tick. */
+        /** Returns [count] random valid ticks that add and remove nodes and links. Some are removed and added again in the same tick. */
         fun random(seed: Int, count: Int): List<Changes> {
             val random = Random(seed)
             val nodes = sortedSetOf<Int>()
@@ -47,7 +47,7 @@ internal class Changes(
     }
 }
 
-/** A tick with [changes], in their order or in a random one. */
+/** Runs a tick with [changes], in their own order or in a random one. */
 internal fun TestEngine.step(changes: Changes, order: Random? = null): TickResult = step {
     fun <T> List<T>.arriving() = if (order == null) this else shuffled(order)
     changes.removed.arriving().forEach(nodesRemoved::add)

@@ -177,11 +177,11 @@ class EngineTest {
                 }
                 val second = step { due(1, 2, 3) }
                 assertEquals(1, second.failureCount)
-                assertEquals<Any?>(2 to listOf(1), second.toMap()[1], "1 still sees what 2 sent before")
+                assertEquals<Any?>(2 to listOf(1), second.toMap()[1], "node 1 must still see the value that node 2 sent before its failure")
                 assertEquals<Any?>(2 to emptyList<Int>(), second.toMap()[3])
                 val third = step { due(1, 2, 3) }
                 assertEquals(0, third.failureCount)
-                assertEquals(2, (third.toMap()[2] as Pair<*, *>).first, "the failed round did not count")
+                assertEquals(2, (third.toMap()[2] as Pair<*, *>).first, "the failed round must not count")
             }
         }
     }
@@ -213,7 +213,7 @@ class EngineTest {
             val error = assertFailsWith<RoundTimeoutException> { step(limitMillis = 200) { due(*ids) } }
             assertEquals("tick 2: rounds did not finish within the time limit", error.message)
             assertTrue("in the round of node 2" in error.threads)
-            assertTrue("EngineTest" in error.threads, "the stack shows where")
+            assertTrue("EngineTest" in error.threads, "the stack must show the place of the loop")
             assertFailsWith<IllegalStateException> { step { due(1) } }
         }
         stop = true

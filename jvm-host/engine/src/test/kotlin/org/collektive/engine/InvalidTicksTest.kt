@@ -7,7 +7,7 @@ import org.junit.jupiter.api.TestFactory
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
-/** An invalid tick is rejected with a message that names the tick, the id and the value. It has no effect. */
+/** Tests that an invalid tick is rejected without an effect. The message names the tick, the id and the value. */
 class InvalidTicksTest {
     private class Case(val message: String, val fill: TestEngine.(Tick) -> Unit)
 
@@ -75,7 +75,7 @@ class InvalidTicksTest {
         }
     }
 
-    /** Runs four ticks, and before the third the bad one, together with changes that must not be applied. */
+    /** Runs four ticks. Before the third one, runs the bad tick together with changes that must not be applied. */
     private fun run(bad: Case?): List<Any?> {
         val program = program { device -> evolveAll(device.time) to device.time }
         return TestEngine(program).use { test ->

@@ -17,7 +17,9 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Devices on Collektive's public API compute the same as the project's own runtime, and the engine the same as the test kit's network. */
+/**
+ * Compares devices on Collektive's public API with the project's own runtime, and the engine with the network of the test kit.
+ */
 class MailboxRuntimesTest {
     @TestFactory
     fun `random programs give the same answers for hundreds of ticks while nodes and links change`(): List<DynamicTest> =
@@ -28,14 +30,14 @@ class MailboxRuntimesTest {
                     val own = run(seed, schedule, AggregateRuntimes(), piece)
                     assertEquals(own, run(seed, schedule, MailboxRuntimes(), piece))
                     assertEquals(own, runWithoutEngine(seed, schedule, piece))
-                    assertTrue(own.flatMap { it.values }.toSet().size > 200, "the programs do something")
+                    assertTrue(own.flatMap { it.values }.toSet().size > 200, "the answers must vary, or the comparison shows little")
                 }
             }
         }
 
     private fun run(seed: Int, schedule: Schedule, runtimes: DeviceRuntimes, piece: Piece): List<Map<Int, Any?>> =
         TestEngine(program { piece() ?: NOTHING }, 2, schedule, runtimes = runtimes).use { test ->
-            // The two describe the place of an error differently.
+            // The runtimes describe the place of an error differently.
             Changes.random(seed, 300).map { tick ->
                 test.step(tick).toMap().mapValues { (_, answer) -> if (answer is String) FAILED else answer }
             }

@@ -13,7 +13,10 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertNotEquals
 
-/** Compares random runs, in which nodes and links come and go, with a model of maps, for several thread counts and networks. */
+/**
+ * Compares random runs, in which nodes and links come and go, with a simple model. Runs on several numbers of threads and with several
+ * networks.
+ */
 class ModelTest {
     private val networks = mapOf(
         "ideal" to NetworkModel(),
@@ -62,7 +65,7 @@ class ModelTest {
         }
     }
 
-    /** The outcome of a tick: the answers, then the numbers of sent, dropped, delayed and expired messages. */
+    /** The outcome of a tick: the answers, and the numbers of sent, dropped, delayed and expired messages. */
     private data class Outcome(val answers: Map<Int, Any?>, val counts: List<Long>)
 
     private fun run(
@@ -98,7 +101,7 @@ class ModelTest {
     private class Model(private val schedule: Schedule, private val network: NetworkModel) {
         private class Message(val tick: Int, val count: Long, val kept: Long, val toEach: Map<Int, Long>, val receivers: Set<Int>)
 
-        /** All messages of a link, with the times of their arrival. */
+        /** All messages of a link with their times of arrival. */
         private class Link(var values: Values, val since: Int) {
             val arrivals = ArrayList<Pair<Message, Double>>()
             var newest: Message? = null
@@ -179,7 +182,7 @@ class ModelTest {
             }
         }
 
-        /** The newest message that has arrived and has not expired. */
+        /** Selects the newest message that has arrived and has not expired. */
         private fun settle(link: Link) {
             val arrived = link.arrivals.filter { it.second <= now + 0.0005 }.maxByOrNull { it.first.tick } ?: return
             if (arrived.first !== link.newest) {

@@ -12,9 +12,9 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 
-/** Which messages receivers read; ticks are half a second apart. */
+/** Tests which messages receivers read. Ticks are half a second apart. */
 class NetworkTest {
-    /** Each node sends its time; its answer is what it received from its neighbours. */
+    /** A program in which each node sends its time, and answers with the values that it received from its neighbours. */
     private val received = program { device -> neighboring(device.time).neighbors.toMap() }
 
     /** Returns the values that node 2 receives from node 1 in each of [ticks] ticks, while node 1 sends in the ticks of [sending]. */
@@ -42,7 +42,7 @@ class NetworkTest {
 
     @Test
     fun `without delay a message arrives at the next tick, in sequence at the same one`() {
-        // A retention makes the network non-ideal; the messages are the same.
+        // The second network has a retention, so it is not ideal, but it must deliver the same messages.
         for (network in listOf(NetworkModel(), NetworkModel(retention = 1e9))) {
             assertEquals(listOf(null, 0.5, 1.0, 1.5), receivedFrom1(network, 4))
             assertEquals<List<Double?>>(listOf(0.5, 1.0, 1.5), receivedFrom1(network, 3, schedule = Schedule.SEQUENTIAL))
@@ -51,7 +51,7 @@ class NetworkTest {
 
     @Test
     fun `a delay starts at the tick of sending`() {
-        assertEquals(listOf(null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.5), 3), "lockstep always takes one tick")
+        assertEquals(listOf(null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.5), 3), "in lockstep, a message takes at least one tick")
         assertEquals(listOf(null, null, 0.5, 1.0), receivedFrom1(NetworkModel(delay = 0.6), 4))
         assertEquals(listOf(null, null, null, 0.5), receivedFrom1(NetworkModel(delay = 1.5), 4))
         assertEquals(listOf(null, 0.5), receivedFrom1(NetworkModel(delay = 0.5), 2, schedule = Schedule.SEQUENTIAL))
@@ -113,7 +113,7 @@ class NetworkTest {
             Triple(10f, 8f, 0.7),
             Triple(99f, 0f, 1.0),
         )) {
-            // Four standard deviations of a proportion of 10,500.
+            // The tolerance is four standard deviations of a proportion of 10,500 messages.
             assertTrue(abs(lossOf(network, length, attenuation) - expected) < 0.02, "$length m, $attenuation")
         }
     }
@@ -131,11 +131,11 @@ class NetworkTest {
                         link(1, 3)
                         due(1)
                     },
-                    "one round, two links; time 0.5",
+                    "after one round with two links, at time 0.5",
                 )
                 assertEquals(listOf(0L, 0, 0, 0), counts { })
                 assertEquals(listOf(0L, 0, 0, 0), counts { }, "arrived at 1.1")
-                assertEquals(listOf(0L, 0, 0, 2), counts { }, "valid until 1.8, and it is 2.0")
+                assertEquals(listOf(0L, 0, 0, 2), counts { }, "messages that are valid until 1.8 must have expired at 2.0")
             }
         }
         TestEngine(received, network = NetworkModel(loss = 1.0)).use { test ->
@@ -211,7 +211,7 @@ class NetworkTest {
                 assertEquals<Map<Int, Any?>>(
                     mapOf(2 to mapOf(1 to "to 2"), 3 to mapOf(1 to "to 1")),
                     fifth,
-                    "3 was not linked: it gets the default",
+                    "node 3 was not linked at that time, so it must get the default",
                 )
             }
         }
@@ -263,7 +263,7 @@ class NetworkTest {
             }
         }
 
-    /** Sends messages on many links. Returns their number, and how many were lost in succession each time. */
+    /** Sends messages on many links. Returns the number of messages, and the length of each sequence of lost ones. */
     private fun bursts(network: NetworkModel): Pair<Int, List<Int>> {
         val ticks = 40_000
         val links = 200

@@ -39,7 +39,7 @@ class OutboxTest {
             val sent = Sent()
             box.send(sent, tick, time = tick * 0.1)
             assertSame(last, box.readable(tick), "tick $tick, after")
-            assertSame(sent, box.readable(tick + 1), "tick $tick, in sequence")
+            assertSame(sent, box.readable(tick + 1), "tick $tick in a sequential schedule")
             assertSame(sent, box.last)
             last = sent
         }

@@ -6,12 +6,12 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** The order in which rounds run on one thread, recorded by the programs. */
+/** Tests the order in which rounds run on one thread. The programs record it. */
 class RoundOrderTest {
     private val ran = ArrayList<Int>()
     private val recorder = program { device -> ran += device.id }
 
-    /** The ids of the rounds of this tick, in the order in which they ran. */
+    /** Returns the ids of the rounds of this tick, in the order in which they ran. */
     private fun TestEngine.ranIn(fill: Tick.() -> Unit): List<Int> {
         ran.clear()
         step(fill = fill)
@@ -32,8 +32,8 @@ class RoundOrderTest {
             }
         }
         assertEquals(line.toSet(), order.toSet())
-        // In both directions from the start, alternating.
-        for ((a, b) in line.zipWithNext()) assertTrue(abs(order.indexOf(a) - order.indexOf(b)) <= 2, "$a and $b are neighbours")
+        // The rounds alternate between the two directions from the first node.
+        for ((a, b) in line.zipWithNext()) assertTrue(abs(order.indexOf(a) - order.indexOf(b)) <= 2, "$a and $b must run close together")
     }
 
     @Test

@@ -73,6 +73,6 @@ class RoundPoolTest {
         assertTrue(pool.run(task, workers, 100, 1, distantDeadline))
         pool.abandon()
         val free = 1 - workers[0]
-        assertTrue((1 until 50).all { workers[it] == free }, "the share of the thread that waited")
+        assertTrue((1 until 50).all { workers[it] == free }, "the free thread must take over the share of the thread that waits")
     }
 }

@@ -35,7 +35,7 @@ internal class TestEngine(
     var tick = 0L
         private set
 
-    /** Runs the next tick. A rejected one does not advance the number. */
+    /** Runs the next tick. A rejected tick does not advance the tick number. */
     fun step(limitMillis: Long = 10_000, fill: Tick.() -> Unit): TickResult {
         val request = Tick()
         request.number = tick + 1
@@ -70,5 +70,5 @@ internal class TestEngine(
     }
 }
 
-/** Answers (or failures) by id. */
+/** Returns the answers by id. A failed round has its failure instead. */
 internal fun TickResult.toMap(): Map<Int, Any?> = (0 until size).associate { id(it) to (failure(it) ?: answer(it)) }

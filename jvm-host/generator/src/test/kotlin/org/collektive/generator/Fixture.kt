@@ -16,7 +16,7 @@ internal object Fixture {
     /** Creates a temporary folder, which is deleted after the tests. */
     fun newFolder(): Path = Files.createTempDirectory(work, "")
 
-    /** Generates from a schema with this text, preceded by the `include` of the core types. */
+    /** Generates code from a schema that consists of an `include` of the core types and [text]. */
     fun generate(text: String, name: String = "user.fbs"): Path {
         val folder = newFolder()
         val schema = Files.writeString(folder.resolve(name), text)

@@ -6,8 +6,10 @@ import kotlin.io.path.listDirectoryEntries
 import kotlin.io.path.name
 
 /**
- * Generates code for `schema/test/fuzz.py`, of each `FOLDER/NAME/...fbs` into `FOLDER/csharp` and `FOLDER/jvm`. Prints a line for each:
- * the name, `accepted`, `rejected` or `crashed`, and the schema's class or the message, separated by tabs.
+ * Generates code for `schema/test/fuzz.py`, from each `FOLDER/NAME/...fbs` into `FOLDER/csharp` and `FOLDER/jvm`.
+ *
+ * Prints a line for each schema with three columns, separated by tabs: the name, then `accepted`, `rejected` or `crashed`, and then the
+ * schema's class or the message.
  */
 internal object GenerateAll {
     @JvmStatic

@@ -9,7 +9,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Messages about errors in schemas. */
+/** Tests the messages about errors in schemas. */
 internal class RefusalTest {
     @Test
     fun `a schema without one of the two types is refused, and the message lists its types`() {

@@ -11,7 +11,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Control frames report the state of the JVM. */
+/** Tests that control frames report the state of the JVM. */
 @Timeout(60)
 class ControlTest {
     private val shim = TestShim()

@@ -9,7 +9,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Damaged frames are either processed or rejected with a code; a rejected one changes nothing. */
+/** Tests that damaged frames are either processed or rejected with a code, and that a rejected frame changes nothing. */
 @Timeout(120)
 class FrameFuzzTest {
     private val shim = TestShim()
@@ -49,7 +49,7 @@ class FrameFuzzTest {
                 assertEquals(state(control, next), state(fuzzed, next))
             }
         }
-        assertTrue(refused > 2000, "only $refused frames were rejected")
+        assertTrue(refused > 2000, "more than 2000 frames must be rejected, but only $refused were")
         fuzzed.close()
         control.close()
     }
@@ -100,7 +100,7 @@ class FrameFuzzTest {
         return listOf(answer.digest(), answer.nodeCount(), answer.linkCount())
     }
 
-    /** A frame that is often valid: it adds and removes nodes and links without knowing which there are. */
+    /** Returns a frame that is often valid. It adds and removes random nodes and links, whether or not they exist. */
     private fun valid(tick: Long, random: Random, round: Int): ByteBuffer = Step(tick).apply {
         added = List(random.nextInt(3)) { Step.Added(1000 + round * 3 + it, listOf(null, "sum").random(random)) }
         linked = List(random.nextInt(5)) { random.nextInt(5) to random.nextInt(5, 10) }.distinct()

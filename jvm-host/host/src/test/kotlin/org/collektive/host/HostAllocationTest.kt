@@ -8,7 +8,7 @@ import java.lang.management.ManagementFactory
 import java.nio.file.Files
 import kotlin.test.assertTrue
 
-/** The warm host's thread allocates nothing per tick: it reads frames and writes answers in place. */
+/** Tests that the host's thread allocates nothing per tick after a warm-up, because it reads frames and writes answers in place. */
 @Tag("slow")
 @Timeout(60)
 class HostAllocationTest {
@@ -45,9 +45,9 @@ class HostAllocationTest {
         }
         ticks(3000, false)
         val control = (1..3).minOf { ticks(500, true) }
-        assertTrue(control >= 800, "the control run allocates 816 B, but only $control B were measured")
+        assertTrue(control >= 800, "the control run allocates 816 B, so at least 800 B must be measured, not $control B")
         val bytes = (1..3).minOf { ticks(500, false) }
-        // Only the test's own duplicate of the answer remains.
+        // The rest is the test's own duplicate of the answer.
         assertTrue(bytes <= WRAPPER_BYTES, "$bytes B per tick")
         session.close()
     }
@@ -57,7 +57,7 @@ class HostAllocationTest {
     private fun java.nio.ByteBuffer.tickPosition(): Int = (0 until capacity() - 8).first { getLong(it) == 2L }
 
     private companion object {
-        /** Size of the `ByteBuffer.duplicate` in [TestSession]. */
+        /** The size of the object that `ByteBuffer.duplicate` creates in [TestSession]. */
         const val WRAPPER_BYTES = 128
     }
 }

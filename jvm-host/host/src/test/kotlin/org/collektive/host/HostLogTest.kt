@@ -12,7 +12,7 @@ import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Output, log lines and uncaught exceptions of programs go to the shim's log, with their origin. */
+/** Tests that output, log lines and uncaught exceptions of programs appear in the shim's log with their origin. */
 internal class HostLogTest {
     private val shim = TestShim()
     private val log = HostLog(shim)

@@ -12,7 +12,7 @@ import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
-/** Stored values and round times of single nodes. */
+/** Tests the inspection of single nodes: their stored values and the time of their last round. */
 @Timeout(60)
 class InspectionTest {
     private val shim = TestShim()
@@ -63,8 +63,8 @@ class InspectionTest {
         assertEquals(2, second.node())
         assertEquals(listOf("a" to "text", "b" to "2", "c" to "null"), state(second))
         assertTrue(second.roundNanos() > 0)
-        assertEquals(second.roundNanos(), inspection(3, 2, 1)?.roundNanos(), "the node was not due")
-        assertEquals(0, inspection(4, 1, 2)?.roundNanos(), "the node had no round since it is inspected")
+        assertEquals(second.roundNanos(), inspection(3, 2, 1)?.roundNanos(), "the time must stay the same, because the node was not due")
+        assertEquals(0, inspection(4, 1, 2)?.roundNanos(), "the node has not run a round since its inspection began")
         assertNull(inspection(5, 7, 1, 2), "unknown node")
     }
 

@@ -18,7 +18,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertNotNull
 import kotlin.test.assertTrue
 
-/** Programs and the library that they run on. Both libraries are on the class path of the tests. */
+/** Tests that programs run only on the library for which they were compiled. Both libraries are on the class path of the tests. */
 @Timeout(60)
 class LibraryTest {
     private val shim = TestShim()
@@ -119,10 +119,10 @@ class LibraryTest {
         sensors = due.map { Step.Sensor(10 * number + it) }
     }
 
-    /** The probe's jar with a mark of the tools that compiled it. */
+    /** Returns the probe's jar with a mark in its manifest that names the runtime for which it was compiled. */
     private fun marked(mark: String) = repacked("META-INF/MANIFEST.MF" to "Manifest-Version: 1.0\nCollektive-Runtime: $mark\n\n") { it }
 
-    /** The probe's jar with a name in its class files replaced with one of the same length. */
+    /** Returns the probe's jar, in whose class files [name] is replaced with [other], which has the same length. */
     private fun patched(name: String, other: String) = repacked { bytes ->
         require(name.length == other.length)
         bytes.toString(Charsets.ISO_8859_1).replace(name, other).toByteArray(Charsets.ISO_8859_1)

@@ -84,7 +84,7 @@ class StepTest {
                 digests += expected
             }
         }
-        assertEquals(3, digests.size, "asynchronous equals lockstep for due nodes, and with a delay no message arrives in its own tick")
+        assertEquals(3, digests.size, "asynchronous equals lockstep for due nodes, and a delayed message never arrives in its own tick")
     }
 
     @Test
@@ -155,7 +155,7 @@ class StepTest {
                 },
             ),
         )
-        // Data is double-buffered, so only a second refused tick could overwrite what is in use.
+        // Global data has two buffers, so only a second refused tick could overwrite the current data.
         repeat(2) {
             assertEquals(
                 -12,
@@ -210,10 +210,10 @@ class StepTest {
             assertEquals(1, answer.errorsLength())
             assertEquals("probe", answer.errors(0).program())
             assertContains(session.errors(answer).getValue(2), message)
-            assertFalse("LambdaForm" in session.errors(answer).getValue(2), "only the user's own lines")
+            assertFalse("LambdaForm" in session.errors(answer).getValue(2), "the stack trace must contain only the user's own lines")
         }
         val last = session.answers(session.ok(Step(tick).apply { due = listOf(1, 2, 3) })).mapValues { it.value.first }
-        assertEquals(mapOf(1 to labels.size + 2L, 2 to 2L, 3 to labels.size + 2L), last, "failed rounds do not count")
+        assertEquals(mapOf(1 to labels.size + 2L, 2 to 2L, 3 to labels.size + 2L), last, "failed rounds must not count")
     }
 
     @Test

@@ -9,7 +9,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import kotlin.test.assertTrue
 
-/** A `ControlRequest`, as C# would write it. */
+/** Returns a `ControlRequest` as C# would write it. */
 internal fun controlFrame(
     flags: List<String> = emptyList(),
     recording: Int = RecordingAction.Nothing,
@@ -32,7 +32,7 @@ internal fun controlFrame(
     return direct(builder)
 }
 
-/** A separate [Control], called as C# calls it. */
+/** A separate [Control], which is called as C# calls it. */
 internal class TestControl(private val shim: TestShim) {
     private val control = Control(shim)
     private var answer = ByteBuffer.allocateDirect(64)

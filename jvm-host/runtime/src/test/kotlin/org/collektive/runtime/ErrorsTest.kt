@@ -21,9 +21,12 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertIs
 import kotlin.test.assertTrue
 
-/** Errors of programs name the node, the path and the source location on every route, and affect no other node. */
+/**
+ * Tests that the error of a program names the node, the path and the source location, and affects no other node. Runs on all kinds of
+ * devices.
+ */
 class ErrorsTest {
-    /** Runs [body] as a compiled program runs a call of [name] at Swarm.kt:[line]. */
+    /** Runs [body] in the way that a compiled program calls a function [name] in [line] of Swarm.kt. */
     private inline fun <R> Aggregate<Int>.call(name: String, line: Int, body: () -> R): R {
         val depth = pushToken(this, "$name@Swarm.kt:$line#0123456789abcdef")
         try {
@@ -36,7 +39,10 @@ class ErrorsTest {
         }
     }
 
-    /** The error of [program] inside `helper` on node 1 of three in a row. All rounds before and after succeed. */
+    /**
+     * Returns the error of [program] inside `helper`, on the middle node of three in a row. Checks that the rounds before and after it
+     * succeed.
+     */
     private fun failure(route: String, program: Aggregate<Int>.() -> Any?): Throwable {
         val network = Network(routes.getValue(route)(), 0, 1, 2, isParallel = true).line(0, 1, 2)
         fun outcomes(fails: Boolean) = network.outcomes {
@@ -49,9 +55,9 @@ class ErrorsTest {
         }
         repeat(2) { outcomes(fails = false) }
         val failed = outcomes(fails = true)
-        assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the others, $route")
+        assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the rounds of the other nodes, $route")
         val afterwards = outcomes(fails = false).values.map { it.getOrThrow() }
-        assertEquals(listOf<Any?>(4 to 1, 3 to 2, 4 to 1), afterwards, "afterwards, $route")
+        assertEquals(listOf<Any?>(4 to 1, 3 to 2, 4 to 1), afterwards, "the next rounds, $route")
         return failed.getValue(1).exceptionOrNull() ?: error("nothing failed, $route")
     }
 
@@ -72,7 +78,7 @@ class ErrorsTest {
     @Test
     fun `fields of different devices`() =
         assertMessage<IllegalStateException>("one has values for [0, 2, 1], the other for [1]", "node 1 at helper (Swarm.kt:7)") {
-            // No other device reaches this path.
+            // Other devices do not reach this path.
             val alone = call("alone", 8) { neighboring(2) }
             Field.make(this, arrayOf(0, 2), arrayOf(1, 1), 1).alignedMap(alone) { _, a, b -> a + b }
         }
@@ -122,7 +128,7 @@ class ErrorsTest {
         val type = assertIs<SerializationException>(failure(JSON) { call("share", 9) { share(Plain()) { it.local.value } } })
         assertContains(type.message.orEmpty(), "Plain cannot be sent: they have no serializer; mark the class with @Serializable")
         assertTrue(type.message.orEmpty().endsWith("[node 1 at helper > share (Swarm.kt:9)]"), type.message)
-        // These devices serialise messages when they are read.
+        // The mailboxes of these devices serialise a message only when it is read.
         val value = assertFailsWith<SerializationException> {
             failure(JSON) { call("neighboring", 8) { neighboring(Double.NaN) }.local.value }
         }

@@ -30,7 +30,7 @@ class PrimitivesTest {
     fun `neighboring returns what aligned neighbours sent in their last round`() {
         val network = network(1, 2, 3).line(1, 2, 3)
         val first = network.round { neighboring(localId * 10).all.toMap() }
-        assertEquals(mapOf(1 to 10), first[1], "no messages in the first round")
+        assertEquals(mapOf(1 to 10), first[1], "the first round must receive no messages")
         val second = network.round { neighboring(localId * 100).all.toMap() }
         assertEquals(mapOf(1 to 10, 3 to 30, 2 to 200), second[2])
         assertEquals(mapOf(2 to 20, 1 to 100), second[1])
@@ -129,7 +129,7 @@ class PrimitivesTest {
         network.line(1, 3)
         val third = network.round(program)
         assertEquals(mapOf(1 to "2 from 1"), third[2])
-        assertEquals(mapOf(1 to "1 from 1"), third[3], "1 did not know 3 when it sent")
+        assertEquals(mapOf(1 to "1 from 1"), third[3], "node 1 did not know node 3 when it sent, so node 3 must get the local value")
         assertEquals(mapOf(1 to "3 from 1"), network.round(program)[3])
     }
 

@@ -15,12 +15,12 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Devices with mailboxes whose messages are objects or, with [json], texts; each is passed to [use]. */
+/** Creates devices with mailboxes, and passes each to [use]. Their messages are objects, or texts if [json] is given. */
 internal fun mailboxes(json: Json?, use: (Collektive<Int, Any?>) -> Unit = {}) = MailboxDevices(json) { id, mailbox, program ->
     Collektive(id, mailbox, computeFunction = program).also(use)::cycle
 }
 
-/** Compares all routes with [ReferenceDevices]: random programs on random, changing graphs, with failing rounds. */
+/** Compares all kinds of devices with [ReferenceDevices], on random programs, random graphs that change, and failing rounds. */
 class RoutesTest {
     private val values = HashSet<Any?>()
     private var rounds = 0
@@ -68,7 +68,7 @@ class RoutesTest {
         }
     }
 
-    /** Random changes of nodes and links. A new node sometimes gets the id of the removed one. */
+    /** Returns random changes of nodes and links. A new node sometimes gets the id of a removed one. */
     private fun changes(random: Random, ids: SortedSet<Int>): List<(Network) -> Unit> = buildList {
         while (ids.size < 2 || random.nextInt(8) == 0) {
             val added = nextId++

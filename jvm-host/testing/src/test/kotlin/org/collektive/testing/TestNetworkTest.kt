@@ -16,7 +16,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertNotEquals
 
 class TestNetworkTest {
-    /** Runs [test] on a line of three nodes, once for each runtime. */
+    /** Returns a test for each runtime that runs [test] on a line of three nodes. */
     private fun onBoth(test: TestNetwork.() -> Unit): List<DynamicTest> = listOf("builtIn", "collektive").map { runtime ->
         dynamicTest(runtime) { TestNetwork(seed = 4, deltaTime = 0.5, runtime).use { it.line().test() } }
     }

@@ -11,7 +11,7 @@ import kotlin.test.assertNotEquals
 
 fun Aggregate<Int>.counted(start: Int): Int = share(start) { it.local.value + 1 }
 
-/** Two lambda programs in different places are aligned where they make the same calls in the same order. */
+/** Tests that two programs from different lambdas are aligned where they make the same calls in the same order. */
 class EntriesTest {
     private fun paths(result: AggregateResult<Int, *>) = result.toSend.prepareMessageFor(9).sharedData.keys
 

@@ -32,18 +32,18 @@ import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertTrue
 
-/** Sends the sum of all values to the neighbour with the lowest id, and 0 to all others. */
+/** Sends the sum of all values to the neighbour with the lowest id, and 0 to the other neighbours. */
 private fun Aggregate<Int>.passToFirst(number: Int): Int = exchanging(number) { seen ->
     val first = seen.neighbors.ids.list.minOrNull()
     mapNeighborhood { id -> if (id == first) seen.all.values.sum() % MODULUS else 0 }.yielding { seen.all.values.sum() }
 }
 
-/** Sends each neighbour the sum of its id and its last value. */
+/** Sends each neighbour the sum of the neighbour's id and last value. */
 private fun Aggregate<Int>.reply(number: Int): Int = exchanging(number) { seen ->
     seen.map { (id, value) -> (id + value) % MODULUS }.yielding { seen.all.values.sum() }
 }
 
-/** Sends neighbours different values in two branches. */
+/** Sends a different value to each neighbour, in two branches. */
 private fun Aggregate<Int>.branch(number: Int): Int = if (number % 2 == 0) {
     exchanging(number) { seen ->
         mapNeighborhood { id -> if (id > localId) number else seen.local.value }.yielding { seen.all.values.sum() }
@@ -52,7 +52,7 @@ private fun Aggregate<Int>.branch(number: Int): Int = if (number % 2 == 0) {
     exchanging(-number) { seen -> seen.map { (id, value) -> if (id % 2 == 0) value else number }.yielding { seen.all.values.sum() } }
 }
 
-/** Calls a primitive for each entry, and reads an outer field there. */
+/** Calls a primitive for each entry of a field, and reads a field from outside in that call. */
 private fun Aggregate<Int>.nested(number: Int): Int {
     val numbers = neighboring(number)
     return mapNeighborhood { id ->
@@ -66,7 +66,7 @@ private fun Aggregate<Int>.nested(number: Int): Int {
     }.all.values.sum()
 }
 
-/** Sums the numbers of all neighbours, once for each entry but its own. */
+/** Sums the numbers of all neighbours, once for each entry except this device's own. */
 private fun Aggregate<Int>.outerSums(): List<Int> {
     val numbers = neighboring(listOf(1, 10, 100)[localId])
     return mapNeighborhood { id -> if (id != localId) numbers.all.values.sum() else 0 }.neighbors.values.list
@@ -98,7 +98,7 @@ class PerNeighbourTest {
                         val seed = name.hashCode() + index
                         val own = answers(AggregateRuntimes(), schedule, network, seed, program)
                         assertEquals(own, answers(MailboxRuntimes(), schedule, network, seed, program))
-                        assertTrue(own.toSet().size > 100, "the answers hardly vary")
+                        assertTrue(own.toSet().size > 100, "the answers must vary, or the comparison shows little")
                     }
                 }
             }

@@ -5,7 +5,7 @@ import java.net.URLClassLoader
 import java.util.jar.JarFile
 import kotlin.metadata.jvm.KotlinClassMetadata
 
-/** Returns the classes of Kotlin in the folder or jar [place] with their metadata, by name. */
+/** Returns the Kotlin classes in the folder or jar [place] with their metadata, sorted by name. */
 internal fun compiledKotlin(place: File): List<Pair<Class<*>, KotlinClassMetadata>> {
     val loader = URLClassLoader(arrayOf(place.toURI().toURL()), Declarations::class.java.classLoader)
     val files = when {

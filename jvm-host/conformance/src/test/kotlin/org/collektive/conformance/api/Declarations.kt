@@ -22,15 +22,16 @@ import kotlin.metadata.kind
 import kotlin.metadata.visibility
 
 /**
- * The public declarations of compiled Kotlin, one per line in tab-separated columns: kind, owner, name, signature, `operator` or `var`.
+ * The public declarations of compiled Kotlin, one per line.
  *
- * This is the format of `core.tsv` without details that do not affect a user's sources, such as `inline`, `data` and `value`. Type
- * parameters are numbered, with the prefix C for classes, T for functions and A for aliases.
+ * The columns are separated by tabs: kind, owner, name, signature, and `operator` or `var`. The format is that of `core.tsv`, without
+ * details that do not affect a user's sources, such as `inline`, `data` and `value`. Type parameters are numbered, with the prefix C for
+ * classes, T for functions and A for aliases.
  */
 internal class Declarations {
     private val lines = sortedSetOf<String>()
 
-    /** Reads the folder or jar [place]. */
+    /** Adds the declarations in the folder or jar [place]. */
     fun read(place: File) {
         for ((type, metadata) in compiledKotlin(place)) {
             when (metadata) {
@@ -51,11 +52,11 @@ internal class Declarations {
         }
     }
 
-    /** All declarations read so far. */
+    /** Returns all declarations read so far. */
     fun all(): Set<String> = lines
 
     private fun read(type: KmClass) {
-        // The serialization plugin generates these.
+        // The serialization plugin generates classes named $serializer.
         if (type.visibility != Visibility.PUBLIC || type.name.endsWith(".\$serializer")) return
         val owner = type.name.replace('/', '.')
         val names = named(type.typeParameters, "C")

@@ -24,7 +24,7 @@ import kotlin.metadata.visibility
 import kotlin.reflect.KClass
 import kotlin.test.fail
 
-/** Compares the API of the modules that programs use with `jvm-host/MODULE/api/MODULE.api`. For `dsl` and `stdlib`, see [PublicApiTest]. */
+/** Compares the API of modules that programs use with `jvm-host/MODULE/api/MODULE.api`. [PublicApiTest] compares `dsl` and `stdlib`. */
 internal class DumpTest {
     @TempDir
     lateinit var folder: Path
@@ -49,7 +49,7 @@ internal class DumpTest {
         return StringBuilder().also { tools.printJvmDump(it, classes, NAMES) }.toString() + reified(place)
     }
 
-    /** Inline functions with reified types: the dump omits them, because they are part of the Kotlin API but not of the JVM API. */
+    /** Returns inline functions with reified types, which the dump omits because they are not part of the JVM API. */
     private fun reified(place: File): String = compiledKotlin(place).joinToString("") { (type, metadata) ->
         (metadata as? KotlinClassMetadata.FileFacade)?.kmPackage?.functions.orEmpty()
             .filter { it.visibility == Visibility.PUBLIC && it.typeParameters.any { parameter -> parameter.isReified } }
@@ -65,7 +65,7 @@ internal class DumpTest {
             "testing" to TestNetwork::class,
         )
 
-        /** The packages that programs use, and those of the calls that the compiler plugin inserts. */
+        /** The packages that programs use, and the packages of the functions that the compiler plugin calls. */
         val NAMES = AbiFilters(
             setOf(
                 "it.unibo.**",

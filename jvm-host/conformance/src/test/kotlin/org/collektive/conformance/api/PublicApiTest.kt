@@ -29,7 +29,7 @@ class PublicApiTest {
         assertEquals(resource("additions.tsv").use(::lines).sorted().joinToString("\n"), additions.sorted().joinToString("\n"))
     }
 
-    /** Returns the public declarations of the modules of [samples], without the runtime's implementation. */
+    /** Returns the public declarations of the modules that contain [samples], without the runtime's implementation. */
     private fun ours(vararg samples: KClass<*>): Set<String> = Declarations().apply {
         for (sample in samples) read(File(sample.java.protectionDomain.codeSource.location.toURI()))
     }.all().filterNotTo(LinkedHashSet()) { it.split('\t')[1].startsWith("org.collektive.runtime") }
@@ -48,7 +48,7 @@ class PublicApiTest {
     private fun lines(table: InputStream): List<String> = table.bufferedReader().readLines().filterNot { it.startsWith("#") }
 
     private companion object {
-        /** Missing declarations, and the reason for each. */
+        /** The declarations that are missing on purpose, and the reason for each. */
         val EXCEPTIONS = mapOf(
             "~.networking.OutboundEnvelope.Companion" to "it is empty, so programs cannot call it",
             "~.path.KotlinCryptoDigest" to "it wraps a class of a library that programs on the JVM do not need: JdkDigest has all digests",

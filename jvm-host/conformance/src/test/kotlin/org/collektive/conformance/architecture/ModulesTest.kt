@@ -22,7 +22,12 @@ class ModulesTest {
         assertEquals(Poms.modules.toSet(), listed.intersect(Poms.modules.toSet()))
     }
 
-    /** A solid arrow is a dependency of the module's classes; a dotted one of its build only, to generate or compile sources. */
+    /**
+     * Returns the arrows of the diagram that begin at [module].
+     *
+     * A solid arrow is a dependency of the module's classes. A dotted arrow is a tool that only its build needs, to generate or compile
+     * sources.
+     */
     private fun arrows(module: String): List<String> = Poms.elements(Poms.of(module), "dependency")
         .filter { it.text("groupId") == "org.collektive" && it.text("scope") != "test" }
         .map { "$module ${if (it.text("artifactId") in BUILD_TOOLS) "-.->" else "-->"} ${it.text("artifactId")}" }

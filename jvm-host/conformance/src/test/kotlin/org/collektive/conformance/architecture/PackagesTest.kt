@@ -8,7 +8,7 @@ import com.tngtech.archunit.library.dependencies.SlicesRuleDefinition.slices
 import kotlin.test.Test
 import kotlin.test.assertTrue
 
-/** Dependency rules that the compiler cannot check, because the classes are in one module or on the class path anyway. */
+/** Tests dependency rules that the compiler cannot check, because the classes are in one module or on the class path anyway. */
 class PackagesTest {
     @Test
     fun `all modules are on the class path`() {

@@ -28,8 +28,10 @@ enum class Topology(val nodes: Int, val place: (Int) -> Pair<Double, Double>) {
 }
 
 /**
- * The network on which the golden answers were recorded. When it is [churning], nodes move, leave and join, and 70 % of them are due in a
- * tick; otherwise only the sensor data changes. Do not change the order in which random numbers are drawn.
+ * The network on which the golden answers were recorded.
+ *
+ * If it is [churning], nodes move, leave and join, and 70 % of them are due in a tick. Otherwise only the sensor data changes. Do not
+ * change the order in which random numbers are drawn, because the recorded answers depend on it.
  */
 @CollektiveIgnore("it calls the programs")
 class GoldenNetwork(private val topology: Topology, private val churning: Boolean, runtimes: DeviceRuntimes) {
@@ -38,7 +40,7 @@ class GoldenNetwork(private val topology: Topology, private val churning: Boolea
     private val places = sortedMapOf<Int, Pair<Double, Double>>()
     private var nextId = 0
 
-    /** The answers of all rounds of [program], by tick and node. */
+    /** Returns the answers of all rounds of [program], by tick and node. */
     fun answers(program: GoldenProgram): List<String> {
         repeat(topology.nodes) { add(topology.place(it)) }
         return (1..TICKS).flatMap { tick ->

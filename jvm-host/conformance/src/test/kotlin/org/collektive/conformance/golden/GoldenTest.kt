@@ -12,8 +12,9 @@ import kotlin.test.Test
 import kotlin.test.assertEquals
 
 /**
- * Compares our answers with those of Collektive 28.3.2, in every round of every golden program. Programs that are meant to differ
- * are skipped; `Documentation~/from-collektive.md` lists the reasons.
+ * Compares our answers with those of Collektive 28.3.2, in every round of every golden program.
+ *
+ * Programs whose answers differ on purpose are skipped. `Documentation~/from-collektive.md` lists the reasons.
  */
 class GoldenTest {
     @Test
@@ -38,7 +39,7 @@ class GoldenTest {
         }
     }
 
-    /** Whether the texts are equal except for the last digits of doubles: Collektive computes distances with `hypot`. */
+    /** Returns whether the texts are equal except for the last digits of doubles, which differ because Collektive uses `hypot`. */
     private fun isSame(a: String, b: String): Boolean = a == b || NUMBER.split(a) == NUMBER.split(b) &&
         NUMBER.findAll(a).zip(NUMBER.findAll(b)).all { (x, y) -> isSame(x.value.toDouble(), y.value.toDouble()) }
 

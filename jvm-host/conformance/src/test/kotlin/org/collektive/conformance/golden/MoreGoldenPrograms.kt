@@ -394,7 +394,7 @@ fun Aggregate<Int>.misaligned(s: Senses): Any? {
 fun Aggregate<Int>.isHap(s: Senses): Any? =
     isHappeningAnywhere { helper(s.number) > 4 } to everHappened { neighboring(s.number).neighbors.size > 3 }
 
-/** Programs for cases that the others do not cover: unusual metrics, ties, reducers that merge, rare rounds, fields inside other values. */
+/** Programs for rare cases: unusual metrics, equal values, reducers that merge, rare rounds, and fields inside other values. */
 val moreGoldenPrograms: Map<String, GoldenProgram> = mapOf(
     "zeroMetric" to Aggregate<Int>::zeroMetric,
     "zeroDist" to Aggregate<Int>::zeroDist,

@@ -17,7 +17,7 @@ fun Aggregate<Int>.both(device: Device): Any? = with(device) { distances().all.t
 
 fun Aggregate<Int>.inBranch(device: Device): Any? = with(device) { if (localId != 1) distances().neighbors.size else -1 }
 
-/** Programs can read the lengths and attenuations that the scene sets for their links. */
+/** Tests that programs can read the lengths and attenuations that the scene sets for their links. */
 @CollektiveIgnore("it calls the programs")
 class LinksTest {
     @Test
@@ -42,7 +42,11 @@ class LinksTest {
         for (runtime in listOf("builtIn", "collektive")) check { program, ticks -> run(runtime, program, ticks) }
     }
 
-    /** The answers of the last of [ticks]. The line is 0 - 2.5 m - 1 - 3 m - 2; from the sixth tick on its second link has 9 m. */
+    /**
+     * Returns the answers of the last of [ticks] ticks.
+     *
+     * Nodes 0, 1 and 2 are in a line. Node 1 is 2.5 m from node 0 and 3 m from node 2. The latter distance is 9 m after the fifth tick.
+     */
     private fun run(runtime: String, program: Aggregate<Int>.(Device) -> Any?, ticks: Int): Map<Int, Any?> =
         TestNetwork(runtime = runtime).use { network ->
             network.add(0, 1, 2)

@@ -6,7 +6,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Tests the collections of a field. */
+/** Tests the collections of a field's elements. */
 class CollapseTest {
     private val field = FakeDevice(2).field(listOf(1, 3, 4), listOf("a", "b", "a"), local = "own")
     private val alone = FakeDevice(2).field(emptyList(), emptyList(), local = "own")

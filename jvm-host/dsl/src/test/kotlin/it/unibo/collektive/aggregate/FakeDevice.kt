@@ -7,7 +7,7 @@ import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.YieldingScope
 
-/** A device without rounds that has only the members that fields use: its id, its path and its [aligned] neighbours. */
+/** A device that runs no rounds. It implements only the members that fields use: the id, the path and the [aligned] neighbours. */
 internal class FakeDevice<ID : Any>(override val localId: ID, private val aligned: List<ID> = emptyList()) : Aggregate<ID> {
     private val pivots = ArrayList<Any?>()
 

@@ -14,7 +14,7 @@ import kotlin.test.assertTrue
 class FieldTest {
     private val device = FakeDevice(5)
 
-    /** A field of device 5, whose neighbours 1, 3 and 1000 (beyond the cache of boxes) sent their id times ten. */
+    /** A field of device 5, whose neighbours 1, 3 and 1000 sent ten times their ids. Java caches no boxes for numbers such as 1000. */
     private val f = device.field(listOf(1, 3, 1000), listOf(10, 30, 10_000), local = 50)
 
     @Test
@@ -127,7 +127,7 @@ class FieldTest {
         assertEquals(f, f.mapValues { it + 1 }.mapValues { it - 1 })
         assertEquals(f.hashCode(), f.mapValues { it }.hashCode())
         assertNotEquals(f, f.mapValues { it + 1 })
-        assertNotEquals(f, f.map { if (it.id == 5) 51 else it.value }, "the local value counts")
+        assertNotEquals(f, f.map { if (it.id == 5) 51 else it.value }, "fields with different local values must differ")
         assertNotEquals(f, f.map { if (it.id == 3) 51 else it.value })
         assertEquals("Field(local=5: 50, neighbors={1=10, 3=30, 1000=10000})", f.toString())
     }

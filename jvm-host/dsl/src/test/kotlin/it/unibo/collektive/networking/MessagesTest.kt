@@ -21,7 +21,7 @@ class MessagesTest {
     private val path = DigestHashingFactory()("helper@Swarm.kt:3#0123456789abcdef", "share@Swarm.kt:12#0123456789abcdef")
     private val serialized = SerializedMessageFactory<Int, Any?>(Json)
 
-    // The factory accepts values of any type, each with its data sharing method.
+    // The cast is needed because the factory accepts values of any type, each with its data sharing method.
     @Suppress("UNCHECKED_CAST")
     private fun <T> value(payload: T, sharing: DataSharingMethod<T>) =
         PayloadRepresentation(payload, sharing) as PayloadRepresentation<Any?>

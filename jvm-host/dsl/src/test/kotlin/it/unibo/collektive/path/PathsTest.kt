@@ -5,7 +5,7 @@ import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertNotEquals
 
-/** Equal tokens give equal paths, and different tokens different ones, with every factory. */
+/** Tests that equal tokens give equal paths, and different tokens give different paths, with every factory. */
 class PathsTest {
     private data class Key(val name: String, val number: Int)
 

@@ -1,6 +1,6 @@
 package org.collektive.frames.data
 
-/** The binary form of [schema], from the folder of its generated code. */
+/** Reads the binary form of [schema] from the folder of its generated code. */
 internal fun binarySchema(schema: DataSchema): ByteArray =
     checkNotNull(schema.javaClass.getResourceAsStream("/${ReflectionReader.entry(schema.name)}")).use { it.readAllBytes() }
 

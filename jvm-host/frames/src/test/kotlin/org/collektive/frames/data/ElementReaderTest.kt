@@ -9,7 +9,7 @@ import kotlin.test.Test
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 
-/** Each of several tables that share a vtable is checked. */
+/** Tests that each of several tables is checked, although they share a vtable. */
 internal class ElementReaderTest {
     private val layout = TableLayout().inline("number", 4, 8, false).string("name", 6, false)
     private val frame = frame(3)
@@ -37,7 +37,7 @@ internal class ElementReaderTest {
 
     @Test
     fun `a number beyond the end of the frame is rejected`() {
-        // The frame ends with the start of the table, but its vtable claims eight more bytes.
+        // The frame ends after the table's first four bytes, although the vtable declares a field behind them.
         val end = frame.limit() - Int.SIZE_BYTES
         val vtable = table(1) - frame.getInt(table(1))
         frame.putInt(end, end - vtable)
@@ -50,7 +50,7 @@ internal class ElementReaderTest {
         val reader = ElementReader(layout)
         reader.attach(frame, frame.getInt(0))
         reader.check()
-        // The same positions, with a damaged vtable.
+        // The tables are at the same positions, but the vtable is damaged.
         frame.putShort(table(0) - frame.getInt(table(0)), 3)
         assertFailsWith<MalformedFrameException> { reader.check() }
     }

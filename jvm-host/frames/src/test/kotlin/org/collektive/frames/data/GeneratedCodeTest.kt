@@ -175,7 +175,7 @@ internal class GeneratedCodeTest {
 
     private fun leaf(name: String) = type("LeafValue").getConstructor(String::class.java).newInstance(name)
 
-    /** A random result of the test schema `features`, with another value of one field. */
+    /** Returns a random result of the test schema `features`, in which one field has the given value. */
     private fun resultWith(field: Pair<String, Any?>): Any {
         val original = Objects.randomResult(GeneratedSchemas.features, random)
         val fields = original.javaClass.declaredFields.onEach { it.isAccessible = true }

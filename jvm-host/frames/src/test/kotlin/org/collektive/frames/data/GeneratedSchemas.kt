@@ -6,7 +6,9 @@ import java.nio.file.Files
 import java.nio.file.Path
 import kotlin.test.assertEquals
 
-/** Generated code of the schemas below `schema/test`, compiled and loaded. Includes flatc's object API, in packages below `objects`. */
+/**
+ * The compiled and loaded code of the schemas below `schema/test`. It includes flatc's object API, in packages below `objects`.
+ */
 internal object GeneratedSchemas {
     val blocks: DataSchema by lazy { load("blocks.fbs", "test.blocks.BlocksSchema") }
     val features: DataSchema by lazy { load("features.fbs", "test.features.FeaturesSchema") }
@@ -17,14 +19,14 @@ internal object GeneratedSchemas {
         Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })
     }
 
-    /** The schema of the text [schema], whose generated code has the class [name]. */
+    /** Generates, compiles and loads the code of the schema with the text [schema], and returns its class [name]. */
     fun of(schema: String, name: String): DataSchema =
         load(Files.writeString(Files.createTempDirectory(work, "schema").resolve("user.fbs"), schema), name)
 
     /** Returns the class of flatc's object API for [type] of the schema. */
     fun flatc(schema: DataSchema, type: String): Class<*> = schema.javaClass.classLoader.loadClass("objects.$type")
 
-    /** Reads the [type] of the schema at [place] of [frame] with flatc's object API. */
+    /** Reads an object of [type] at the position [place] of [frame] with flatc's object API. */
     fun unpacked(schema: DataSchema, type: String, frame: ByteBuffer, place: Int): Any {
         val reader = flatc(schema, type)
         val view = reader.getMethod("__assign", Int::class.java, ByteBuffer::class.java)

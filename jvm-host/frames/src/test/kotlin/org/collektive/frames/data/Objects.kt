@@ -10,11 +10,13 @@ import java.nio.ByteBuffer
 import java.util.Random
 import java.lang.reflect.Array as ReflectArray
 
-/** Creates and prints random data of any schema: objects of flatc's object API, results of programs, and maps. */
+/** Creates and prints random data of any schema, as objects of flatc's object API, as program results and as maps. */
 internal object Objects {
     /**
-     * Returns a canonical text of the data, the same as in the C# tests. Members are sorted by lower-case name, floating-point numbers
-     * printed as bits, integers as signed 64-bit numbers, and absent lists as empty ones.
+     * Returns a canonical text of the data, which equals the text that the C# tests print.
+     *
+     * Members are sorted by lower-case name. Floating-point numbers are printed as bits, integers as signed 64-bit numbers, and absent
+     * lists as empty lists.
      */
     fun dump(data: Any?): String = buildString { append(data, data?.javaClass) }
 
@@ -85,7 +87,7 @@ internal object Objects {
     fun randomResult(schema: DataSchema, random: Random): Any =
         randomResult(Schema.getRootAsSchema(ByteBuffer.wrap(binarySchema(schema))), schema.actuatorType, random, 0)
 
-    /** Creates a result, or a part of one, with the constructor that has all fields. */
+    /** Creates a result or a part of one, with the constructor that has a parameter for each field. */
     private fun randomResult(schema: Schema, type: Class<*>, random: Random, nesting: Int): Any {
         val constructor = type.constructors.filter { !it.isSynthetic }.maxBy { it.parameterCount }
         val names = type.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.map { it.name.lowercase() }
@@ -108,19 +110,19 @@ internal object Objects {
         val instance = type.getConstructor().newInstance()
         for (setter in type.methods.filter { it.name.startsWith("set") && it.parameterCount == 1 }.sortedBy { it.name }) {
             val part = setter.parameterTypes[0]
-            // Half of the scalars keep the schema's default.
+            // Let half of the scalars keep the schema's default.
             if (part.isPrimitive && random.nextBoolean()) continue
             val absent = isTable(type) && setter.name.removePrefix("set").lowercase() !in REQUIRED && !part.isPrimitive &&
                 (random.nextBoolean() || nesting >= MAX_NESTING)
             val value = if (absent) null else value(part, random, nesting) { randomObject(it, random, nesting + 1) }
-            // flatc writes no optional scalar that is 0.
+            // flatc does not write an optional scalar that is 0.
             val isLost = isBoxed(part) && (value == false || (value as? Number)?.toDouble() == 0.0)
             setter.invoke(instance, if (isLost) null else value)
         }
         return instance
     }
 
-    /** A value for a field; [part] makes structs and tables. */
+    /** Returns a random value for a field. Structs and tables come from [part]. */
     private fun value(type: Type, random: Random, nesting: Int, part: (Class<*>) -> Any): Any = when {
         type !is Class<*> -> {
             val element = (type as ParameterizedType).actualTypeArguments.single()
@@ -138,7 +140,7 @@ internal object Objects {
         else -> part(type)
     }
 
-    /** Whether flatc's class [type] represents a table, according to its reader. */
+    /** Returns whether flatc's class [type] represents a table, according to its reader. */
     private fun isTable(type: Class<*>): Boolean =
         Table::class.java.isAssignableFrom(type.classLoader.loadClass(type.name.removeSuffix("T")))
 
@@ -149,7 +151,7 @@ internal object Objects {
         return array
     }
 
-    /** Unsigned types are wider in Java, so the values fit every schema type with that Java type. */
+    /** Returns a random number in the range of every schema type that has this Java type. Unsigned types have a wider Java type. */
     private fun scalar(type: Class<*>, random: Random): Any = when (type) {
         Boolean::class.javaPrimitiveType -> random.nextBoolean()
         Byte::class.javaPrimitiveType -> random.nextInt(256).toByte()

@@ -12,7 +12,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Reads data with the binary schema only, as for untrusted records: no generated code runs. */
+/** Tests reading data with the binary schema alone. Untrusted records are read in this way, because it runs no generated code. */
 internal class ReflectionReaderTest {
     private val random = Random(3)
 

@@ -9,8 +9,10 @@ import java.nio.ByteOrder
 import java.util.Random
 
 /**
- * The Kotlin half of `schema/test/test_roundtrip.py`: compares sensor and global data that C# wrote, and writes random actuator data
- * for C#. It shares one file per schema with the C# half. The schemas are given as a comma-separated list.
+ * The Kotlin half of `schema/test/test_roundtrip.py`.
+ *
+ * It compares sensor and global data that C# wrote, and writes random actuator data for C#. Both halves use one file per schema. The
+ * schemas are a comma-separated argument.
  */
 internal object RoundTrip {
     @JvmStatic
@@ -86,7 +88,7 @@ internal object RoundTrip {
     private fun DataOutputStream.writeLittle(value: Int) = writeInt(Integer.reverseBytes(value))
 }
 
-/** Writes [results] as a tick's answers, and returns the position of the table `Actuators`. Stores the ranges of tables in [ranges]. */
+/** Writes [results] as the answers of a tick, and the ranges of tables to [ranges]. Returns the position of the table `Actuators`. */
 internal fun ActuatorWriter.writeAll(
     builder: FlatBufferBuilder,
     results: Array<Any?>,

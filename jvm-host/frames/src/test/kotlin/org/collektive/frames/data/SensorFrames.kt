@@ -5,13 +5,13 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.util.Random
 
-/** A frame in the format of C#, with the [position] of its table and its content as [objects]. */
+/** A frame in the format that C# writes, with the [position] of its table and its content as [objects]. */
 internal class Frame(val bytes: ByteArray, val position: Int, val objects: List<Any>) {
     fun buffer(): ByteBuffer = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
 }
 
 internal object SensorFrames {
-    /** A table `Sensors` of random elements: structs of [structBytes] bytes, or tables if that is `null`. */
+    /** Returns a table `Sensors` with random elements. They are structs of [structBytes] bytes, or tables if [structBytes] is `null`. */
     fun sensors(schema: DataSchema, count: Int, random: Random, structBytes: Int? = null, alignment: Int = 8): Frame {
         val reader = GeneratedSchemas.flatc(schema, schema.sensorType.name)
         val type = GeneratedSchemas.flatc(schema, "${schema.sensorType.name}T")
@@ -29,7 +29,7 @@ internal object SensorFrames {
         return finish(builder, builder.endTable(), objects)
     }
 
-    /** A random table of the [type] of the schema. */
+    /** Returns a random table of the [type] of the schema. */
     fun table(schema: DataSchema, type: String, random: Random): Frame {
         val content = Objects.random(GeneratedSchemas.flatc(schema, "${type}T"), random)
         val builder = FlatBufferBuilder(64)

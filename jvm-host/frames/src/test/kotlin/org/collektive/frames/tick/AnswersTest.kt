@@ -23,7 +23,7 @@ import java.nio.ByteOrder
 import kotlin.random.Random
 import kotlin.test.assertEquals
 
-/** Answers that are structs of 12 bytes: 4 for the node's id and 8 for the tick. */
+/** Tests answers that are structs of 12 bytes: 4 for the node's id and 8 for the tick. */
 class AnswersTest {
     private val failing = HashSet<Int>()
     private var now = 0L
@@ -58,7 +58,7 @@ class AnswersTest {
                 val due = (0 until NODES).filter { random.nextInt(4) > 0 }
                 due.forEach(tick.due::add)
                 failing.clear()
-                // All rounds, none, and every subset.
+                // The percentage of failed rounds, from none to all.
                 val percent = number.toInt() % 5 * 25
                 due.filterTo(failing) { random.nextInt(100) < percent }
                 answers.begin(tick.due)

@@ -13,13 +13,13 @@ import org.collektive.host.shim.HostError
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 
-/** Sends arbitrary bytes as a `ControlRequest`. It is either answered, or rejected without an effect on the flight recorder. */
+/** Sends arbitrary bytes as a `ControlRequest`, which must be either answered, or rejected without an effect on the flight recorder. */
 internal object ControlFuzzer : Fuzzer {
     private const val ANSWER_BYTES = 1 shl 16
     private val shim = TestShim()
     private val refusals = setOf(HostError.FRAME)
 
-    /** Called by Jazzer for each input. */
+    /** Tests an input. Jazzer calls this for each one. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)
@@ -43,7 +43,11 @@ internal object ControlFuzzer : Fuzzer {
         check(state.recordingPath() == null && state.recordingsWritten() == 0) { "a rejected control request started a recording" }
     }
 
-    /** Whether a request is skipped, because it could record to any path, or run a garbage collection, which is a thousand times slower. */
+    /**
+     * Returns whether a request is skipped.
+     *
+     * These requests could record to any path, or run a garbage collection, which takes a thousand times as long as other requests.
+     */
     private fun isSkipped(bytes: ByteArray): Boolean = try {
         val request = controlRequest(frameIn(direct(bytes), 0, bytes.size))
         request.collect() || request.recording() in RecordingAction.Start..RecordingAction.Stop

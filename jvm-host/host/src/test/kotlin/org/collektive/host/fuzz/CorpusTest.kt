@@ -12,7 +12,7 @@ import kotlin.io.path.writeBytes
 import kotlin.test.assertContentEquals
 import kotlin.test.assertTrue
 
-/** The corpus of `./collektive test --fuzz`: seeds, and an input for each defect that fuzzing found. */
+/** Runs the corpus of `./collektive test --fuzz`, which contains seeds and an input for each bug that fuzzing found. */
 class CorpusTest {
     @TestFactory
     fun `open passes on all inputs of the corpus`() = replay("open", OpenFuzzer, FuzzSeeds.open)
@@ -39,7 +39,7 @@ class CorpusTest {
         return files.map { file ->
             DynamicTest.dynamicTest(file.name) {
                 val isAccepted = fuzzer.run(file.readBytes())
-                if (file.name in accepted) assertTrue(isAccepted, "a valid frame is rejected")
+                if (file.name in accepted) assertTrue(isAccepted, "a valid frame must be accepted")
             }
         }
     }

@@ -7,17 +7,17 @@ import org.collektive.host.controlFrame
 import org.collektive.host.openFrame
 import java.nio.ByteBuffer
 
-/** Valid frames, by the names of their files in the corpus. */
+/** Valid frames by the names of their files in the corpus. */
 internal object FuzzSeeds {
     /** The tick of all frames for `step`. */
     const val TICK = 2L
 
     private val jars = listOf(FuzzedPrograms.PATH)
 
-    // The order of a `Map.of` differs between JVM runs.
+    // Sorted, because the order of a `Map.of` differs from one run of the JVM to the next.
     private val types = ProbeSchema.types.toSortedMap()
 
-    /** The first tick of the network of [StepFuzzer]. */
+    /** Returns the first tick of the network that [StepFuzzer] uses. */
     fun firstTick(tick: Long = 1) = Step(tick).apply {
         wind = 1f
         added = (0 until 5).map { Step.Added(it) }

@@ -18,11 +18,11 @@ internal fun interface Fuzzer {
     fun run(bytes: ByteArray): Boolean
 }
 
-/** A [code] below 0 must be one of [allowed]; any other, in particular [HostError.JAVA], indicates a bug in the host. */
+/** Checks that a [code] below 0 is one of [allowed]. Any other error, in particular [HostError.JAVA], indicates a bug in the host. */
 internal fun requireRefusal(code: Long, allowed: Set<HostError>, shim: TestShim) =
     check(code >= 0 || allowed.any { it.code.toLong() == code }) { "code $code: ${shim.error}" }
 
-/** The jar that requests of the corpus name: one path on all machines, relative to the module's folder. */
+/** The jar that requests of the corpus name. Its path is relative to the module's folder, and so the same on all machines. */
 internal object FuzzedPrograms {
     const val PATH = "target/fuzzed-programs.jar"
 

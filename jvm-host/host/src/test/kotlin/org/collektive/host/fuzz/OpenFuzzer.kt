@@ -9,16 +9,16 @@ import org.collektive.host.TestShim
 import org.collektive.host.direct
 import org.collektive.host.shim.HostError
 
-/** Sends arbitrary bytes as an `OpenRequest`. It either opens a session, or is rejected and leaves no session open. */
+/** Sends arbitrary bytes as an `OpenRequest`, which must either open a session, or be rejected and leave no session open. */
 internal object OpenFuzzer : Fuzzer {
     private val shim = TestShim()
     private val refusals = setOf(HostError.HOST, HostError.FRAME, HostError.SCHEMA, HostError.PROGRAM)
 
-    /** Called by Jazzer before the first input, without a time limit. Compiles the programs. */
+    /** Compiles the programs. Jazzer calls this before the first input, without a time limit. */
     @JvmStatic
     fun fuzzerInitialize() = FuzzedPrograms.place()
 
-    /** Called by Jazzer for each input. */
+    /** Tests an input. Jazzer calls this for each one. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)
@@ -38,7 +38,7 @@ internal object OpenFuzzer : Fuzzer {
         return code >= 0
     }
 
-    /** Arbitrary bytes could name any path for a record. */
+    /** Returns whether a request names a record. Such a request is skipped, because it could write to any path. */
     private fun namesRecord(bytes: ByteArray): Boolean = try {
         openRequest(frameIn(direct(bytes), 0, bytes.size)).record().orEmpty().isNotEmpty()
     } catch (_: MalformedFrameException) {

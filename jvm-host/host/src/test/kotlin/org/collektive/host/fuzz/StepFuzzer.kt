@@ -16,21 +16,23 @@ import org.collektive.host.shim.HostError
 import java.nio.ByteBuffer
 
 /**
- * Sends arbitrary bytes as the `StepRequest` of the second tick of a small network. It either runs, or is rejected and changes nothing.
+ * Sends arbitrary bytes as the `StepRequest` of the second tick of a small network, which must either run, or be rejected and change
+ * nothing.
  *
- * Two sessions receive the same frames, but only one of them receives the rejected ones. Both must stay equal. Opening a session takes a
- * hundred times as long as a tick, so the sessions are reused for later inputs: the tick number of a frame is set to their next tick.
+ * Two sessions receive the accepted frames, but only one of them receives the rejected frames. Both must stay equal. Later inputs use the
+ * same sessions, because opening one takes a hundred times as long as a tick. For this, the tick number of each frame is set to the
+ * sessions' next tick.
  */
 internal object StepFuzzer : Fuzzer {
     private val shim = TestShim()
     private val refusals = setOf(HostError.FRAME, HostError.PROGRAM)
     private var pair: SessionPair? = null
 
-    /** Called by Jazzer before the first input, without a time limit. Compiles the programs. */
+    /** Compiles the programs. Jazzer calls this before the first input, without a time limit. */
     @JvmStatic
     fun fuzzerInitialize() = FuzzedPrograms.place()
 
-    /** Called by Jazzer for each input. */
+    /** Tests an input. Jazzer calls this for each one. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)
@@ -99,7 +101,7 @@ internal object StepFuzzer : Fuzzer {
         }
     }
 
-    /** Returns [bytes], with the tick number set to [tick] if they are a frame of tick 2. */
+    /** Returns [bytes]. If they are a frame of tick 2, sets its tick number to [tick]. */
     private fun ofTick(tick: Long, bytes: ByteArray): ByteArray {
         val copy = bytes.copyOf()
         try {
@@ -114,6 +116,6 @@ internal object StepFuzzer : Fuzzer {
         return copy
     }
 
-    /** Position of the first field's offset in a vtable, in bytes. */
+    /** The position of the first field's offset in a vtable, in bytes. */
     private const val FIRST_FIELD = 4
 }

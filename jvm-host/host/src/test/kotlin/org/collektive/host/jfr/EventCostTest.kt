@@ -7,7 +7,7 @@ import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import kotlin.test.assertTrue
 
-/** Events cost almost nothing without a recording. */
+/** Tests that events cost almost nothing while no recording is running. */
 @Timeout(120)
 class EventCostTest {
     @Test
@@ -26,7 +26,7 @@ class EventCostTest {
         session.close()
         println("  %.2f ns per check, %.0f ns per round with its share of the tick: %.2f %%".format(asking, round, 100 * asking / round))
         assertTrue(wanted == 0L, "nothing records")
-        assertTrue(asking < round / 20, "a check takes $asking ns, a round $round ns")
+        assertTrue(asking < round / 20, "a check must take less than 1/20 of a round: it takes $asking ns, and a round takes $round ns")
     }
 
     private var wanted = 0L

@@ -24,7 +24,7 @@ import kotlin.test.assertNotNull
 import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
-/** Flight recordings, from the control frame that starts one to the events in its file. */
+/** Tests flight recordings, from the control frame that starts a recording to the events in its file. */
 @Timeout(120)
 class RecorderTest {
     @TempDir
@@ -117,7 +117,7 @@ class RecorderTest {
         control.ask(recording = RecordingAction.Start, path = file.toString())
         control.ask(recording = RecordingAction.Stop)
         val states = generateSequence { control.ask().recording().also { Thread.sleep(1) } }.takeWhile { it != RecordingState.Off }.toSet()
-        assertTrue(RecordingState.On !in states, "the state was ON after the request to stop")
+        assertTrue(RecordingState.On !in states, "the state must not be On after the request to stop")
         assertTrue(file.exists(), "no $file")
     }
 

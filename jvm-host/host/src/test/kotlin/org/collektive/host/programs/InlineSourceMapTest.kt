@@ -12,7 +12,7 @@ class InlineSourceMapTest {
     fun `code that the compiler inlined has the line of its call`() {
         val here = Throwable().stackTrace.first().lineNumber
         val frame = assertFailsWith<IllegalStateException> { refuse("inlined") }.stackTrace.first()
-        assertTrue(frame.lineNumber > LAST_LINE, "the compiler numbers inlined code behind the file's end: $frame")
+        assertTrue(frame.lineNumber > LAST_LINE, "the compiler must give inlined code line numbers beyond the end of the file: $frame")
         assertEquals(here + 1, lines.inFile(frame.lineNumber))
     }
 
@@ -21,7 +21,7 @@ class InlineSourceMapTest {
         for (line in 1..LAST_LINE) assertEquals(line, lines.inFile(line))
         assertEquals(500, InlineSourceMap.of(Any::class.java).inFile(500))
         assertEquals(500, InlineSourceMap.of(Runnable {}.javaClass).inFile(500))
-        // Joined at run time, because a single constant would be found as the source map of this class.
+        // The lines are joined at run time, because a single constant would be taken for the source map of this class.
         val invalidMap = listOf("SMAP", "x", "Kotlin", "*S KotlinDebug", "*L", "nonsense#1:1,,", "*E").joinToString("\n")
         assertEquals(500, InlineSourceMap.of(invalidMap.encodeToByteArray()).inFile(500))
     }
@@ -30,7 +30,7 @@ class InlineSourceMapTest {
     private inline fun refuse(why: String): Nothing = throw IllegalStateException(why)
 
     private companion object {
-        /** The lines of this file. */
+        /** The number of lines in this file. */
         const val LAST_LINE = 36
     }
 }

@@ -25,7 +25,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** Resources of sessions whose opening or closing fails. */
+/** Tests that sessions release their resources even if opening or closing fails. */
 @Timeout(60)
 class SessionTest {
     private val shim = TestShim()
@@ -34,7 +34,7 @@ class SessionTest {
     @TempDir
     lateinit var folder: Path
 
-    /** A disk that is full. */
+    /** A channel to a file on a full disk. */
     private class Channel : GatheringByteChannel {
         var open = true
 

@@ -23,7 +23,7 @@ import kotlin.test.assertFailsWith
 import kotlin.test.assertTrue
 import kotlin.test.fail
 
-/** Calls every lifted operator on random fields, and compares each entry with Kotlin's own function. */
+/** Calls every lifted operator on random fields, and compares each entry with the result of Kotlin's own function. */
 class LiftedOperatorsTest {
     @Tag("slow")
     @TestFactory
@@ -40,7 +40,7 @@ class LiftedOperatorsTest {
         }
     }
 
-    /** Repeats until [function] has succeeded three times, with all kinds of values. */
+    /** Compares [function] on all kinds of values, until it has succeeded three times. */
     private fun compare(lifted: Any, function: KFunction<*>, plain: (List<Any?>) -> Any?, shape: Field<Int, Int>) {
         val types = (listOf(checkNotNull(function.extensionReceiverParameter)) + function.valueParameters).map { it.type }
         val isUnordered = function.name == "shuffled" && types.size == 1
@@ -55,7 +55,7 @@ class LiftedOperatorsTest {
                     RandomValues.of(type, 31 * (31 * trial + place))
                 }
             }
-            // Neighbours first, as the field.
+            // The order is that of the field, in which the device itself (1) is last.
             val expected = runCatching { listOf(0, 2, 1).associateWith { id -> result(plain(types.indices.map { value(it, id) })) } }
             val found = runCatching {
                 val fields = types.indices.map { place ->
@@ -69,7 +69,7 @@ class LiftedOperatorsTest {
                 found.exceptionOrNull()?.javaClass ==
                     expected.exceptionOrNull()?.javaClass
             }
-            // Computed only on failure, because reflection takes milliseconds to print a function.
+            // The message is created only on failure, because reflection takes milliseconds to print a function.
             if (!areEqual) fail("$function, trial $trial: expected $expected, found $found")
             if (expected.isSuccess && ++succeeded == 3) return
         }
@@ -82,7 +82,7 @@ class LiftedOperatorsTest {
         throw e.targetException
     }
 
-    /** Converts a result to a value that can be compared: types without their own `equals` become lists of their contents. */
+    /** Converts a result to a value that can be compared. A type without its own `equals` becomes a list of its contents. */
     private fun shown(value: Any?): Any? = when (value) {
         is BooleanArray -> value.toList()
         is ByteArray -> value.toList()
@@ -129,7 +129,7 @@ class LiftedOperatorsTest {
         }
     }
 
-    /** Runs [check] in a round of a device with the neighbours 0 and 2, with the field of all ids. */
+    /** Calls [check] with the field of all ids, in a round of a device with the neighbours 0 and 2. */
     private fun inRound(check: (Field<Int, Int>) -> Unit) {
         val swarm = Swarm(3).line(1.0, 1.0)
         var runs = 0
@@ -143,7 +143,7 @@ class LiftedOperatorsTest {
         assertTrue(runs > 0)
     }
 
-    /** The names of all objects of lifted operators. */
+    /** Returns the names of all objects that contain lifted operators. */
     private fun objects(): List<String> {
         val place = File(FieldedInts::class.java.protectionDomain.codeSource.location.toURI())
         val files = if (place.isFile) {

@@ -6,7 +6,7 @@ import kotlin.reflect.KType
 import kotlin.reflect.KTypeParameter
 import kotlin.reflect.jvm.jvmErasure
 
-/** Creates values of types in Kotlin's library; equal seeds give equal values. Type parameters are `Int`, or their bound. */
+/** Creates random values of types in Kotlin's library. Equal seeds give equal values. A type parameter is `Int`, or its bound. */
 internal object RandomValues {
     fun of(type: KType, seed: Int): Any? = of(type, Random(seed))
 
@@ -96,12 +96,12 @@ internal object RandomValues {
 
     private data class Failure(val number: Int) : Exception("failure $number")
 
-    /** Always returns the same number, so the order of the calls does not matter. */
+    /** A generator that always returns the same number, so the order of the calls does not matter. */
     private class Constant(private val number: Int) : Random() {
         override fun nextBits(bitCount: Int) = number and (1 shl bitCount) - 1
     }
 
-    /** A pure function. */
+    /** A function whose result depends only on its arguments and [seed]. */
     private class Function(private val result: KType, private val seed: Int) :
         (Any?) -> Any?,
         (Any?, Any?) -> Any?,

@@ -27,11 +27,11 @@ import kotlin.test.assertTrue
 import kotlin.time.Duration.Companion.seconds
 import kotlin.time.Instant
 
-/** Distances without a source in reach are infinite. */
+/** The format of messages. It allows infinity, which is the distance of a device that cannot reach a source. */
 private val json = Json { allowSpecialFloatingPointValues = true }
 
 class SerializedDeliveryTest {
-    /** Devices whose messages are JSON texts. */
+    /** Creates devices that exchange messages as JSON texts. */
     private fun network(vararg ids: Int) = Network(
         MailboxDevices(json) { id, mailbox, program -> Collektive(id, mailbox, computeFunction = program)::cycle },
         *ids,

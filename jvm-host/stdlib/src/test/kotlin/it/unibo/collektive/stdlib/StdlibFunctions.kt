@@ -14,12 +14,12 @@ import kotlin.reflect.jvm.isAccessible
 import kotlin.reflect.jvm.jvmErasure
 import kotlin.reflect.jvm.kotlinFunction
 
-/** Kotlin's own functions for those of [lifted], an object of lifted operators. */
+/** Finds Kotlin's own functions for the functions of [lifted], an object that contains lifted operators. */
 internal class StdlibFunctions(private val lifted: KClass<*>) {
     private val functions = HashMap<Method, KFunction<*>?>()
     private val candidates = HashMap<Pair<KClass<*>, String>, List<Pair<KCallable<*>, List<String>>>>()
 
-    /** Returns the result of [function] of [lifted] for one entry, given that entry's values of receiver and parameters. */
+    /** Returns a function that computes the expected result of [function] for one entry from the entry's receiver and arguments. */
     fun of(function: KFunction<*>): (List<Any?>) -> Any? {
         val types = types(function)
         val receiver = types.first().jvmErasure
@@ -44,7 +44,10 @@ internal class StdlibFunctions(private val lifted: KClass<*>) {
 
     private val isOfExtensions get() = lifted.simpleName.orEmpty().endsWith("Extensions")
 
-    /** The extensions of [receiver] whose name on the JVM begins with [name]: resolving all Kotlin functions would take a minute. */
+    /**
+     * Returns the extensions of [receiver] whose name on the JVM begins with [name]. The search is limited to these because resolving all
+     * Kotlin functions would take a minute.
+     */
     private fun extensions(receiver: KClass<*>, name: String): List<KCallable<*>> {
         val file = lifted.simpleName.orEmpty().removePrefix("Fielded").removeSuffix("Extensions")
         return Class.forName("kotlin.collections.${file}Kt").methods
@@ -52,7 +55,7 @@ internal class StdlibFunctions(private val lifted: KClass<*>) {
             .mapNotNull { method -> functions.getOrPut(method) { method.kotlinFunction } }
     }
 
-    /** The types of receiver and parameters; of a field, the type of its values. */
+    /** Returns the types of the receiver and the parameters. Instead of the type of a field, returns the type of its values. */
     private fun types(callable: KCallable<*>): List<KType> = callable.parameters
         .filter { it != callable.instanceParameter || callable.extensionReceiverParameter == null }
         .map { if (it.type.classifier == Field::class) checkNotNull(it.type.arguments[1].type) else it.type }
@@ -60,7 +63,7 @@ internal class StdlibFunctions(private val lifted: KClass<*>) {
     private fun text(type: KType) =
         "$type".substringAfter("/* = ").substringBefore(" */").replace("Comparator<in ", "Comparator<").replace(OF_MEMBER, "$1")
 
-    /** Functions that the compiler knows; reflection cannot call them. */
+    /** Computes the result of a function that is built into the compiler, because reflection cannot call it. */
     private fun builtIn(name: String, values: List<Any?>): Any? {
         val a = values[0]
         val b = values.getOrNull(1)
@@ -104,7 +107,7 @@ internal class StdlibFunctions(private val lifted: KClass<*>) {
         else -> error(name)
     }
 
-    /** Kotlin computes in the wider of both types; in Int, if both are narrower. Shifts count in Int. */
+    /** Computes an operator of two numbers in the wider of their types, but at least in Int, as Kotlin does. Shift counts are Int. */
     private fun ofNumbers(name: String, a: Number, b: Number): Any = when {
         name == "shl" || name == "shr" || name == "ushr" -> shifted(name, a, b.toInt())
         a is Double || b is Double -> ofDoubles(name, a.toDouble(), b.toDouble())
@@ -191,7 +194,7 @@ internal class StdlibFunctions(private val lifted: KClass<*>) {
 
         val TEXTS = setOf<KClass<*>>(CharSequence::class, String::class)
 
-        /** A type parameter of a class, as reflection shows it. */
+        /** A type parameter of a class, as reflection prints it. */
         val OF_MEMBER = Regex("@kotlin\\.UnsafeVariance (\\w+)")
     }
 }

@@ -7,7 +7,7 @@ import org.collektive.runtime.AggregateRuntimes
 import org.collektive.testkit.Network
 import kotlin.random.Random
 
-/** Devices 0, 1, 2, ... of the real runtime, on a graph that changes at random. */
+/** Devices 0, 1, 2 and so on of the real runtime, on a graph that changes at random. */
 internal class Swarm(size: Int = 0, private val random: Random = Random(0)) : Network(AggregateRuntimes(), *IntArray(size) { it }) {
     private var nextId = size
 
@@ -27,7 +27,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) : Ne
         }
     }
 
-    /** Runs [times] rounds of every device, all at once or one after another in random order, and returns the last results. */
+    /** Runs [times] rounds of every device, all at once or one after the other in random order, and returns the last results. */
     fun <R> rounds(times: Int, atOnce: Boolean = true, program: Aggregate<Int>.() -> R): Map<Int, R> {
         val results = sortedMapOf<Int, R>()
         repeat(times) {
@@ -36,7 +36,7 @@ internal class Swarm(size: Int = 0, private val random: Random = Random(0)) : Ne
         return results
     }
 
-    /** The lengths of the links, as a field of a program. */
+    /** Returns the lengths of the links as a field. */
     fun Aggregate<Int>.lengths(): Field<Int, Double> = mapNeighborhood { if (it == localId) 0.0 else length(localId, it) }
 }
 
@@ -64,14 +64,14 @@ internal fun Swarm.shortestPaths(
     return found
 }
 
-/** Hops to the nearest of [sources], for devices that reach one. */
+/** Returns the number of hops to the nearest of [sources], for each device that can reach one. */
 internal fun Swarm.hopsFrom(sources: Collection<Int>): Map<Int, Int> =
     shortestPaths(sources) { _, _ -> 1.0 }.mapValues { it.value.first.toInt() }
 
-/** The devices of the connected component of [id]. */
+/** Returns the devices of the connected component of [id]. */
 internal fun Swarm.component(id: Int): Set<Int> = shortestPaths(listOf(id)).keys
 
-/** Perturbs random swarms, and calls [check] after each perturbation, with links that then stay unchanged. */
+/** Perturbs random swarms, and calls [check] after each perturbation. The links do not change during the check. */
 internal fun perturbed(seeds: IntRange = 0 until 12, check: (swarm: Swarm, atOnce: Boolean, random: Random) -> Unit) {
     for (seed in seeds) {
         val random = Random(seed)

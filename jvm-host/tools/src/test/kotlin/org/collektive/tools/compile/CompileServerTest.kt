@@ -24,7 +24,10 @@ import kotlin.test.assertEquals
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
-/** The process that compiles programs, with the real compilers. It is in the module `generator`, which has no Kotlin compiler for tests. */
+/**
+ * Tests the process that compiles programs, with the real compilers. Its code is in the module `generator`, whose tests have no Kotlin
+ * compiler.
+ */
 @Tag("slow")
 @Timeout(300)
 class CompileServerTest {
@@ -48,13 +51,13 @@ class CompileServerTest {
         assertEquals(setOf("swarm/HopsKt.class"), classes("Kt.class"))
         val first = jar.readBytes()
         assertEquals(0 to "", ask(words()))
-        assertContentEquals(first, jar.readBytes(), "equal sources give equal jars")
+        assertContentEquals(first, jar.readBytes(), "equal sources must give equal jars")
 
         write("Hops.kt", "fun hops(sensors: SensorData) = sensors.colour()")
         val (code, messages) = ask(words())
         assertEquals(1, code)
         assertContains(messages, Regex("""Hops\.kt:3:\d+: error: unresolved reference 'colour'"""))
-        assertContentEquals(first, jar.readBytes(), "an error leaves the jar")
+        assertContentEquals(first, jar.readBytes(), "an error must not change the jar")
 
         schema("colour: float;")
         assertEquals(0, ask(words()).first)
@@ -89,7 +92,7 @@ class CompileServerTest {
         }
         write("Hops.kt", "fun hops() =")
         assertEquals(1, run(words()).first)
-        // The compiler cannot load the plugin.
+        // The compiler cannot load this file as a plugin.
         val plugin = folder.resolve("plugin.jar")
         ZipOutputStream(Files.newOutputStream(plugin)).use {
             it.putNextEntry(ZipEntry("META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar"))
@@ -115,7 +118,7 @@ class CompileServerTest {
         "--library", System.getProperty("java.class.path"), "--mark", "Collektive-Runtime:builtIn",
     )
 
-    /** Hands over a request, and returns the exit code and the messages. */
+    /** Sends a request to the process, and returns the exit code and the messages. */
     private fun ask(words: List<String>): Pair<Int, String> {
         val part = requests.resolve("a.part")
         part.writeBytes(words.joinToString("") { "$it\u0000" }.encodeToByteArray())

@@ -19,7 +19,7 @@ import kotlin.io.path.readBytes
 import kotlin.io.path.writeBytes
 import kotlin.test.assertEquals
 
-/** The corpus of `./collektive test --fuzz` for records: a seed, and an input for each defect that fuzzing found. */
+/** Runs the corpus of `./collektive test --fuzz` for records, which contains a seed and an input for each bug that fuzzing found. */
 class RecordCorpusTest {
     @field:TempDir
     lateinit var folder: Path
@@ -55,7 +55,7 @@ class RecordCorpusTest {
         return file.readBytes()
     }
 
-    /** Two bytes instead of the jar, which is the largest part of a record and irrelevant to its reader. */
+    /** Replaces the jar with two bytes, because it is the largest part of a record, and the reader does not interpret it. */
     private fun withoutJar(record: ByteArray): ByteArray {
         val bytes = ByteBuffer.wrap(record).order(ByteOrder.LITTLE_ENDIAN)
         var at = RecordWriter.MAGIC.size

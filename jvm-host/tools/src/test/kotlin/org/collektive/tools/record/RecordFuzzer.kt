@@ -10,19 +10,20 @@ import java.util.zip.CRC32
 import kotlin.io.path.writeBytes
 
 /**
- * Reads arbitrary bytes as a record, to the end or up to a [RecordException]. Corrects checksums first, because fuzzed bytes would not
- * pass them. Does not run the programs of the record.
+ * Reads arbitrary bytes as a record, to the end or up to a [RecordException].
+ *
+ * It first corrects the checksums, because those of fuzzed bytes would never match. It does not run the programs of the record.
  */
 internal object RecordFuzzer {
     private val file: Path by lazy { Files.createTempFile("fuzzed", ".clkrec").also { it.toFile().deleteOnExit() } }
 
-    /** Called by Jazzer for each input. */
+    /** Tests an input. Jazzer calls this for each one. */
     @JvmStatic
     fun fuzzerTestOneInput(bytes: ByteArray) {
         run(bytes)
     }
 
-    /** Reads the record. Returns the number of steps, or -1 if it is rejected or damaged. */
+    /** Reads the record. Returns the number of steps, or -1 if the record is rejected or damaged. */
     fun run(bytes: ByteArray): Int {
         file.writeBytes(sealed(bytes))
         return try {
@@ -36,7 +37,7 @@ internal object RecordFuzzer {
         }
     }
 
-    /** [bytes] with the correct checksum in each complete chunk. */
+    /** Returns [bytes] with the correct checksum in each complete chunk. */
     fun sealed(bytes: ByteArray): ByteArray {
         val sealed = bytes.copyOf()
         val record = ByteBuffer.wrap(sealed).order(ByteOrder.LITTLE_ENDIAN)

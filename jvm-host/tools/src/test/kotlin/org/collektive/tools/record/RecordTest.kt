@@ -43,7 +43,7 @@ class RecordTest {
     @field:TempDir
     lateinit var folder: Path
 
-    /** A small swarm with changes in every tick; [change] alters it. */
+    /** Records a small swarm whose nodes change in every tick, and returns the file. [change] can alter each tick. */
     private fun record(name: String = "a", ticks: Int = TICKS, jar: Path = ProbeJars.programs, change: Step.() -> Unit = {}): Path {
         val file = folder.resolve("$name.clkrec")
         val session = TestSession(shim)
@@ -64,13 +64,13 @@ class RecordTest {
         wind = if (number % 4 == 0) number.toFloat() else null
     }
 
-    /** Options for the other runtime; the folder that the host is built into stands in for that of Collektive's jars. */
+    /** The options that select the other runtime. The output folder of the host's build stands in for the folder of Collektive's jars. */
     private val collektive =
         arrayOf("--runtime", "collektive", "--runtime-jars", Path.of(Host::class.java.protectionDomain.codeSource.location.toURI()).parent)
 
     private class Result(val code: Int, val results: String, val messages: String)
 
-    /** Runs a command. Trusts the record unless the arguments contain `--own`. */
+    /** Returns the option with which a replay trusts its record, unless the arguments contain `--own`. */
     private fun trust(arguments: Array<out Any>) =
         if (arguments.firstOrNull() == "replay" && "--own" !in arguments) listOf("--trust") else emptyList()
 
@@ -371,7 +371,7 @@ class RecordTest {
                 chunk.offset + Chunk.HEADER_BYTES,
                 chunk.offset + Chunk.HEADER_BYTES + chunk.payload.remaining() / 2,
             )) {
-                // The last chunk has no payload, so this is the whole record.
+                // This length is the whole record, because the last chunk has no payload.
                 if (length == bytes.size.toLong()) continue
                 val cut = folder.resolve("cut").also { it.writeBytes(bytes.copyOf(length.toInt())) }
                 val result = run("replay", cut)
@@ -392,7 +392,7 @@ class RecordTest {
         val flipped = folder.resolve("flipped")
         val random = Random(3)
         for (at in bytes.indices) {
-            // The jar is long; a few of its bytes are enough.
+            // The jar is long, so only a few of its bytes are tested.
             val chunk = chunks.lastOrNull { it.offset <= at }
             if (chunk?.kind == Chunk.JAR && at > chunk.offset + 100 && at % 101 != 0) continue
             val damaged = bytes.copyOf().also { it[at] = (it[at].toInt() xor (1 shl random.nextInt(8))).toByte() }
@@ -536,14 +536,14 @@ class RecordTest {
             zip.getPath("META-INF/services/org.collektive.frames.data.DataSchema").appendText("probe.Bad\n")
         }
         val file = record(jar = jar)
-        assertTrue(ran.deleteIfExists(), "the session has loaded the class")
+        assertTrue(ran.deleteIfExists(), "the session must have loaded the class")
         val other = record("b", jar = jar) { if (tick == 3L) wind = 9f }
         ran.deleteExisting()
         val result = run("diff", file, other)
         assertContains(result.results, "tick 3: input of globals: absent in A, present in B")
-        assertFalse(ran.exists(), "the comparison has loaded a class of the record")
+        assertFalse(ran.exists(), "the comparison must not load a class of the record")
         assertEquals(2, run("replay", file, "--own", folder).code)
-        assertFalse(ran.exists(), "the refused replay has loaded a class of the record")
+        assertFalse(ran.exists(), "a refused replay must not load a class of the record")
     }
 
     @Test
@@ -554,7 +554,7 @@ class RecordTest {
         assertContains(result.results, "?[2Jhidden.jar")
     }
 
-    /** A jar whose program "sum" returns [expression]. */
+    /** Returns a jar whose program "sum" returns the value of [expression]. */
     private fun summing(expression: String): Path = ProbeJars.withClass(
         """
         package probe;

@@ -31,7 +31,7 @@ public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.fi
     comparator: Comparator<FieldEntry<ID, P>> = compareBy { it.value },
 ): ID = findParent(potentialField(potential, dataSharingMethod<P>()), comparator)
 
-/** Returns the ids of the neighbours whose entries satisfy [isParent], in ascending order. By default, these are all neighbours downhill. */
+/** Returns the ids of the neighbours whose entries satisfy [isParent] in ascending order. By default, these are the neighbours downhill. */
 @Suppress("UnusedReceiverParameter")
 public inline fun <reified ID : Any, reified P : Comparable<P>> Aggregate<ID>.findParents(
     potential: Field<ID, P>,

@@ -9,7 +9,7 @@ import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
 class ConvergeCastTest {
-    /** The expected sum of each device's subtree. The parent of a device is the lowest id among those one hop nearer to a sink. */
+    /** Returns the expected sum of each device's subtree. Its parent has the lowest id of the neighbours one hop nearer to a sink. */
     private fun Swarm.treeSums(sinks: Collection<Int>, values: Map<Int, Int>): Map<Int, Int> {
         val hops = hopsFrom(sinks)
         fun parent(id: Int) = hops[id]?.let { mine -> neighbors(id).filter { (hops[it] ?: Int.MAX_VALUE) < mine }.minOrNull() }
@@ -84,6 +84,6 @@ class ConvergeCastTest {
             )
         }
         assertEquals(listOf<Any>(1, 0, setOf(1, 2), setOf(0)), seen.getValue(3))
-        assertEquals(1, seen.getValue(1).first(), "the bottom is its own parent")
+        assertEquals(1, seen.getValue(1).first(), "a device at a minimum must be its own parent")
     }
 }

@@ -10,7 +10,7 @@ import kotlin.test.assertEquals
 import kotlin.test.assertNull
 
 class CollapseTest {
-    /** Fields of random size and values, with their elements in order: neighbours ascending, then the device itself. */
+    /** Calls [check] with fields of random size and values, and with their entries in order: neighbours by id, then the device itself. */
     private fun fields(check: (field: Field<Int, Int>, neighbors: List<Pair<Int, Int>>, all: List<Pair<Int, Int>>) -> Unit) {
         for (seed in 0 until 40) {
             val random = Random(seed)

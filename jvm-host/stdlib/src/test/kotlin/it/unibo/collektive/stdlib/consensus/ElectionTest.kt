@@ -8,7 +8,10 @@ import org.junit.jupiter.api.Test
 import kotlin.test.assertEquals
 
 class ElectionTest {
-    /** The expected leader of each device: the strongest leads all within the bound, then the strongest of the others, and so on. */
+    /**
+     * Returns the expected leader of each device. The strongest device leads all within the bound, then the strongest of the remaining
+     * devices does, and so on.
+     */
     private fun Swarm.leaders(strengths: Map<Int, Int>, bound: Double, length: (Int, Int) -> Double): Map<Int, Int> {
         val leaders = sortedMapOf<Int, Int>()
         for (candidate in ids.sortedByDescending(strengths::getValue)) {

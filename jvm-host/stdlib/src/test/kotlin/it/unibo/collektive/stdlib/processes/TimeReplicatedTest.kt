@@ -23,14 +23,14 @@ class TimeReplicatedTest {
         val before = (0 until 20).map { second(it, 100) }.last()
         assertEquals(setOf(100), before.values.toSet())
         val after = (20 until 20 + 3 * 10 + 15).map { second(it, 0) }.last()
-        assertEquals(setOf(4), after.values.toSet(), "the former maximum is forgotten")
+        assertEquals(setOf(4), after.values.toSet(), "the former maximum must be forgotten")
     }
 
     @Test
     fun `the result is that of the oldest replica, and each replica starts without state`() {
         val swarm = Swarm(1)
         val ages = (0 until 40).map { now -> swarm.round { timeReplicated(at(now), 2, 5.seconds) { evolve(0) { it + 1 } } }.getValue(0) }
-        assertEquals((1..11).toList(), ages.take(11), "a replica starts in the round after a wait is over")
+        assertEquals((1..11).toList(), ages.take(11), "a replica must start in the round after the end of a wait")
         assertEquals(List(6) { (6..10).toList() }.flatten().take(29), ages.drop(11))
     }
 

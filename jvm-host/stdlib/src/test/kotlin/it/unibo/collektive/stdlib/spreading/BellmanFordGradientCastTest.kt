@@ -38,7 +38,7 @@ class BellmanFordGradientCastTest {
         val before = swarm.round { distance(swarm, localId == 0) }.getValue(2)
         val after = swarm.rounds(10) { distance(swarm, localId == 0) }.getValue(2)
         assertEquals(before + 1.0, after, 1e-9)
-        assertTrue(swarm.rounds(100) { distance(swarm, localId == 0) }.getValue(2) < 20.0, "the distance still rises")
+        assertTrue(swarm.rounds(100) { distance(swarm, localId == 0) }.getValue(2) < 20.0, "the distance must still rise")
     }
 
     @Test

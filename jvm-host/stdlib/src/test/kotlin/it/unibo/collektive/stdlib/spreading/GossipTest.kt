@@ -69,7 +69,7 @@ class GossipTest {
         swarm.round(listOf(2)) { gossipMax(5) }
         swarm.link(3, 2)
         assertEquals(5, round(3, best = null))
-        assertEquals(5, round(0, best = null), "device 1 offers 9 over 3 and 2, device 3 offers 5 over 2")
+        assertEquals(5, round(0, best = null), "device 1 offers 9 through 3 and 2, and device 3 offers 5 through 2")
     }
 
     @Test

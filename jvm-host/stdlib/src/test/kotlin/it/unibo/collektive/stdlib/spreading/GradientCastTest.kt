@@ -70,7 +70,7 @@ class GradientCastTest {
         assertEquals(
             mapOf(0 to mapOf(0 to 0, 2 to 0), 1 to mapOf(0 to 0), 2 to mapOf(0 to 0, 2 to 2)),
             seen,
-            "device 1 forwards no data of device 2",
+            "device 1 must not forward data of device 2",
         )
     }
 
@@ -119,7 +119,7 @@ class GradientCastTest {
             swarm.round(listOf(id)) { gradientCast(localId == source, localId, with(swarm) { lengths() }) }.getValue(id)
         for (id in listOf(3, 2, 1)) round(id, source = 3)
         for (id in listOf(2, 3)) round(id, source = 2)
-        assertEquals(2, round(0, source = 2), "device 1 offers the data of 3 over 3 and 2, device 3 that of 2 over 2")
+        assertEquals(2, round(0, source = 2), "device 1 offers the data of 3 through 3 and 2, and device 3 the data of 2 through 2")
     }
 
     @Test
@@ -169,7 +169,7 @@ class GradientCastTest {
                     accumulateDistance = { fromSource, toNeighbor -> fromSource + stretch * toNeighbor },
                 )
             }
-            assertEquals(swarm.ids.associateWith { unit * (lengths[it] ?: 0.0) }, seen, "stretched by $stretch, in units of $unit")
+            assertEquals(swarm.ids.associateWith { unit * (lengths[it] ?: 0.0) }, seen, "links stretched by $stretch, in units of $unit")
         }
     }
 

@@ -54,6 +54,6 @@ class HopPathTest {
         val stem = path(listOf(1, 2))
         assertTrue((stem + 3).extends(stem, 3))
         assertFalse((stem + 3).extends(stem, 4))
-        assertFalse((path(listOf(1, 2)) + 3).extends(stem, 3), "an equal path is not the same path")
+        assertFalse((path(listOf(1, 2)) + 3).extends(stem, 3), "a path must not extend an equal path that is a different object")
     }
 }
