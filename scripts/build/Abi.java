@@ -6,7 +6,7 @@ import org.jetbrains.kotlin.buildtools.api.jvm.ClassSnapshotGranularity;
 import org.jetbrains.kotlin.buildtools.api.jvm.JvmPlatformToolchain;
 import org.jetbrains.kotlin.buildtools.api.jvm.operations.JvmClasspathSnapshottingOperation;
 
-/** Prints, for each folder of compiled classes, the classes that other modules can see, with Kotlin's hash of their visible parts. */
+/** Prints the classes of each folder that other modules can see, with a hash of their visible parts by Kotlin's build tools. */
 class Abi {
     public static void main(String[] folders) {
         KotlinToolchains toolchains = KotlinToolchains.loadImplementation(Abi.class.getClassLoader());
@@ -14,7 +14,7 @@ class Abi {
             for (String folder : folders) {
                 var operation = JvmPlatformToolchain.from(toolchains).classpathSnapshottingOperationBuilder(Path.of(folder));
                 operation.set(JvmClasspathSnapshottingOperation.GRANULARITY, ClassSnapshotGranularity.CLASS_LEVEL);
-                // Bodies of inline functions and their lambdas, which are copied into callers.
+                // The compiler copies bodies of inline functions and their lambdas into callers, so they are part of the ABI.
                 operation.set(JvmClasspathSnapshottingOperation.PARSE_INLINED_LOCAL_CLASSES, true);
                 System.out.println(folder);
                 new TreeMap<>(session.executeOperation(operation.build()).getClassSnapshots()).forEach((name, snapshot) -> {

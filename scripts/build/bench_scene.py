@@ -1,4 +1,4 @@
-"""Benchmark of whole ticks: the case study at several sizes, each in its own process."""
+"""Benchmarks whole ticks of the case study at several sizes, each in its own process."""
 import csv
 import json
 import math
@@ -18,15 +18,16 @@ from build.places import COLLEKTIVE, ROOT, SHIM
 SAMPLE = ROOT / "unity/Samples~/GradientAscent"
 PHASES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
 NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
-# The number of nodes for which the sample's field is not scaled.
+# The number of nodes in the sample. The field is scaled for other numbers.
 NODES_OF_FIELD = 500
-# Simulated seconds: measuring starts after the warm-up of the JIT compilers and ends before small swarms crowd at the source.
+# The simulated seconds at which measuring ends and starts. It starts after the JIT compilers have warmed up, and ends before small swarms crowd at the
+# source.
 SECONDS, SETTLED = 10, 6
 QUICK_SECONDS, QUICK_SETTLED = 4, 2
 
 
 def scenario(nodes: int, seconds: int) -> dict[str, Any]:
-    """Returns the sample's scenario with a number of nodes at the density of the sample, and with tables only."""
+    """Returns the sample's scenario for a number of nodes, with the same density and with tables as the only output."""
     whole: dict[str, Any] = json.loads((SAMPLE / "scenario.json").read_text())
     for key in ("scripts", "schema", "programs"):
         whole[key] = os.path.normpath(os.path.join(SAMPLE, whole[key]))
@@ -36,7 +37,11 @@ def scenario(nodes: int, seconds: int) -> dict[str, Any]:
 
 
 def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
-    """Measures one size. Returns mean and 99th percentile of the ticks after the warm-up, the phases, and the time of the rules' work in a bare loop in C."""
+    """Measures one size.
+
+    Returns the mean and the 99th percentile of the ticks after the warm-up, the times of the phases, and the time that a bare loop in C takes for the
+    work of the rules.
+    """
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder, "scene.json"), Path(folder, "out")
         settings = scenario(nodes, seconds)
@@ -55,7 +60,7 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
         return sum(float(row[column]) for row in rows) / len(rows)
 
     return {"nodes": nodes, "threads": settings["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
-            # Of 100 ticks or fewer, the 99th percentile is the slowest one.
+            # A row covers at most 100 ticks, so its 99th percentile is its slowest tick.
             "tick_ms_p99": max(float(row["tick_ms_p99"]) for row in rows),
             **{phase: round(mean(phase), 3) for phase in PHASES}, "rules_in_c_ms": float(bare.stdout.split()[-2]),
             "rss_mb": round(usage.ru_maxrss / 1024, 1)}
@@ -66,7 +71,7 @@ def micros_per_node(row: dict[str, Any]) -> float:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """Formats the rows, with the time of the rules relative to that in C, and the time of a tick per node, also relative to the first row."""
+    """Formats the rows. Adds the time of the rules relative to the time in C, and the time of a tick per node, also relative to the first row."""
     columns = ["nodes", "ticks/s", "p99 ms", "p99/mean", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "rules in C", "ratio", "RSS MB",
                "us a node", "growth"]
     cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", f"{row['tick_ms_p99']:.2f}",
@@ -82,7 +87,7 @@ def machine() -> str:
 
 
 def sizes_of(text: str) -> list[int]:
-    """Reads the numbers of nodes from an option."""
+    """Parses the numbers of nodes in an option."""
     if not re.fullmatch(r"[1-9][0-9]{0,5}(,[1-9][0-9]{0,5})*", text):
         raise Failure("bench scene: --nodes needs numbers from 1 to 999999, with commas between them")
     return [int(size) for size in text.split(",")]
@@ -91,7 +96,7 @@ def sizes_of(text: str) -> list[int]:
 def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     """Runs all sizes, writes their rows to a file, and prints the table."""
     graph.build("runtime", "neighbours_test")
-    # Compiles before the runs, whose memory includes the processes that they start.
+    # Compile before the runs, because the memory of a run includes that of the processes that it starts.
     projects.scripts_dll(inputs.schema(SAMPLE / "gradient_ascent.fbs"), inputs.scripts(SAMPLE))
     lock.release()
     rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]

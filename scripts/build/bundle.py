@@ -1,7 +1,8 @@
-"""bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm] [--runtime=NAME]...: copies the inputs of a sweep's runs to a folder. Sweeps call it.
+"""Copies the inputs of a sweep's runs to a folder: `bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm] [--runtime=NAME]...`. Sweeps call it.
 
-FOLDER/programs.jar has the programs for the scenario's runtime, or programs-NAME.jar for each given runtime. FOLDER/inputs has the files of the scenario's
-project; FOLDER/inputs.json has their paths in it, and their hashes, by the scenario's keys.
+FOLDER/programs.jar contains the programs for the scenario's runtime. If runtimes are given, there is a file programs-NAME.jar for each of them instead.
+FOLDER/inputs contains the files of the scenario's project. FOLDER/inputs.json lists their paths below FOLDER/inputs, and their hashes, by key of the
+scenario.
 """
 import argparse
 import json
@@ -51,7 +52,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _require_within(project: Path, schema: Part) -> None:
-    """Raises `Failure` if a schema includes files from outside the project's folder (or its own folder, if the schema is elsewhere)."""
+    """Raises `Failure` if a schema includes a file that is outside the project's folder, or outside its own folder if the schema is not in the project."""
     folder = project if project in schema.path.parents else schema.folder
     for name in schema.files:
         if folder not in Path(os.path.normpath(schema.folder / name)).parents:

@@ -1,4 +1,4 @@
-"""Progress messages, and logs of long steps."""
+"""Prints progress messages, and writes the output of long steps to logs."""
 import os
 import subprocess
 import sys
@@ -8,13 +8,13 @@ from pathlib import Path
 
 from build.places import LOGS
 
-# Commands that other commands start continue the first one's clock.
+# A command that another command starts continues the clock of that command.
 STARTED = float(os.environ.setdefault("COLLEKTIVE_STARTED", str(time.time())))
 _step = ""
 
 
 class Failure(Exception):
-    """Ends the command with a message and an exit code. The default is the command's exit code for errors."""
+    """Ends the command with a message and an exit code, by default the code that the command uses for errors."""
 
     def __init__(self, message: str, code: int | None = None) -> None:
         super().__init__(message)
@@ -22,14 +22,14 @@ class Failure(Exception):
 
 
 def print_progress(text: str) -> None:
-    """Prints progress, after the seconds since the start."""
+    """Prints a progress message that begins with the seconds since the start."""
     print(f"[{time.time() - STARTED:4.0f}s] {text}", file=sys.stderr, flush=True)
 
 
 def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None, log: Path | None = None) -> None:
-    """Runs a command with its output in a log file, and prints the log if the command fails. Successive commands of one name share a log.
+    """Runs a command and writes its output to a log file. Successive commands with the same name share a log.
 
-    Raises `Failure` if the exit code is not 0.
+    If the exit code is not 0, prints the log and raises `Failure`.
     """
     global _step
     path = log or LOGS / f"{name}.log"
@@ -43,7 +43,7 @@ def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None
     if code == 0:
         return
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-    # Compilers print the cause first, other tools last.
+    # Compilers print the cause of an error first, and other tools print it last.
     shown = lines if len(lines) <= 60 else [*lines[:30], "...", *lines[-30:]]
     print("\n".join(shown), file=sys.stderr)
     raise Failure(f"{name} failed; the full log is {path}")

@@ -1,8 +1,8 @@
 """Compiles C# with Roslyn on Mono.
 
-`csharp.py OUT SOURCE... -- OPTION...` compiles one assembly of netstandard2.1; sources are files and folders. The option `--symbols` stands for
-the options that generated code needs.
-`csharp.py --documentation OUT.xml SOURCE... -- OPTION...` writes the XML documentation alone.
+`csharp.py OUT SOURCE... -- OPTION...` compiles files and folders to an assembly for netstandard2.1. The option `--symbols` stands for the options that
+generated code needs.
+`csharp.py --documentation OUT.xml SOURCE... -- OPTION...` writes only the XML documentation.
 `csharp.py --roslyn` assembles the compiler in build/roslyn from the SDK that npm has fetched.
 """
 import shutil
@@ -20,7 +20,7 @@ ROSLYN = BUILD / "roslyn"
 FACADE = Path("/usr/lib/mono/4.8-api/Facades/netstandard.dll")
 OPTIONS = ("-nologo", "-noconfig", "-nostdlib+", "-langversion:8.0", "-deterministic+", "-optimize+", "-debug:portable", "-warnaserror+", "-warn:4",
            "-nowarn:1701,1702", "-target:library")
-# References of scenes: the package, and the player, which reads data files.
+# The assemblies that scenes reference: those of the package, and the player, which reads data files.
 REFERENCES = (*(f"-r:{CSHARP}/{name}.dll" for name in ("Collektive.FlatBuffers", "Collektive.Bridge", "UnityEngine", "Collektive.Unity")), f"-r:{PLAYER}")
 
 
@@ -28,18 +28,18 @@ SYMBOLS = ROOT / "unity/Runtime/Bridge/csc.rsp"
 
 
 def symbols() -> list[str]:
-    """Returns the compiler options of the bridge in Unity, which generated code needs."""
+    """Returns the compiler options that the bridge has in Unity. Generated code needs them, too."""
     return [*SYMBOLS.read_text().split(), "-unsafe+"]
 
 
 def sources(places: Sequence[Path]) -> list[Path]:
-    """Returns the C# files in and below some places, in an order that does not depend on the machine."""
+    """Returns the C# files in files and folders, in an order that does not depend on the machine."""
     files = [file for place in places for file in (place.rglob("*.cs") if place.is_dir() else [place])]
     return sorted(files, key=lambda file: str(file).encode())
 
 
 def command(out: Path, files: Sequence[Path], options: Sequence[str]) -> list[str | Path]:
-    """Returns the command line that compiles one assembly. The list of its files is written beside it."""
+    """Returns the command line that compiles an assembly. Writes the list of source files beside the assembly."""
     framework = [f"-r:{library}" for library in sorted((ROSLYN / "ref").glob("*.dll"))]
     out.parent.mkdir(parents=True, exist_ok=True)
     response = out.with_name(f"{out.name}.rsp")
@@ -48,18 +48,18 @@ def command(out: Path, files: Sequence[Path], options: Sequence[str]) -> list[st
 
 
 def compile_assembly(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
-    """Compiles one assembly. Prints the messages to standard error.
+    """Compiles an assembly, and prints the messages to standard error.
 
-    Raises `subprocess.CalledProcessError` if there are errors.
+    Raises `subprocess.CalledProcessError` after errors.
     """
     subprocess.run(command(out, files, options), check=True)
 
 
 def document(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
-    """Writes the XML documentation of an assembly. A public member without documentation is an error, except in generated code."""
+    """Writes the XML documentation of an assembly. Public members without documentation are errors, except in generated code."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
-        # With its own name, so that it can see internal members of the other assembly.
+        # The assembly needs its own name, because the internal members of the other assembly are visible to that name only.
         assembly = Path(folder, f"Collektive.{out.stem}.dll")
         result = subprocess.run(command(assembly, files, [*options, "-warnaserror-", f"-doc:{out}"]), capture_output=True, text=True)
     missing = [line for line in result.stderr.splitlines() if "CS1591" in line and "/generated/" not in line]
@@ -76,7 +76,7 @@ def assemble_roslyn() -> None:
     compiler = sdk / "Roslyn/bincore"
     for library in [compiler / "Microsoft.CodeAnalysis.dll", compiler / "Microsoft.CodeAnalysis.CSharp.dll", *compiler.glob("System.*.dll"),
                     *(sdk / "Sdks/Microsoft.NET.Sdk.WindowsDesktop/tools/net472").glob("System.*.dll"),
-                    # The build for netstandard2.0 runs on Mono and CoreCLR.
+                    # This build for netstandard2.0 runs on both Mono and CoreCLR.
                     *sdk.glob("DotnetTools/dotnet-user-secrets/*/tools/netcoreapp3.1/any/Newtonsoft.Json.dll")]:
         shutil.copy(library, ROSLYN)
     for library in (package / "packs/NETStandard.Library.Ref/2.1.0/ref/netstandard2.1").glob("*.dll"):

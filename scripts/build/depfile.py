@@ -1,6 +1,6 @@
-"""depfile.py OUTPUT DEPFILE FOLDER...: declares that an output of the build graph depends on all files and folders below FOLDER.
+"""Declares that an output of the build graph depends on all files and folders below FOLDER: `depfile.py OUTPUT DEPFILE FOLDER...`.
 
-Ninja reads DEPFILE, which has the format of make. A file that is added or removed changes its folder's time.
+Ninja reads DEPFILE, which has the format of make. Folders are included because adding or removing a file changes the time of its folder.
 """
 import sys
 from pathlib import Path
@@ -9,7 +9,7 @@ IGNORED = {"target", "build", "node_modules", ".git", "__pycache__"}
 
 
 def inputs(folders: list[Path]) -> list[Path]:
-    """Returns all files and folders below the given ones, without build outputs and Unity's metas."""
+    """Returns all files and folders below some folders, except build outputs and Unity's metas."""
     found: list[Path] = []
     for folder in folders:
         if not folder.is_dir():

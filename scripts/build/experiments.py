@@ -13,24 +13,24 @@ EXPERIMENTS = ROOT / "experiments"
 
 
 def option(name: str) -> Callable[..., Any]:
-    """Returns a function of the package's module `options`. That module, unlike the package, needs no environment."""
+    """Returns a function of the package's module `options`. Unlike the other modules, this one can be loaded without the package's environment."""
     function: Callable[..., Any] = runpy.run_path(str(EXPERIMENTS / "collektive_experiments/options.py"))[name]
     return function
 
 
 def environment() -> Mapping[str, str]:
-    """Returns the environment that the package runs in."""
+    """Returns the environment variables with which the package runs."""
     return {**os.environ, "COLLEKTIVE_JAVA_HOME": str(find_jdk()), "COLLEKTIVE": str(COLLEKTIVE), "PYTHONPATH": str(EXPERIMENTS),
             "PYTHONDONTWRITEBYTECODE": "1"}
 
 
 def run(*tools: str) -> int:
-    """Runs this process's command line with the package, after fetching `tools`."""
+    """Fetches `tools`, and then runs the package with the command line of this process."""
     system.setup_system()
     variables = environment()
     lock.shared()
     fetch.fetch("experiments", *tools)
-    # Sweeps run copies, so others can build meanwhile.
+    # A sweep runs copies of the build outputs, so other commands can build during the sweep.
     lock.release()
     code = processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=variables)
     processes.end_orphans()

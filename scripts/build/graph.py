@@ -11,9 +11,9 @@ from build.system import NUNIT, setup_system
 
 
 def build(*targets: str) -> None:
-    """Brings targets up to date. Afterwards this process holds the shared lock of the outputs.
+    """Brings targets up to date, and keeps a shared lock on the outputs.
 
-    A build without changes takes no exclusive lock, so runs do not wait for each other.
+    If nothing has changed, no exclusive lock is needed, so runs do not wait for each other.
     """
     setup_system()
     lock.shared()
@@ -29,7 +29,7 @@ def build(*targets: str) -> None:
 
 
 def is_up_to_date(tree: Path, *targets: str) -> bool:
-    """Returns whether Ninja has nothing to do for targets of a build tree."""
+    """Returns whether Ninja finds nothing to do for targets of a build tree."""
     dry = subprocess.run(["ninja", "-n", *targets], cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return dry.returncode == 0 and "no work to do" in dry.stdout
 
@@ -43,7 +43,7 @@ def _arguments() -> list[str]:
         f"-DCMAKE_CXX_FLAGS={prefix_map}",
         f"-DCOLLEKTIVE_JAVA_HOME={jdk.find_jdk()}",
         f"-DCOLLEKTIVE_TEST_JDKS={';'.join(map(str, jdk.test_jdks()))}",
-        # The system's Python, because a command may run in a virtual environment.
+        # The resolved path is the system's Python, even if the command runs in a virtual environment.
         f"-DCOLLEKTIVE_PYTHON={Path(sys.executable).resolve()}",
         f"-DCOLLEKTIVE_NUNIT={NUNIT if NUNIT.exists() else ''}",
     ]
@@ -57,7 +57,7 @@ def _is_configured() -> bool:
 def _configure() -> None:
     cache = GRAPH / "CMakeCache.txt"
     if not cache.exists() or f"CMAKE_HOME_DIRECTORY:INTERNAL={ROOT}\n" not in cache.read_text():
-        # CMake refuses a tree of a checkout that was moved.
+        # CMake refuses a build tree whose checkout was moved.
         shutil.rmtree(GRAPH, ignore_errors=True)
     run_logged("configure", ["cmake", *_arguments()])
     (GRAPH / "arguments").write_text("\n".join(_arguments()))

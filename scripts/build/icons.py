@@ -1,6 +1,6 @@
-"""icons.py FOLDER: draws the icons of components and assets, which are in unity/Editor/Icons, as PNG files of 64 pixels.
+"""Draws the icons of components and assets as PNG files of 64 pixels: `icons.py FOLDER`. The repository contains them in unity/Editor/Icons.
 
-The colours stand out from the editor's light and dark themes.
+The colours are visible in both the light and the dark theme of the editor.
 """
 import itertools
 import math
@@ -42,7 +42,7 @@ def box(x1: float, y1: float, x2: float, y2: float, colour: Colour = GREY) -> Sh
 
 
 def around(count: int, radius: float, start: float = -math.pi / 2) -> list[tuple[float, float]]:
-    """Returns points on a circle in the middle of the icon."""
+    """Returns evenly spaced points on a circle in the middle of the icon."""
     return [(32 + radius * math.cos(start + 2 * math.pi * i / count), 32 + radius * math.sin(start + 2 * math.pi * i / count)) for i in range(count)]
 
 
@@ -70,7 +70,7 @@ ICONS: dict[str, list[Shape]] = {
 
 
 def pixel(shapes: list[Shape], x: int, y: int) -> bytes:
-    """Returns the colour and opacity of a pixel: the mean of samples in it, without the weight of transparent ones."""
+    """Returns the colour and opacity of a pixel, which are the mean of samples in it. Transparent samples do not affect the colour."""
     total, weight = [0.0, 0.0, 0.0], 0.0
     for i in range(SAMPLES * SAMPLES):
         px, py = x + (i % SAMPLES + 0.5) / SAMPLES, y + (i // SAMPLES + 0.5) / SAMPLES

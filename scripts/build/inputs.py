@@ -1,4 +1,4 @@
-"""Lists the files of users' projects that the compilers read. Cache keys, manifests and bundles of sweeps use the same lists."""
+"""Lists the files of users' projects that the compilers read. Cache keys, manifests and bundles of sweeps all use these lists."""
 import hashlib
 import os
 import re
@@ -12,13 +12,13 @@ from build.console import Failure
 from build.places import ROOT
 
 MAX_FILES = 10_000
-# Folder of types.fbs, which schemas include without a path.
+# The folder of types.fbs, which schemas include without a path.
 CORE = ROOT / "schema"
 _TOKEN = re.compile(rb"""//[^\r\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"|'(?:\\.|[^'\\])*'|\w+|\S""", re.DOTALL)
 
 
 class Part:
-    """The files that one key of a scenario names, by their paths relative to its folder, and a hash of paths and contents."""
+    """The files that one key of a scenario names, by relative path, and a hash of their paths and contents."""
 
     def __init__(self, path: Path, list_files: Callable[[Path], dict[str, Path]]) -> None:
         self.path = Path(os.path.abspath(path))
@@ -31,17 +31,17 @@ class Part:
 
     @property
     def folder(self) -> Path:
-        """The folder that names are relative to."""
+        """The folder to which the paths of the files are relative."""
         return self.path if self.path.is_dir() else self.path.parent
 
     @property
     def root(self) -> Path:
-        """The folder that contains all files: above `folder` if names go up."""
+        """The folder that contains all files. It is above `folder` if a path begins with `..`."""
         up = max((Path(name).parts.count("..") for name in self.files), default=0)
         return (self.folder / "_").parents[up]
 
     def copy(self, target: Path) -> Path:
-        """Copies the files to a folder with their paths in `root`, following links. Returns the copy of `path`."""
+        """Copies the files, and the targets of links, to a folder with their paths relative to `root`. Returns the copy of `path`."""
         target.mkdir(parents=True, exist_ok=True)
         for name, file in self.files.items():
             copy = target / os.path.relpath(self.folder / name, self.root)
@@ -56,12 +56,12 @@ class Part:
 
 
 def scripts(folder: Path) -> Part:
-    """Reads a folder of C#, except generated code, which each run generates."""
+    """Reads a folder of C# without generated code, because each run generates it again."""
     return Part(folder, partial(_below, suffixes=(".cs",), excluded=("Generated", "obj")))
 
 
 def programs(path: Path) -> Part:
-    """Reads a folder of Kotlin and the Java that it refers to, or a jar."""
+    """Reads a jar, or a folder of Kotlin and of the Java that the Kotlin refers to."""
     return Part(path, partial(_below, suffixes=(".kt", ".java"))) if path.is_dir() else jar(path)
 
 
@@ -76,12 +76,12 @@ def jars(folder: Path) -> Part:
 
 
 def schema(file: Path) -> Part:
-    """Reads a schema and the files that it includes, except the package's."""
+    """Reads a schema and the files that it includes, except those of the package."""
     return Part(file, _with_includes)
 
 
 def data(folder: Path) -> Part:
-    """Reads a folder of data files, for the scene."""
+    """Reads a folder of data files, which the scene reads."""
     return Part(folder, partial(_below, suffixes=("",)))
 
 
@@ -93,7 +93,7 @@ def _digest(files: Mapping[str, Path]) -> str:
 
 
 def _below(folder: Path, suffixes: tuple[str, ...], excluded: tuple[str, ...] = ()) -> dict[str, Path]:
-    """Returns the files below a folder in order of their names. Links are followed, except to a folder that contains them."""
+    """Returns the files below a folder in the order of their names. Follows links, except those to a folder that contains the link."""
     found: dict[str, Path] = {}
     count = 0
     pending: list[tuple[str, str, frozenset[str]]] = [("", str(folder), frozenset({os.path.realpath(folder)}))]
@@ -102,7 +102,7 @@ def _below(folder: Path, suffixes: tuple[str, ...], excluded: tuple[str, ...] = 
         for entry in os.scandir(place):
             count += 1
             if count > MAX_FILES:
-                # Hashing a whole disk would appear to hang.
+                # Without this limit, hashing a whole disk by mistake would look like a hang.
                 raise Failure(f"the folder '{folder}' has more than {MAX_FILES:,} files: name a folder that contains only the sources of this scenario")
             real = os.path.realpath(entry.path)
             if os.path.isdir(real):
@@ -114,7 +114,7 @@ def _below(folder: Path, suffixes: tuple[str, ...], excluded: tuple[str, ...] = 
 
 
 def _with_includes(schema: Path) -> dict[str, Path]:
-    """Finds included files where flatc does: beside the file that includes them, in the package, beside the schema."""
+    """Returns a schema and the files that it includes. Searches where flatc does: beside the including file, in the package and beside the schema."""
     found: dict[str, Path] = {}
     folder = str(schema.parent)
     pending = [str(schema)]
@@ -125,7 +125,7 @@ def _with_includes(schema: Path) -> dict[str, Path]:
             continue
         found[name] = Path(file)
         for include in _includes(file):
-            # flatc appends absolute paths, too.
+            # Like flatc, this appends even an absolute path to each place.
             candidates = {place: f"{place}/{include}" for place in (os.path.dirname(file), str(CORE), folder)}
             place = next((place for place, candidate in candidates.items() if os.path.isfile(candidate)), str(CORE))
             if place == str(CORE):
@@ -138,7 +138,7 @@ def _with_includes(schema: Path) -> dict[str, Path]:
 
 
 def _includes(file: str) -> list[str]:
-    """Returns the paths in a schema file's includes."""
+    """Returns the paths that a schema file includes."""
     tokens = [token for token in _TOKEN.findall(Path(file).read_bytes()) if not token.startswith((b"//", b"/*"))]
     paths = [after[1:-1] for token, after in pairwise(tokens) if token == b"include" and len(after) > 1 and after[:1] in b"\"'"]
     for path in paths:

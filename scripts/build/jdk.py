@@ -8,7 +8,7 @@ from pathlib import Path
 from build.console import Failure
 
 OLDEST = 17
-# Environment variables with options for every JVM.
+# Environment variables with options that every JVM reads.
 OPTIONS = ("JAVA_TOOL_OPTIONS", "JDK_JAVA_OPTIONS", "_JAVA_OPTIONS")
 
 
@@ -18,14 +18,14 @@ def is_jdk(home: Path) -> bool:
 
 
 def feature_version(home: Path) -> int:
-    """Returns a JDK's feature version, such as 25, or 0 if its release file has none."""
+    """Returns a JDK's feature version, such as 25, or 0 if its release file does not contain one."""
     match = re.search(r'^JAVA_VERSION="(\d+)', (home / "release").read_text(), re.MULTILINE)
     return int(match[1]) if match else 0
 
 
 @cache
 def find_jdk() -> Path:
-    """Returns the JDK that runs simulations: COLLEKTIVE_JAVA_HOME, or else the newest one."""
+    """Returns the JDK that runs simulations, which is COLLEKTIVE_JAVA_HOME if it is set, and otherwise the newest one."""
     named = os.environ.get("COLLEKTIVE_JAVA_HOME")
     if named:
         home = Path(named)
@@ -39,7 +39,7 @@ def find_jdk() -> Path:
 
 
 def _usable(home: Path) -> Path:
-    """Returns the JDK. Raises `Failure` if it does not start with the options in the environment."""
+    """Returns the given JDK. Raises `Failure` if its JVM does not start with the options in the environment."""
     given = {name: os.environ[name] for name in OPTIONS if os.environ.get(name)}
     if given:
         result = subprocess.run([home / "bin/java", "-version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
@@ -50,7 +50,7 @@ def _usable(home: Path) -> Path:
 
 
 def test_jdks() -> list[Path]:
-    """Returns the JDKs that tests run on. The last one is `find_jdk()`."""
+    """Returns the JDKs on which the tests run. The last one is `find_jdk()`."""
     return [home for home in _installed() if home != find_jdk()] + [find_jdk()]
 
 

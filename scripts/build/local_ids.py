@@ -1,13 +1,14 @@
-"""Ids by which Unity's scenes and prefabs refer to objects that a scripted importer creates.
+"""Computes the ids by which Unity's scenes and prefabs refer to objects that a scripted importer creates.
 
-Unity hashes the native type and the identifier with the 64-bit xxHash. Verified with `.inputactions` and `.shadergraph` assets of public projects.
+An id is the 64-bit xxHash of the object's native type and identifier. This was verified with `.inputactions` and `.shadergraph` assets of public
+projects.
 """
 _MASK = (1 << 64) - 1
 _P1, _P2, _P3, _P4, _P5 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9, 0x85EBCA77C2B2AE63, 0x27D4EB2F165667C5
 
 
 def of_script(identifier: str) -> int:
-    """Returns the id of a ScriptableObject with the identifier that the importer gives it."""
+    """Returns the id of a ScriptableObject to which the importer gives an identifier."""
     return of("MonoBehaviour", identifier)
 
 
@@ -18,7 +19,7 @@ def of(native_type: str, identifier: str) -> int:
 
 
 def xxh64(data: bytes) -> int:
-    """Returns the hash with seed 0."""
+    """Returns the 64-bit xxHash of data with seed 0."""
     at = 0
     value = _P5
     if len(data) >= 32:

@@ -1,4 +1,4 @@
-"""A lock on the build outputs of this checkout, shared by processes."""
+"""A lock on the build outputs of this checkout, which several processes can share."""
 import fcntl
 import os
 from collections.abc import Callable
@@ -10,19 +10,19 @@ _descriptor: int | None = None
 
 
 def shared() -> None:
-    """Locks the outputs for use until this process ends. Processes that it starts share the lock."""
+    """Locks the outputs for use until this process ends. Child processes share the lock."""
     _acquire(fcntl.LOCK_SH)
 
 
 def exclusive() -> None:
-    """Locks the outputs for changes. Prints a message while it waits for other commands."""
+    """Locks the outputs for changes. If it has to wait for other commands, prints a message."""
     _acquire(fcntl.LOCK_EX)
 
 
 def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
-    """Calls `make` with the outputs locked for changes, unless it `is_done`, and locks them for use.
+    """Calls `make` with the outputs locked for changes, unless `is_done` returns true. Afterwards, locks the outputs for use.
 
-    If two commands need the same change, the second waits only for `make`, not for the rest of the first command.
+    If two commands need the same change, the second one waits only for `make`, and not for the rest of the first command.
     """
     shared()
     if is_done():
@@ -37,7 +37,7 @@ def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
             return
         exclusive()
         try:
-            # Fails in a checkout that is read-only or belongs to another user.
+            # This fails if the checkout is read-only or belongs to another user.
             BUILD.mkdir(exist_ok=True)
             os.utime(BUILD)
             make()
@@ -58,9 +58,9 @@ def release() -> None:
 def _acquire(mode: int) -> None:
     global _descriptor
     if _descriptor is None:
-        # The folder itself is locked: `clean` removes every file that could carry the lock.
+        # The lock is on the folder of the checkout, because `clean` removes every file that could carry it.
         _descriptor = os.open(ROOT, os.O_RDONLY)
-        # A run can outlive a killed command and still use the outputs.
+        # Children inherit the lock, because a run can outlive a killed command and still use the outputs.
         os.set_inheritable(_descriptor, True)
     _wait(_descriptor, mode)
 

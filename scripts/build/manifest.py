@@ -16,8 +16,8 @@ from build.places import ROOT
 SYSTEMS = {"win-x64": "Windows (x64)", "linux-x64": "Linux (x64)", "linux-arm64": "Linux (ARM64)", "mac-x64": "macOS (Intel)",
            "mac-arm64": "macOS (Apple silicon)"}
 JVM_PACKAGE = "org.collektive.unity.jvm."
-# JVM packages that also contain the native library, and the first version of Unity for them. Older versions copy the Linux libraries of all processors
-# to one place in the player, and a build with two of them fails.
+# JVM packages that also contain the native library, and the first version of Unity that supports them. Older versions copy the Linux libraries for all
+# processors to the same path in the player, so a build with two of them fails.
 WITH_LIBRARY = {"linux-arm64": "6000.5"}
 
 
@@ -28,12 +28,12 @@ def read(root: str | Path) -> dict[str, Any]:
 
 
 def sources(root: Path) -> list[str]:
-    """Returns the entries of the allow-list `files` that exist in the clone, and the manifest itself, which npm always packs."""
+    """Returns the entries of the allow-list `files` that exist in the clone, and the manifest, which npm packs even if it is not listed."""
     return ["package.json"] + [path for path in read(root)["files"] if (root / path).exists()]
 
 
 def links(repository: str, version: str) -> dict[str, str]:
-    """Returns the addresses in the manifest of a release: pages of its tag in a repository such as https://github.com/OWNER/NAME."""
+    """Returns the addresses for the manifest of a release, which are pages of its tag. An example of a repository is https://github.com/OWNER/NAME."""
     pages = f"{repository.rstrip('/')}/blob/v{version}"
     return {"documentationUrl": f"{pages}/Documentation~/index.md", "changelogUrl": f"{pages}/CHANGELOG.md", "licensesUrl": f"{pages}/LICENSE"}
 
@@ -47,7 +47,7 @@ def write_links(folder: Path, repository: str) -> None:
 
 
 def for_git(root: str | Path) -> str:
-    """Returns the manifest for a package whose root is the folder unity."""
+    """Returns the manifest of a package that consists of the folder unity."""
     manifest = read(root)
     del manifest["files"]
     for sample in manifest["samples"]:
@@ -56,7 +56,7 @@ def for_git(root: str | Path) -> str:
 
 
 def for_jvm(root: str | Path, platform: str) -> dict[str, Any]:
-    """Returns the manifest of the package with a platform's JVM."""
+    """Returns the manifest of the package that contains a platform's JVM."""
     core = read(root)
     return {
         "name": JVM_PACKAGE + platform,
@@ -71,7 +71,7 @@ def for_jvm(root: str | Path, platform: str) -> dict[str, Any]:
 
 
 def write_jvm(root: str | Path, platform: str, folder: Path) -> None:
-    """Writes the manifest of a platform's JVM package into a folder, with its meta."""
+    """Writes the manifest of a platform's JVM package, and its meta, to a folder."""
     (folder / "package.json").write_text(json.dumps(for_jvm(root, platform), indent=2) + "\n")
     (folder / "package.json.meta").write_text(metas.meta_of(folder, "package.json", JVM_PACKAGE + platform))
 

@@ -15,7 +15,7 @@ import org.slf4j.LoggerFactory;
 public final class Programs {
   private Programs() {}
 
-  /** Returns the sum of the values of this node and its neighbours, the number of successful rounds, a random number and the wind. */
+  /** Returns a hash of the values of this node and its neighbours, the number of successful rounds, a random number and the wind. */
   @Program(name = "sum")
   public static ActuatorData sum(Aggregate<Integer> aggregate, SensorData sensors, Device device) {
     long sum = sensors.value();

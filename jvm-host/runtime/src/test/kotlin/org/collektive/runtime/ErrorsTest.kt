@@ -55,7 +55,7 @@ class ErrorsTest {
         }
         repeat(2) { outcomes(fails = false) }
         val failed = outcomes(fails = true)
-        assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the rounds of the other nodes, $route")
+        assertEquals(listOf<Any?>(3 to 1, 3 to 1), listOf(0, 2).map { failed.getValue(it).getOrThrow() }, "the other nodes' rounds, $route")
         val afterwards = outcomes(fails = false).values.map { it.getOrThrow() }
         assertEquals(listOf<Any?>(4 to 1, 3 to 2, 4 to 1), afterwards, "the next rounds, $route")
         return failed.getValue(1).exceptionOrNull() ?: error("nothing failed, $route")
