@@ -1,11 +1,12 @@
 """Builds the JVM side with Maven, and compiles only modules that changed.
 
-`maven.py STAMP [--tests] MODULE...` packages modules and those that they depend on, with their compiled tests on request, then touches STAMP.
+`maven.py STAMP [--tests] MODULE...` packages modules and their dependencies, and then touches STAMP. With --tests, it also compiles their tests.
 
-Maven has no reliable incremental build across modules, because Kotlin's does not detect changes in other modules. So this script
-compares the inputs of each module with those of its last build: its sources, its POM, the files that the POM names, and the ABI of the modules that
-it depends on, which Kotlin's build tools hash. While Maven runs, unneeded steps are marked, and a profile of the parent POM skips
-them. The outputs of the other steps are removed first.
+Maven has no reliable incremental build across modules, because the incremental build of Kotlin does not detect changes in other modules. This script
+therefore compares the inputs of each module with those of its last build. The inputs are the module's sources, its POM, the files that the POM names,
+and the ABI of its dependencies, which Kotlin's build tools hash.
+
+While Maven runs, the steps that are not needed are marked, and profiles of the parent POM skip them. The outputs of all other steps are removed first.
 """
 import hashlib
 import os
@@ -28,17 +29,17 @@ from build.places import BUILD, JVM, ROOT
 
 PARENT = JVM / "pom.xml"
 NAMESPACE = {"m": "http://maven.apache.org/POM/4.0.0"}
-# Marks in a module's target/, which the parent POM's profiles look for.
+# Names of the files in a module's target/ that activate profiles of the parent POM.
 MAIN_MARK, PACKAGE_MARK, TESTS_MARK = "main-unchanged", "package-unchanged", "tests-unchanged"
 STARTED = BUILD / "maven-started"
 WITHOUT_TESTS = "-Dmaven.test.skip=true"
-# Twice as fast for a few modules. With many modules, the second JIT compiler is worth its time.
+# With these options, Maven builds a few modules twice as fast. For many modules, it is faster with the second JIT compiler.
 SHORT_CALL = "-XX:TieredStopAtLevel=1 -XX:+UseSerialGC"
 FEW_MODULES = 3
 
 
 class Module:
-    """One module of the reactor, and the hashes of its inputs, which its last build stored in target/."""
+    """A module of the Maven build. Each build stores the hashes of the module's inputs in target/."""
 
     def __init__(self, name: str, modules: "dict[str, Module]") -> None:
         self.name = name
@@ -49,16 +50,16 @@ class Module:
 
     @cached_property
     def upstream(self) -> "list[Module]":
-        """All modules that this one and its plugins depend on."""
+        """All modules on which this module and its plugins depend."""
         return _closure(self.direct(tests=False))
 
     @cached_property
     def upstream_of_tests(self) -> "list[Module]":
-        """This module and the dependencies of its tests."""
+        """This module and all modules on which its tests depend."""
         return [self, *_closure([*self.upstream, *self.direct(tests=True)])]
 
     def direct(self, tests: bool) -> "list[Module]":
-        """Returns the modules that this one and its plugins depend on directly, or that only its tests depend on."""
+        """Returns the modules on which this module and its plugins depend directly, or with `tests`, those on which only its tests depend."""
         found = []
         for dependency in ElementTree.fromstring(self._pom).findall(".//m:dependency", NAMESPACE):
             name = dependency.findtext("m:artifactId", "", NAMESPACE)
@@ -68,7 +69,7 @@ class Module:
 
     @cached_property
     def build_key(self) -> str:
-        """A hash of all inputs of the module's outputs."""
+        """Returns a hash of all inputs of the module's outputs."""
         return _hash([self.folder / "src/main", *self._named], [module.build_key for module in self.upstream])
 
     def main_key(self) -> str:
@@ -76,7 +77,7 @@ class Module:
         return _hash([self.folder / "src/main", *self._named], self._seen(self.upstream))
 
     def tests_key(self) -> str:
-        """Returns a hash of all inputs of its test classes."""
+        """Returns a hash of all inputs of the module's test classes."""
         sources = [path for path in sorted((self.folder / "src").glob("*")) if path.name != "main"]
         fixtures = [(self.folder / path).resolve() for path in re.findall(r">(\.\./[\w-]+/src/[^<]+)<", self._pom)]
         return _hash([*sources, *fixtures, *self._named], self._seen(self.upstream_of_tests))
@@ -91,7 +92,7 @@ class Module:
         (self.target / name).write_text(text)
 
     def remove_main(self) -> None:
-        """Removes all outputs but the classes of tests."""
+        """Removes all outputs except the test classes."""
         for path in self.target.glob("*"):
             if path.is_dir() and path.name != "test-classes":
                 shutil.rmtree(path)
@@ -103,7 +104,7 @@ class Module:
 
     @cached_property
     def _tools(self) -> "list[Module]":
-        # Modules that run while this one is built: its plugins' dependencies, and those whose jars it names by a property of the parent.
+        # Modules that run during the build of this module: the dependencies of its plugins, and modules whose jars it names by a property of the parent.
         plugins = ElementTree.fromstring(self._pom).iterfind(".//m:plugin//m:artifactId", NAMESPACE)
         jars = re.findall(r"<([\w.]+)>\$\{root\}/jvm-host/([\w-]+)/target/", PARENT.read_text())
         names = {element.text or "" for element in plugins} | {module for name, module in jars if f"${{{name}}}" in self._pom}
@@ -119,14 +120,14 @@ def package(names: list[str], tests: bool) -> int:
     modules = read_modules()
     chosen = closure(names, modules)
     if STARTED.exists():
-        # An interrupted build may have left half of an output.
+        # An interrupted build may have left an incomplete output.
         for module in chosen:
             shutil.rmtree(module.target, ignore_errors=True)
     STARTED.parent.mkdir(parents=True, exist_ok=True)
     STARTED.touch()
     changed, code = _changed(chosen), 0
     if any(changed.intersection(module.upstream) for module in chosen if module not in changed):
-        # Others are compiled only if they see the change.
+        # Other modules are compiled only if the change is visible to them.
         code = run(closure([module.name for module in changed], modules), changed, ["package", WITHOUT_TESTS], tests=False)
         changed = _changed(chosen)
         changed.update(module for module in chosen if changed.intersection(module.upstream))
@@ -137,16 +138,16 @@ def package(names: list[str], tests: bool) -> int:
 
 
 def run(modules: Sequence[Module], changed: set[Module], words: Sequence[str], tests: bool) -> int:
-    """Runs Maven on modules, of which it compiles those that changed, and returns its exit code.
+    """Runs Maven on modules, compiles those that changed, and returns Maven's exit code.
 
-    The marks are removed afterwards, so that a call of Maven by hand compiles everything.
+    Removes the marks afterwards, so that Maven compiles everything if a user runs it directly.
     """
     packaged = [module for module in modules if module in changed or module.stored("build.key") != module.build_key]
     tested = [module for module in modules if tests and (
         changed.intersection(module.upstream_of_tests) or module.stored("tests.key") != module.tests_key())]
     if not packaged and not tested and "package" in words:
         return 0
-    # A build that was killed may have left some.
+    # A build that was killed may have left marks.
     _unmark(modules)
     for module in modules:
         module.target.mkdir(exist_ok=True)
@@ -210,7 +211,7 @@ def _closure(modules: Iterable[Module]) -> list[Module]:
 
 
 def read_modules() -> dict[str, Module]:
-    """Returns the modules that the parent POM lists."""
+    """Returns the modules that the parent POM lists, by name."""
     modules: dict[str, Module] = {}
     for element in ElementTree.parse(PARENT).getroot().findall("m:modules/m:module", NAMESPACE):
         name = element.text or ""
@@ -219,7 +220,7 @@ def read_modules() -> dict[str, Module]:
 
 
 def closure(names: list[str], modules: dict[str, Module]) -> list[Module]:
-    """Returns the named modules, with their dependencies and those of their tests. Without names, returns all modules."""
+    """Returns the named modules, their dependencies, and the dependencies of their tests. Without names, returns all modules."""
     found: dict[str, Module] = {}
 
     def add(module: Module) -> None:

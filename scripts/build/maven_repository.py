@@ -1,4 +1,4 @@
-"""Repairs Maven's local repository, whose files Maven does not verify again."""
+"""Repairs Maven's local repository. Maven verifies a file only when it downloads it, so a file that is damaged later stays damaged."""
 import hashlib
 import os
 import re
@@ -8,7 +8,7 @@ from build.console import print_progress
 
 
 def repair() -> bool:
-    """Removes jars that differ from the checksum of their download, so that Maven fetches them again. Returns whether it removed any."""
+    """Removes jars that do not match the checksum of their download, so that Maven fetches them again. Returns whether it removed any."""
     damaged = [jar for jar in _location().rglob("*.jar") if _differs(jar, jar.with_name(f"{jar.name}.sha1"))]
     for jar in damaged:
         print_progress(f"removing {jar}, which is damaged; Maven will fetch it again")

@@ -1,7 +1,7 @@
-"""Unity .meta files: `python3 scripts/build/metas.py ROOT` creates the missing ones.
+"""Creates missing .meta files of Unity assets: `python3 scripts/build/metas.py ROOT`.
 
-Unity identifies an asset by the GUID in its meta, so a meta is never changed once it exists. A new one gets a GUID from
-the asset's path. Names that end in `~` or begin with `.` are not assets.
+Unity identifies an asset by the GUID in its meta, so an existing meta must never change. The GUID of a new meta is computed from the asset's path.
+Files and folders whose names end in `~` or begin with `.` are not assets.
 """
 import hashlib
 import os
@@ -10,18 +10,18 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-# Plugins in the package: a native library for each platform, in the platform's folder, and managed assemblies for all platforms.
+# Plugins in the package: a native library in the folder of each platform, and managed assemblies for all platforms.
 PLUGIN = ("PluginImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n"
           "  isPreloaded: 0\n  isOverridable: 0\n  isExplicitlyReferenced: 0\n  validateReferences: 1\n  platformData:\n%s"
           "  userData: \n  assetBundleName: \n  assetBundleVariant: \n")
 PLATFORM = "  - first:\n      %s\n    second:\n      enabled: %d\n      settings:%s\n"
-# By platform: processor and system of the editor, or None without an editor; platform and processor of the player.
+# For each platform: the editor's processor and system, or None if no editor exists, and the player's platform and processor.
 NATIVE = {"win-x64": (("x86_64", "Windows"), "Win64", "x86_64"), "linux-x64": (("x86_64", "Linux"), "Linux64", "x86_64"),
           "linux-arm64": (None, "Linux64", "ARM64"), "mac-x64": (("x86_64", "OSX"), "OSXUniversal", "x86_64"),
           "mac-arm64": (("ARM64", "OSX"), "OSXUniversal", "ARM64")}
 TEXT = "TextScriptImporter:\n  externalObjects: {}\n  userData: \n  assetBundleName: \n  assetBundleVariant: \n"
 PACKED_ROOT_FILES = ["README.md", "CHANGELOG.md", "LICENSE", "THIRD-PARTY.md", "package.json", "unity"]
-# Samples are copied into a project with their metas when the user imports them.
+# Samples need metas, too, because Unity copies them into a project with their metas when the user imports them.
 IMPORTED = ["unity", "unity/Samples~"]
 IMPORTERS = {
     ".cs": "MonoImporter:\n  externalObjects: {}\n  serializedVersion: 2\n  defaultReferences: []\n  executionOrder: 0\n"
@@ -48,7 +48,7 @@ def is_asset(name: str) -> bool:
 
 
 def assets(root: str | Path) -> Iterator[str]:
-    """Yields the paths, relative to root, of all assets in the package."""
+    """Yields the paths of all assets in the package, relative to its root."""
     yield from PACKED_ROOT_FILES
     for top in IMPORTED:
         for folder, folders, files in os.walk(os.path.join(root, top)):
@@ -74,7 +74,7 @@ def guid_in(meta: str) -> str | None:
 
 
 def native(platform: str) -> str:
-    """Returns the importer of a platform's native library."""
+    """Returns the importer settings of a platform's native library."""
     editor, player, processor = NATIVE[platform]
     in_editor = "\n        DefaultValueInitialized: true"
     if editor:

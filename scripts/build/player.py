@@ -12,14 +12,14 @@ from build.console import Failure
 from build.inputs import Part
 from build.places import HOST_JAR, PLAYER
 
-# Reads each part of a project, by its key in a scenario.
+# The function that reads each part of a project, by the part's key in a scenario.
 READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "data": inputs.data, "runtimeJars": inputs.jars,
            "runtimePlugin": inputs.jar}
 
 
 @dataclass(frozen=True)
 class Plan:
-    """The values that the player read from a scenario, and the current files of the project."""
+    """The values that the player has read from a scenario, and the current files of the project."""
 
     values: dict[str, Any]
     parts: dict[str, Part]
@@ -28,9 +28,9 @@ class Plan:
         return self.values[key]
 
     def programs_jar(self) -> Path:
-        """Returns the jar of the scenario's programs, compiled if they changed.
+        """Compiles the scenario's programs if they have changed, and returns their jar.
 
-        Raises `Failure` before the compilation if the sources lack the scenario's program.
+        Raises `Failure` before the compilation if the sources do not contain the scenario's program.
         """
         known = projects.program_names(self.parts["programs"])
         if known and self["program"] not in known:
@@ -38,18 +38,18 @@ class Plan:
         return projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
 
     def scripts_dll(self) -> Path:
-        """Returns the assembly of the scenario's C#, compiled if it changed."""
+        """Compiles the scenario's C# if it has changed, and returns the assembly."""
         return projects.scripts_dll(self.parts["schema"], self.parts["scripts"])
 
     def hashes(self) -> dict[str, str]:
-        """Returns the hashes of the parts, for manifests."""
+        """Returns the hashes of the parts, which manifests contain."""
         return {key: part.digest for key, part in self.parts.items()}
 
 
 def plan(scenario: str, options: Sequence[str]) -> Plan:
-    """Reads a scenario with the player, which prints errors itself.
+    """Reads a scenario with the player.
 
-    Raises `Failure` without a message if the scenario is invalid.
+    Raises `InvalidScenario` without a message if the scenario is invalid, because the player has printed the error.
     """
     command = managed.command("mono-sgen", PLAYER, "plan", scenario, *options)
     result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE)
@@ -62,20 +62,20 @@ def plan(scenario: str, options: Sequence[str]) -> Plan:
 
 
 class InvalidScenario(Failure):
-    """The player has printed the error."""
+    """A scenario is invalid, and the player has printed the error."""
 
     def __init__(self, code: int) -> None:
         super().__init__("", code)
 
 
 def run(scenario: str, plan: Plan, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> int:
-    """Runs a scenario and returns the player's exit code. Kills processes that its scripts started."""
+    """Runs a scenario and returns the player's exit code. Kills processes that its scripts have left running."""
     code = processes.call(command("run", scenario, plan, jar, dll, java_home, words), env=managed.environment("mono-sgen"))
     processes.end_orphans()
     return code
 
 
 def command(name: str, scenario: str, plan: Plan, jar: Path, dll: Path, java_home: Path, words: Sequence[str | Path]) -> list[str | Path]:
-    """Returns the command line of the player for a command that runs a scenario."""
+    """Returns the player's command line for one of its commands that run a scenario."""
     return managed.command("mono-sgen", PLAYER, name, scenario, "--scripts", dll, "--jar", jar, "--host-jar", HOST_JAR,
                            "--java-home", java_home, "--inputs", json.dumps(plan.hashes()), *words)

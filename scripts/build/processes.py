@@ -11,14 +11,14 @@ from pathlib import Path
 from types import FrameType
 
 _waiting = False
-# From linux/prctl.h: orphaned descendants become children of this process.
+# A constant from linux/prctl.h. With this option, orphaned descendants become children of this process.
 _SET_CHILD_SUBREAPER = 36
 
 
 def run_in_group(main: Callable[[], int]) -> int:
-    """Runs `main` in a new process group and forwards SIGINT, SIGTERM and SIGHUP to the group, so that no process is left behind.
+    """Runs `main` in a new process group, and forwards SIGINT, SIGTERM and SIGHUP to the group so that all its processes end.
 
-    Returns the exit code, or 128 plus the signal's number. If this process is killed, the group is ended.
+    Returns the exit code, or 128 plus the number of the signal. If this process is killed, the group ends, too.
     """
     sys.stdout.flush()
     sys.stderr.flush()
@@ -32,7 +32,7 @@ def run_in_group(main: Callable[[], int]) -> int:
         os.close(watched)
         signal.signal(signal.SIGINT, _interrupted)
         sys.exit(main())
-    with contextlib.suppress(OSError):  # the child may have done it already, or have ended
+    with contextlib.suppress(OSError):  # the child may already have set its group, or may have ended
         os.setpgid(group, group)
     try:
         watcher = os.fork()
@@ -53,7 +53,7 @@ def run_in_group(main: Callable[[], int]) -> int:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, forward)
     code = os.waitstatus_to_exitcode(os.waitpid(group, 0)[1])
-    # The first process may end before its children. In a container, the init process may not reap them.
+    # The first process may end before its children. This process then waits for them, because the init process of a container may not reap them.
     while _has_members(group):
         _reap()
         time.sleep(0.02)
@@ -67,14 +67,14 @@ def run_in_group(main: Callable[[], int]) -> int:
 def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cwd: Path | None = None, stdout: int | None = None) -> int:
     """Runs a command and returns its exit code, or 128 plus the number of the signal that ended it.
 
-    A signal to the group interrupts the command, but not this function.
+    A signal to the process group interrupts the command, but not this function.
     """
     global _waiting
     _waiting = True
-    # Flushes earlier output before the command's.
+    # Flushes earlier output, which must precede the output of the command.
     sys.stdout.flush()
     try:
-        # The checkout's lock is inherited.
+        # The command must inherit the descriptor of the checkout's lock.
         code = subprocess.Popen(command, env=env, cwd=cwd, stdout=stdout, close_fds=False).wait()
         return code if code >= 0 else 128 - code
     finally:
@@ -82,7 +82,7 @@ def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cw
 
 
 def end_orphans() -> None:
-    """Kills the orphans of an ended program, which are children of this process because of `run_in_group`."""
+    """Kills the orphans of a program that has ended. They are children of this process because of `run_in_group`."""
     while children := Path(f"/proc/self/task/{os.getpid()}/children").read_text().split():
         for child in children:
             os.kill(int(child), signal.SIGKILL)
@@ -99,11 +99,11 @@ def _interrupted(_: int, __: FrameType | None) -> None:
 
 
 def _watch(watched: int, lifeline: int, group: int) -> None:
-    """Ends the group when the parent process has gone, even after SIGKILL."""
+    """Ends the group when the watched process has ended, even after SIGKILL."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     os.close(lifeline)
-    # Closes the inherited output, whose end the caller may wait for.
+    # Closes the inherited output, because the caller may wait until all of its writers have closed it.
     empty = os.open(os.devnull, os.O_RDWR)
     for descriptor in range(3):
         os.dup2(empty, descriptor)

@@ -9,7 +9,10 @@ from commands.check import SCENARIO, find_files
 
 
 def run(project: Path, results: Path) -> int:
-    """Runs the tests beside the programs of each scenario of a project, once for equal parts, and writes JUnit XML files. Returns JUnit's exit code."""
+    """Runs the tests beside the programs of each scenario of a project, and writes JUnit XML files. Returns JUnit's exit code.
+
+    Scenarios whose project files are all equal share one run of the tests.
+    """
     done = set()
     code = 0
     for file, kind in find_files(project):
@@ -20,7 +23,7 @@ def run(project: Path, results: Path) -> int:
         if parts not in done:
             done.add(parts)
             code = code or _run(file, plan, results / file.stem)
-    # One folder of results.
+    # Moves the reports of all scenarios to one folder.
     for report in results.glob("*/*.xml"):
         report.rename(results / f"{report.parent.name}-{report.name}")
     return code

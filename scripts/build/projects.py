@@ -1,4 +1,4 @@
-"""Compiles the schema, Kotlin and C# of users' projects into folders of build/ that are named by a hash of their inputs."""
+"""Compiles the schema, Kotlin and C# of users' projects. Each output has its own folder in build/, whose name contains a hash of all inputs."""
 import hashlib
 import os
 import re
@@ -17,26 +17,26 @@ from build.inputs import Part
 from build.jdk import feature_version, find_jdk
 from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_JAR, LINKS, LOGS, PLAYER, compiler_plugin
 
-# A file for each jar that was run here, named by its SHA-256.
+# A folder with a file for each jar that was run here. The name of the file is the jar's SHA-256.
 OWN_PROGRAMS = BUILD / "own-programs"
 COMPILE_COMMAND = "org.collektive.generator.CompileCommand"
 PLUGIN_SERVICE = "META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar"
 
 
 class CompileError(Failure):
-    """A project's sources do not compile. The compiler's messages were printed."""
+    """The sources of a project do not compile, and the compiler has printed its messages."""
 
 
 def generator(schema: Path, *outputs: str | Path) -> list[str | Path]:
-    """Returns the command line that generates the code of a schema. `outputs` are --csharp DIR and --jvm DIR."""
+    """Returns the command line that generates the code of a schema. `outputs` contains the options --csharp DIR and --jvm DIR."""
     return [find_jdk() / "bin/java", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", "-jar", GENERATOR_JAR, "--flatc", FLATC, "--include",
             inputs.CORE, "--schema", schema, *outputs]
 
 
 def _key(parts: Sequence[Part], tools: Sequence[Path]) -> str:
-    """Returns a hash over parts of a project, and over the tools that compile them.
+    """Returns a hash of parts of a project and of the tools that compile them.
 
-    Paths are relative to the project, so copies of a project share outputs.
+    The hash does not contain absolute paths, so copies of a project share outputs.
     """
     digest = hashlib.sha256("\0".join(part.digest for part in parts).encode())
     for tool in [Path(__file__), FLATC, GENERATOR_JAR, *sorted(inputs.CORE.glob("*.fbs")), *tools]:
@@ -45,7 +45,7 @@ def _key(parts: Sequence[Part], tools: Sequence[Path]) -> str:
 
 
 def record_own_program(jar: Path) -> None:
-    """Records the hash of a jar that the user runs. `./collektive replay` runs these jars without --trust."""
+    """Stores the hash of a jar that the user runs. `./collektive replay` can then run it without --trust."""
     note = OWN_PROGRAMS / hashlib.sha256(jar.read_bytes()).hexdigest()
     if not note.exists():
         OWN_PROGRAMS.mkdir(parents=True, exist_ok=True)
@@ -53,7 +53,7 @@ def record_own_program(jar: Path) -> None:
 
 
 def program_names(programs: Part) -> set[str] | None:
-    """Returns the names of the programs in a folder of Kotlin, or None if only the compiler knows them: those of jars and of constants."""
+    """Returns the names of the programs in a folder of Kotlin, or None for a jar, and if a constant contains a name, which only the compiler can read."""
     if programs.path.is_file():
         return None
     found = [match[1] for name, file in programs.files.items() if name.endswith(".kt")
@@ -62,9 +62,9 @@ def program_names(programs: Part) -> set[str] | None:
 
 
 def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin: Part | None = None) -> Path:
-    """Returns the jar of a folder of Kotlin, compiled if it changed, or the given jar.
+    """Compiles a folder of Kotlin if it has changed, and returns its jar. A jar is returned unchanged.
 
-    Programs are compiled for the built-in runtime, or for the one whose jars are `jars`, with its compiler plugin.
+    The programs are compiled for the built-in runtime, or with `jars` and `plugin` for the runtime that consists of these jars.
     """
     if programs.path.is_file():
         return programs.path
@@ -77,7 +77,7 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
         try:
             run([*_java(), COMPILE_COMMAND, *compilation(schema, programs, work, jars, plugin)])
         except subprocess.CalledProcessError as error:
-            # The compiler's exit code for an internal error, usually caused by a plugin.
+            # The compiler has this exit code after an internal error, which a plugin usually causes.
             if error.returncode == 2:
                 version = fetch.pom_value("kotlin.version")
                 raise Failure(f"the Kotlin compiler {version} crashed (see above); the compiler plugin may be built for another version") from error
@@ -87,7 +87,7 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
 
 
 def compilation(schema: Part, programs: Part, work: Path, jars: Part | None = None, plugin: Part | None = None) -> list[str | Path]:
-    """Returns the options with which the compiler writes programs.jar to a folder."""
+    """Returns the options with which the compiler writes programs.jar to the folder `work`."""
     options: list[str | Path] = [f"-Xplugin={plugin.path if plugin else compiler_plugin()}"]
     library, mark = [LIBRARY_JAR], "builtIn"
     if jars and plugin:
@@ -96,7 +96,7 @@ def compilation(schema: Part, programs: Part, work: Path, jars: Part | None = No
         options += ["-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", LINKS]
     values: list[tuple[str, str | Path]] = [
         ("--flatc", FLATC), ("--include", inputs.CORE), ("--schema", schema.copy(work / "schema")), ("--jar", work / "programs.jar"), ("--work", work),
-        # The host reads this to reject programs of another runtime.
+        # The host reads this mark, and rejects programs that were compiled for another runtime.
         ("--mark", f"Collektive-Runtime:{mark}"),
         *(("--library", jar) for jar in [HOST_JAR, *library]),
         *(("--kotlin", option) for option in options), *(("--source", file) for file in programs.files.values())]
@@ -104,13 +104,16 @@ def compilation(schema: Part, programs: Part, work: Path, jars: Part | None = No
 
 
 def compile_server(folder: Path) -> list[str | Path]:
-    """Returns the command of a process that compiles the requests in a folder until this process ends."""
+    """Returns the command of a process that handles compilation requests in a folder until this process ends."""
     fetch.fetch("kotlinc")
     return [*_java(), COMPILE_COMMAND, "--serve", folder, str(os.getpid())]
 
 
 def test_classes(schema: Part, tests: Part, class_path: Sequence[Path], plugin: Path) -> Path:
-    """Returns the folder with the classes of a folder of Kotlin tests, compiled if they changed. The last jar of the class path has the programs."""
+    """Compiles a folder of Kotlin tests if they have changed, and returns the folder of their classes.
+
+    The last jar of the class path contains the tested programs.
+    """
     fetch.fetch("kotlinc")
     key = _key([schema, tests], [*class_path, plugin, BUILD / "stamp/kotlinc", find_jdk() / "release"])
 
@@ -123,8 +126,8 @@ def test_classes(schema: Part, tests: Part, class_path: Sequence[Path], plugin: 
 
 
 def scripts_dll(schema: Part, scripts: Part) -> Path:
-    """Returns the assembly of a folder of C# and the schema's generated code, compiled if they changed."""
-    # Traces of exceptions contain the folder.
+    """Compiles a folder of C# and the schema's generated code if they have changed, and returns the assembly."""
+    # The key contains the folder, because stack traces show it. Copies in different folders therefore cannot share an assembly.
     place = hashlib.sha256(os.fsencode(scripts.path.resolve())).hexdigest()[:8]
     key = _key([schema, scripts], [Path(csharp.__file__), BUILD / "stamp/npm", csharp.SYMBOLS, *sorted(CSHARP.glob("*.dll")), PLAYER])
 
@@ -132,7 +135,7 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
         generated = work / "generated"
         run(generator(schema.copy(work / "schema"), "--csharp", generated))
         folder = scripts.path
-        # The compiler removes quotes from paths.
+        # The compiler removes quotes from paths, so it could not find these files.
         if '"' in str(folder):
             folder = work / "scripts"
             folder.symlink_to(scripts.path.resolve())
@@ -143,10 +146,10 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
 
 
 def _java() -> list[str | Path]:
-    """Returns the command line of a JVM with the Kotlin compiler, up to the main class."""
+    """Returns the start of a command line that runs the Kotlin compiler in a JVM, without the main class."""
     jdk = find_jdk()
     version = feature_version(jdk)
-    # The compiler uses features that newer JVMs warn about.
+    # The compiler uses features about which newer JVMs print warnings.
     quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if version >= 24 else []
     archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:disable"] if version >= 19 else []
     return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp",
@@ -154,9 +157,10 @@ def _java() -> list[str | Path]:
 
 
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:
-    """Returns a file that `make` builds from parts of a project, the first of which is a schema, in an empty folder.
+    """Calls `make` to build a file from parts of a project in an empty folder, unless it exists, and returns the file. The first part is a schema.
 
-    The folder is named by a hash of all inputs, so an existing folder is valid. If two commands build it at once, the first one is kept.
+    The name of the folder contains a hash of all inputs, so an existing folder is valid. If two commands build the same folder at the same time, the
+    result of the first one is kept.
     """
     if not folder.is_dir():
         work = folder.with_name(f"{folder.name}.{os.getpid()}")
@@ -170,7 +174,7 @@ def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Cal
             for part in parts:
                 part.require_unchanged()
         except (subprocess.CalledProcessError, Failure) as error:
-            # The generator, which does not support links, read a copy of the schema.
+            # The generator does not support links and has read a copy of the schema. Messages must name the original.
             messages = log.read_text(encoding="utf-8", errors="replace").replace(f"{work}/schema", str(parts[0].root))
             print(messages, end="", file=sys.stderr)
             kept = LOGS / log.name
@@ -195,7 +199,7 @@ def _run(command: Sequence[str | Path], output: int) -> None:
 
 
 def _runtime_hash(jars: Part) -> str:
-    """Returns the SHA-256 of jars one after the other, by name."""
+    """Returns the SHA-256 of the concatenated jars in the order of their names."""
     digest = hashlib.sha256()
     for jar in jars.files.values():
         digest.update(jar.read_bytes())
@@ -203,7 +207,7 @@ def _runtime_hash(jars: Part) -> str:
 
 
 def _require_plugin(jar: Path) -> None:
-    """Raises `Failure` if a jar is not a plugin of the Kotlin compiler, which would ignore it."""
+    """Raises `Failure` if a jar is not a plugin of the Kotlin compiler. The compiler itself would ignore such a jar silently."""
     with zipfile.ZipFile(jar) as archive:
         if PLUGIN_SERVICE not in archive.namelist():
             raise Failure(f"{jar} is not a plugin of the Kotlin compiler: set 'runtimePlugin' to Collektive's compiler plugin")

@@ -1,8 +1,8 @@
 """Writes the files that accompany the packages of a release.
 
 `release.py notes X.Y.Z` prints the changelog's section of a version.
-`release.py openupm REPOSITORY_URL` prints the metadata for the registry OpenUPM, which builds packages from tags of a repository.
-`release.py materials FOLDER` writes the bill of materials of the package (CycloneDX): FOLDER/bom.json.
+`release.py openupm REPOSITORY_URL` prints the metadata for the registry OpenUPM, which builds packages from the tags of a repository.
+`release.py materials FOLDER` writes the package's bill of materials in the format CycloneDX to FOLDER/bom.json.
 """
 import json
 import re
@@ -18,7 +18,7 @@ from build.console import Failure, run_logged
 from build.jdk import find_jdk
 from build.places import BUILD, JVM, ROOT
 
-# Modules whose jars are in the package.
+# The modules whose jars are in the package.
 SHIPPED = "host,generator,compiler-plugin,testing,programs"
 CYCLONEDX = "org.cyclonedx:cyclonedx-maven-plugin:2.9.1"
 APACHE = [{"license": {"id": "Apache-2.0"}}]
@@ -26,7 +26,7 @@ Json = dict[str, Any]
 
 
 def notes(changelog: str, version: str) -> str:
-    """Returns the text below a version's heading of a changelog.
+    """Returns the text below the heading of a version in a changelog.
 
     Raises `Failure` if the section is missing or empty.
     """
@@ -47,7 +47,7 @@ def openupm(url: str) -> Json:
         "licenseSpdxId": package["license"],
         "topics": ["ai", "physics"],
         "hunter": url.rstrip("/").split("/")[-2],
-        # Tags of commits that contain the built package.
+        # Tags with this prefix are on commits that contain the built package.
         "gitTagPrefix": "upm/",
         "minVersion": package["version"],
         "readme": "upm:README.md",
@@ -65,7 +65,7 @@ def fetched_components(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
 
 
 def complete_bill(bill: Json, package: Json, more: list[Json]) -> Json:
-    """Returns the bill of materials of the package, without our own modules."""
+    """Returns the bill of materials with the package as its subject, with `more` components and without our own modules."""
     bill["metadata"]["component"] = {"type": "library", "bom-ref": package["name"], "name": package["name"], "version": package["version"],
                                      "licenses": APACHE, "description": package["description"]}
     bill["components"] = [component for component in bill["components"] if component.get("group") != "org.collektive"] + more
@@ -75,7 +75,7 @@ def complete_bill(bill: Json, package: Json, more: list[Json]) -> Json:
 
 
 def write_bill_of_materials(folder: Path) -> None:
-    """Writes the bill of materials: Maven's for the JVM side, and the other components."""
+    """Writes the bill of materials, which consists of Maven's components of the JVM side and the other components."""
     fetch.fetch("flatbuffers")
     with tempfile.TemporaryDirectory() as work:
         run_logged("bill-of-materials", ["mvn", "-B", "-ntp", "-q", "-f", JVM / "pom.xml", "-pl", SHIPPED, "-am", f"{CYCLONEDX}:makeAggregateBom",
@@ -101,7 +101,7 @@ def main(words: list[str]) -> None:
         case ["notes", version]:
             print(notes((ROOT / "CHANGELOG.md").read_text(), version), end="")
         case ["openupm", url]:
-            # YAML contains JSON's scalars.
+            # Scalars of JSON are also valid in YAML.
             print("\n".join(f"{key}: {json.dumps(value)}" for key, value in openupm(url).items()))
         case ["materials", folder]:
             write_bill_of_materials(Path(folder))

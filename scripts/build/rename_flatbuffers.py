@@ -1,7 +1,7 @@
-"""rename_flatbuffers.py FOLDER [SOURCE]: renames the namespace of FlatBuffers in the C# of FOLDER. With SOURCE, first replaces FOLDER
-by a copy of it.
+"""Renames the namespace of FlatBuffers in the C# of FOLDER: `rename_flatbuffers.py FOLDER [SOURCE]`. With SOURCE, first replaces FOLDER with a copy of
+SOURCE.
 
-With its own namespace, the package works in projects that contain another copy of FlatBuffers.
+Because of its own namespace, the package also works in projects that contain another copy of FlatBuffers.
 """
 import shutil
 import sys

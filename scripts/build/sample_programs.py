@@ -1,6 +1,6 @@
-"""Splits the jar of all samples' programs into a library for each sample: `sample_programs.py OUT`.
+"""Splits the jar with the programs of all samples into a library for each sample: `sample_programs.py OUT`.
 
-OUT/NAME.clkprograms has the name of the sample's schema and contains the classes of its namespace. Equal inputs give equal files.
+Each library OUT/NAME.clkprograms has the name of the sample's schema and contains the classes of the schema's namespace. Equal inputs give equal files.
 """
 import hashlib
 import re
@@ -36,13 +36,13 @@ def sources(schema: Path) -> list[Path]:
 
 
 def library(schema: Path, jar: zipfile.ZipFile) -> dict[str, bytes]:
-    """Returns the entries of a sample's library."""
+    """Returns the entries of a sample's library by name."""
     package = namespace(schema)
     (service,) = [line for line in jar.read(SERVICE).decode().split() if line.startswith(package + ".")]
     names = [name for name in jar.namelist() if not name.endswith("/") and name.startswith(
         (package.replace(".", "/") + "/", f"META-INF/collektive/programs/{package}.", f"META-INF/collektive/{package}."))]
     marks = {"Manifest-Version": "1.0", "Collektive-Runtime": "builtIn", "Collektive-Version": version.product(), "Collektive-Sources": _hash(schema)}
-    # A line has at most 72 bytes.
+    # Lines of a jar's manifest may have at most 72 bytes.
     lines = [re.sub(r"(?<=.{72})(?=.)", "\r\n ", f"{name}: {value}", count=1) for name, value in marks.items()]
     return {"META-INF/MANIFEST.MF": "\r\n".join([*lines, "", ""]).encode(), SERVICE: (service + "\n").encode(),
             **{name: jar.read(name) for name in sorted(names)}}

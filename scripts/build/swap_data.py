@@ -1,6 +1,7 @@
-"""swap_data.py OUT SCHEMA...: copies schemas with SensorData and ActuatorData swapped, into the namespace `swapped` for `test`.
+"""Copies schemas to OUT with SensorData and ActuatorData swapped, and with the namespace `swapped` instead of `test`: `swap_data.py OUT SCHEMA...`.
 
-The tests then read what sensors write, and write what actuators read. Paths below the first schema's folder are kept.
+With the copies, tests can read the data that sensors write, and write the data that actuators read. The copies keep their paths relative to the folder
+of the first schema.
 """
 import re
 import sys

@@ -15,7 +15,7 @@ OLDEST_PYTHON = (3, 11)
 
 
 class Tool(NamedTuple):
-    """A required command, with alternative names, its oldest version, and the Debian packages that provide it."""
+    """A required tool: its command with alternative names, its oldest supported version, and the Debian packages that provide it."""
 
     commands: tuple[str, ...]
     oldest: str
@@ -39,9 +39,9 @@ TOOLS = (
     Tool(("mono-boehm",), "6.8", ("mono-runtime-boehm",)),
 )
 MONO_POSIX = Path("/usr/lib/mono/4.5/Mono.Posix.dll")
-# Libraries without a command, and their Debian packages.
+# Required libraries, and the Debian packages that provide them.
 FILES = {MONO_POSIX: "libmono-posix4.0-cil"}
-# Only the C# tests need it. Debian 13 has no package for it.
+# Only the C# tests need NUnit. Debian 13 has no package for it.
 NUNIT = Path("/usr/lib/cli/nunit.framework-2.6.3/nunit.framework.dll")
 
 
@@ -53,9 +53,9 @@ class Missing(NamedTuple):
 
 
 def setup_system() -> None:
-    """Installs missing system packages if this is root on Debian or Ubuntu.
+    """Installs missing system packages if the user is root on Debian or Ubuntu, and otherwise raises `Failure` with a list of the missing packages.
 
-    Otherwise raises `Failure` with a list of the missing packages. Checks versions, which takes two seconds, only if a tool changed.
+    Checking all versions takes two seconds, so this function does it only if a tool has changed.
     """
     stamp = BUILD / "stamp/system"
     if stamp.exists() and stamp.read_text() == _state():
@@ -63,7 +63,7 @@ def setup_system() -> None:
     missing = find_missing()
     if missing and can_install():
         run_logged("package-lists", ["apt-get", "update"])
-        # Finds packages again, because apt knows versions only after the update.
+        # The packages are determined again, because apt knows their versions only after the update.
         install([package for package, _ in find_missing()], "system-packages")
         missing = find_missing()
         if missing:
@@ -82,14 +82,14 @@ def find_missing() -> list[Missing]:
     for tool in TOOLS:
         if find_tool(tool.commands[0]) is None:
             missing.append(Missing(_package_for(tool), f"{_describe(tool.commands[0])}; {tool.oldest} or newer is needed"))
-    # Debian's python3 cannot create virtual environments without this package.
+    # Without this package, Debian's python3 cannot create virtual environments.
     if subprocess.run(["python3", "-I", "-c", "import ensurepip"], capture_output=True).returncode != 0:
         missing.append(Missing("python3-venv", "python3 has no module ensurepip"))
     return missing + [Missing(package, f"{file} is missing") for file, package in FILES.items() if not file.exists()]
 
 
 def find_tool(name: str) -> str | None:
-    """Returns the path of a tool's first command that is new enough, or None."""
+    """Returns the path of the tool's first command that is new enough, or None if all are missing or too old."""
     tool = next(tool for tool in TOOLS if tool.commands[0] == name)
     for command in tool.commands:
         path = shutil.which(command)
@@ -105,7 +105,7 @@ def version_of(command: str) -> str:
 
 
 def _version_output(command: str) -> subprocess.CompletedProcess[str]:
-    # A JVM that rejects these options would appear outdated.
+    # If a JVM rejected these options, it would not print its version and would appear outdated.
     environment = {name: value for name, value in os.environ.items() if name not in jdk.OPTIONS}
     return subprocess.run([command, "--version"], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
 
@@ -118,7 +118,7 @@ def _describe(name: str) -> str:
     version = version_of(command)
     if version:
         return f"{command} has version {version}"
-    # For example, rustup without a default toolchain.
+    # One example is rustup without a default toolchain.
     errors = _version_output(command).stderr.strip()
     return f"{command} --version fails" + (f": {errors.splitlines()[0]}" if errors else "")
 
@@ -156,7 +156,7 @@ def candidate_version(package: str) -> str:
 
 
 def _package_for(tool: Tool) -> str:
-    """Returns the first package of a tool that apt has in a sufficient version, or else the first one."""
+    """Returns the first package of a tool that apt offers in a sufficient version, or the first package if apt offers none."""
     for package in tool.packages:
         version = re.sub(r"^\d+:", "", candidate_version(package))
         if version and _at_least(tool.oldest, version):
@@ -178,7 +178,7 @@ def _reasons(missing: list[Missing]) -> str:
 
 
 def _state() -> str:
-    """Returns a string that changes when a tool changes, without starting tools."""
+    """Returns a string that changes whenever a tool changes. Does not start the tools."""
     lines = [repr((TOOLS, FILES)), sys.version]
     for path in [shutil.which(command) for tool in TOOLS for command in tool.commands] + [str(file) for file in FILES]:
         try:

@@ -1,6 +1,6 @@
-"""The product's version: `version.py` prints it; `version.py X.Y.Z` writes it to all files that name it.
+"""Prints the product's version, or sets it: `version.py [X.Y.Z]`.
 
-package.json is the source. The tests compare the other files with it.
+The version is defined in package.json. `version.py X.Y.Z` writes it to all files that contain it, and the tests compare these files with package.json.
 """
 import json
 import re
@@ -13,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from build.places import ROOT
 
 NUMBER = r"(\d+\.\d+\.\d+)"
-# Files that contain the version, and its context.
+# The files that contain the version, and the pattern of its context in each.
 NAMED = {
     "package.json": rf'"version": "{NUMBER}"',
     "unity/package.json": rf'"version": "{NUMBER}"',
@@ -39,7 +39,7 @@ def product() -> str:
 
 
 def files() -> Iterator[tuple[str, str]]:
-    """Yields the paths of all files that name the version, with the pattern of each."""
+    """Yields the path of each file that contains the version, with its pattern."""
     for pattern, named in NAMED.items():
         for path in sorted(ROOT.glob(pattern)):
             yield str(path.relative_to(ROOT)), named
@@ -52,7 +52,7 @@ def packed(version: str) -> str:
 
 
 def write(version: str) -> None:
-    """Writes a version to all files that name it."""
+    """Writes a version to all files that contain it."""
     for path, named in [*files(), (SHIM, "")]:
         text = (ROOT / path).read_text()
         if named:

@@ -1,11 +1,11 @@
-"""The site's page of errors: codes of the native library, checks of the compiler plugin, exit codes of ./collektive and tested faults."""
+"""Writes the site's page of errors: codes of the native library, checks of the compiler plugin, exit codes of ./collektive and tested faults."""
 import json
 import re
 from collections.abc import Iterator
 
 from build.site.sources import commands, help_of, text
 
-# Solutions by the name of a code in the C header.
+# The solution for each error code, by its name in the C header.
 SOLUTIONS = {
     "ARGUMENT": "Correct the setting or argument in the message.",
     "MEMORY": "Close other programs, use fewer nodes or smaller neighbourhoods, or lower the JVM's maximum heap.",
@@ -27,24 +27,24 @@ SOLUTIONS = {
 
 
 def codes() -> list[tuple[str, str, str]]:
-    """Returns name, number and meaning of each error in the C header."""
+    """Returns the name, number and meaning of each error in the C header."""
     return re.findall(r'X\((\w+), (-\d+), "([^"]+)"\)', text("native-shim/include/collektive_shim.h"))
 
 
 def bridge_errors() -> dict[str, str]:
-    """Returns the names of errors in C#, by number."""
+    """Returns the names of the errors in C#, by number."""
     return {number: name for name, number in re.findall(r"(?m)^ +(\w+) = (-\d+),$", text("unity/Runtime/Bridge/BridgeException.cs"))}
 
 
 def checks() -> Iterator[tuple[str, str, str]]:
-    """Yields name, severity and documentation of each check of the compiler plugin."""
+    """Yields the name, severity and documentation of each check of the compiler plugin."""
     source = text("jvm-host/compiler-plugin/src/main/kotlin/org/collektive/compiler/checks/AggregateDiagnostics.kt")
     for doc, name, severity in re.findall(r"(?:/\*\*((?:(?!\*/).)*)\*/\s+)?val (\w+) by (error|warning)\d", source, re.S):
         yield name, severity, " ".join(re.sub(r"(?m)^ *\* ?", "", doc).split())
 
 
 def exit_codes() -> Iterator[tuple[str, list[str]]]:
-    """Yields the exit codes in the help of each command, and of the whole command line as ""."""
+    """Yields the exit codes in the help of each command. The name "" stands for the help of ./collektive itself."""
     for command in ["", *commands()]:
         found = re.search(r"(?ms)^Exit code: (.*?)(?:\n\n|\Z)", help_of(*filter(None, [command])))
         if found:

@@ -1,4 +1,4 @@
-// Takes frames of a replay page as PNGs: node moving_picture.mjs replay.html FOLDER COUNT
+// Saves frames of a replay page as PNG files: node moving_picture.mjs replay.html FOLDER COUNT
 import { mkdirSync } from 'node:fs';
 import { join, resolve } from 'node:path';
 import { pathToFileURL } from 'node:url';

@@ -1,7 +1,7 @@
-"""moving_picture.py REPLAY.html FILE.webp: creates the animation in the README from the replay page of a demo.
+"""Creates the animation in the README from the replay page of a demo: `moving_picture.py REPLAY.html FILE.webp`.
 
-Needs `./collektive setup npm site-tools`, and runs with build/site-tools/bin/python. The animation has twelve pictures per second,
-and shows the last one for two seconds.
+Run `./collektive setup npm site-tools` first, and run this script with build/site-tools/bin/python. The animation has twelve pictures per second, and
+shows the last one for two seconds.
 """
 import os
 import subprocess
@@ -18,7 +18,7 @@ MILLIS, LAST_MILLIS = 83, 2000
 
 
 def main(page: str, target: str) -> None:
-    """Captures the frames in a browser and joins them."""
+    """Captures the frames in a browser and joins them to an animation."""
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run(["node", HERE / "moving_picture.mjs", page, folder, str(FRAMES)], check=True,
                        env={**os.environ, "COLLEKTIVE_NODE_MODULES": str(HERE.parents[2] / "build/npm/node_modules")})

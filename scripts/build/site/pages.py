@@ -9,7 +9,8 @@ from build.console import Failure
 from build.places import ROOT
 from build.site import reference
 
-# Sections and their pages, in order. Documentation~ is at the top of the site, docs/ in `repository`. Other pages come last in How-to.
+# The sections and their pages in order. Pages of Documentation~ are at the top of the site, and pages of docs/ are in `repository`. Pages that are not
+# listed come last in How-to.
 SECTIONS = {
     "Start": ["getting-started", "first-swarm-in-unity", "without-unity", "first-study"],
     "Concepts": ["aggregate-computing", "unity-for-researchers", "way-of-a-tick", "schedules-and-network", "reproducibility"],
@@ -23,7 +24,7 @@ SECTIONS = {
     "Project": ["repository/changelog", "repository/contributing", "repository/security", "repository/third-party"],
 }
 DEFAULT_SECTION = "How-to"
-# Libraries that draw diagrams, and that make the search work without a server.
+# Libraries of the site's pages. The first one draws diagrams, and the second one makes the search work without a server.
 LIBRARIES = {"mermaid.js": "@mermaid-js/tiny/dist/mermaid.tiny.js", "iframe-worker.js": "iframe-worker/shim/index.js"}
 # Pages at the root of the repository.
 ROOT_PAGES = {"CHANGELOG.md": "repository/changelog.md", "CONTRIBUTING.md": "repository/contributing.md", "SECURITY.md": "repository/security.md",
@@ -37,7 +38,7 @@ STYLE = """
 
 
 def places() -> dict[str, str]:
-    """Returns the place in the site of each file of the repository that is part of it."""
+    """Returns the path in the site of each page, by its path in the repository."""
     found = {path: place for path, place in ROOT_PAGES.items() if os.path.exists(os.path.join(ROOT, path))}
     for folder, place in [("Documentation~", ""), ("docs", "repository/")]:
         for name in sorted(os.listdir(os.path.join(ROOT, folder))):
@@ -46,7 +47,7 @@ def places() -> dict[str, str]:
 
 
 def rewrite_links(text: str, path: str, site: Mapping[str, str]) -> str:
-    """Returns a page's text with links that work in the site."""
+    """Replaces the links in the text of a page with links that work in the site."""
     def of(target: str) -> str:
         return os.path.relpath(site[target], os.path.dirname(site[path]) or ".")
 
@@ -58,7 +59,7 @@ def rewrite_links(text: str, path: str, site: Mapping[str, str]) -> str:
         return f"]({of(target)}{anchor})"
 
     text = re.sub(r"\]\((?!https?:|#)([^)#]+)(#[^)]*)?\)", relative, text)
-    # Pages of the package name pages of the repository without a link, because the package does not contain them.
+    # Pages in the package only name pages of the repository, because the package does not contain them. In the site, these names become links.
     return re.sub(r"`((?:docs|Documentation~)/[\w-]+\.md)`(\s+(?:in|of)\s+the\s+repository)?",
                   lambda match: f"[{match[1]}]({of(match[1])})" if match[1] in site else match[0], text)
 
@@ -68,7 +69,7 @@ def title(text: str) -> str:
 
 
 def write(folder: Path, modules: Path) -> None:
-    """Writes the pages and the MkDocs configuration site.yml to a folder. `modules` contains the libraries that pages load.
+    """Writes the pages and the MkDocs configuration site.yml to a folder. `modules` is the folder of the libraries that pages load.
 
     Raises `Failure` if a link is broken.
     """
@@ -92,7 +93,7 @@ def write(folder: Path, modules: Path) -> None:
         shutil.copy(modules / library, assets / name)
     (assets / "site.css").write_text(STYLE)
     shutil.copy(Path(__file__).with_name("mkdocs.yml"), folder)
-    # The order of the pages.
+    # The navigation lists the pages in the order of SECTIONS.
     named = {name for names in SECTIONS.values() for name in names}
     lines = ["INHERIT: mkdocs.yml", "nav:", "  - Home: index.md"]
     for section, names in SECTIONS.items():

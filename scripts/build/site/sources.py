@@ -5,7 +5,7 @@ import subprocess
 
 from build.places import COLLEKTIVE, ROOT
 
-# Width of help texts, independent of the terminal.
+# The width of help texts, which must not depend on the terminal.
 WIDTH = "120"
 
 
