@@ -1,15 +1,15 @@
-"""commits.py BASE: checks the subjects of the commits since BASE, and exits with code 1 if one needs a change."""
+"""Checks the subjects of the commits since BASE, and exits with code 1 if one must be changed: `commits.py BASE`."""
 import re
 import subprocess
 import sys
 
 MAX_LENGTH = 72
-# "Reports", "Reported", "Reporting"; imperatives such as "Address", "Focus", "Bring" and "Embed" pass.
+# Matches words such as "Reports", "Reported" and "Reporting", but not imperatives such as "Address", "Focus", "Bring" and "Embed".
 NOT_IMPERATIVE = re.compile(r"(?!(Bring|String|Ping|Embed|Feed|Need|Seed|Shed|Speed|Bias|Focus|Alias|Canvas)\b)[A-Z]\w*(ing|[^s]s|ed)\b")
 
 
 def problem(subject: str) -> str | None:
-    """Returns the error in the subject of a commit, or None."""
+    """Returns the error in the subject of a commit, or None if the subject is valid."""
     if subject.startswith(("Merge ", "Revert ")):
         return None
     if len(subject) > MAX_LENGTH:

@@ -1,6 +1,6 @@
 """Prints the user-visible texts in the sources: errors, warnings, log lines, tooltips, menu entries and help.
 
-`build/python/bin/python scripts/checks/messages.py [PATTERN]...` prints those of the files that match, for example 'unity/*.cs'.
+`build/python/bin/python scripts/checks/messages.py [PATTERN]...` prints the texts of the files that match a pattern, such as 'unity/*.cs'.
 """
 import fnmatch
 import re
@@ -14,12 +14,12 @@ from pygments import lexers, token
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("*.cs", "*.kt", "*.kts", "*.c", "*.h", "*.py", "*.js", "*.mjs", "*.cmake", "*.java")
 TESTS = ("*/tests/*", "*/Tests/*", "*/test/*", "*/TestFramework/*", "*/TestRunner/*", "*/testkit/*", "*/Fuzz/*")
-# Separates two parts of one text.
+# The characters that may separate two parts of the same text.
 GLUE = re.compile(r"[\s+\\$@f]*")
 
 
 def tokens(path: Path) -> Iterator[tuple[token._TokenType, str]]:
-    """Yields the tokens of a source file. Pygments reads a C# attribute, such as a tooltip, as one token: its texts are split off."""
+    """Yields the tokens of a source file. Splits C# attributes, such as tooltips, which Pygments returns as one token, into their texts."""
     for sort, value in lexers.get_lexer_for_filename(path.name, stripnl=False).get_tokens(path.read_text(encoding="utf-8")):
         if sort not in token.Name.Attribute:
             yield sort, value
@@ -29,7 +29,7 @@ def tokens(path: Path) -> Iterator[tuple[token._TokenType, str]]:
 
 
 def texts(path: Path) -> Iterator[tuple[int, bool, str]]:
-    """Yields the line, whether it is a comment, and the content of each comment and text of a source file."""
+    """Yields the comments and texts of a source file: the line, whether it is a comment, and the content."""
     line, begin, depth = 1, 1, 0
     kind: str | None = None
     text = ""
@@ -53,7 +53,7 @@ def texts(path: Path) -> Iterator[tuple[int, bool, str]]:
 
 
 def is_message(text: str) -> bool:
-    """Returns whether a text has at least three words."""
+    """Returns whether a text is a message, which has at least three words."""
     return len(re.findall(r"(?<![\w/.{$-])[A-Za-z]{2,}(?![\w/{(=.-]\w)", text)) >= 3
 
 

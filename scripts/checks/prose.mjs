@@ -1,4 +1,4 @@
-// prose.mjs PAGE...: prints grammar errors in pages, and exits with 1 if it finds any.
+// Prints the grammar errors in pages, and exits with 1 if it finds any: prose.mjs PAGE...
 import fs from "node:fs";
 import { pathToFileURL } from "node:url";
 
@@ -6,7 +6,7 @@ const harper = pathToFileURL(`${process.env.COLLEKTIVE_NODE_MODULES}/harper.js/d
 const { Dialect, LocalLinter } = await import(`${harper}index.js`);
 const { slimBinaryInlined: binary } = await import(`${harper}slimBinaryInlined.js`);
 
-// Other kinds are matters of taste, or do not recognise names and units.
+// The linter's other kinds of errors are matters of taste, or false reports about names and units.
 const KINDS = new Set(["Agreement", "BoundaryError", "Eggcorn", "Grammar", "Malapropism", "Nonstandard", "Redundancy", "Repetition", "Usage"]);
 
 const linter = new LocalLinter({ binary, dialect: Dialect.British });

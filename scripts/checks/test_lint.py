@@ -1,4 +1,4 @@
-"""The sources are clean under their linters."""
+"""Checks the sources with linters, and pages, comments and messages for grammar and style."""
 import fnmatch
 import os
 import re
@@ -11,9 +11,9 @@ import pytest
 from build.jdk import find_jdk
 from build.places import BUILD, ROOT
 
-# Generated files.
+# Paths of generated files, which are not checked.
 GENERATED = re.compile(r"(^|/)Generated/|(^|/)package-lock\.json$|\.meta$|^unity/Tests/PublicApi/.*\.txt$")
-# Test programs in different styles.
+# Test programs are not checked, because they have different styles on purpose.
 TEST_PROGRAMS = ("jvm-host/*/src/test/resources/*",)
 HABITS = [entry.split(" => ") for entry in (ROOT / "scripts/checks/english.txt").read_text().splitlines() if not entry.startswith("#")]
 
@@ -73,7 +73,7 @@ def test_workflows_are_clean_under_actionlint() -> None:
 
 
 def test_text_files_follow_editorconfig() -> None:
-    # ktlint checks Kotlin, and allows long literals and names of tests.
+    # ktlint checks Kotlin instead, because it allows long lines for literals and names of tests.
     texts = [path for path in sources("*") if not path.endswith((".kt", ".kts"))]
     assert_clean(os.path.join(BUILD, "python/bin/edcfg-lint"), *texts)
 
@@ -87,7 +87,7 @@ def test_pages_have_no_grammar_errors() -> None:
 
 
 def habits(place: str, prose: str, line: int = 1) -> list[str]:
-    """Returns a line for each match of a pattern of english.txt in `prose`, which begins at `line` of the file `place`."""
+    """Returns a message for each match of a pattern of english.txt in `prose`, which begins at `line` of the file `place`."""
     return [f"{place}:{line + prose[:match.start()].count(chr(10))}: {match[0]!r}: {advice}"
             for pattern, advice in HABITS for match in re.finditer(pattern, prose, re.IGNORECASE)]
 

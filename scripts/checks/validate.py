@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Checks the package's assets: `validate.py ROOT FIELDS` prints a line for each error and exits with 1.
+"""Checks the package's assets: `validate.py ROOT FIELDS` prints a line for each error, and exits with 1 if it finds any.
 
-FIELDS is the output of Collektive.SerializedFields.exe for the package's assemblies. --update adds new GUIDs to
+FIELDS is the output of Collektive.SerializedFields.exe for the package's assemblies. The option --update adds new GUIDs to
 scripts/checks/validator/guids.txt.
 """
 import os
@@ -19,7 +19,7 @@ from build import metas  # noqa: E402
 
 
 def problems(root: str | Path, classes: Mapping[str, ScriptClass], guids_file: str = guids.GUIDS_FILE) -> Iterator[str]:
-    """Yields the errors of the package at root."""
+    """Yields the errors in the package below `root`."""
     yield from metas.problems(root)
     assets = Assets(root)
     yield from guids.problems(assets, classes, guids_file)

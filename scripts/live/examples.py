@@ -1,4 +1,4 @@
-"""The lessons and samples that `./collektive live` can run by name."""
+"""Finds the lessons and samples that `./collektive live` can run by name."""
 import json
 import re
 import shutil
@@ -9,7 +9,7 @@ from build.console import Failure
 from build.places import ROOT
 
 FOLDER = ROOT / "scripts/lessons"
-# In the order of the tutorial.
+# The lessons in the order of the tutorial.
 LESSONS = ("gradient", "channel", "leader", "collection", "gossip", "healing", "sparse", "flocking")
 # The samples that the page offers.
 SAMPLES = ("GradientAscent", "Swarm", "Rescue")
@@ -18,7 +18,7 @@ _UNITY_FILES = ("*.meta", "*.unity", "*.asmdef", "*.mat", "*.prefab")
 
 
 def find(name: str) -> Path | None:
-    """Returns the scenario of a sample or lesson, or None for another name."""
+    """Returns the scenario of a sample or lesson, or None for an unknown name."""
     named = [folder / name / "scenario.json" for folder in (sample_programs.SAMPLES, FOLDER)]
     return next(filter(Path.is_file, named), None)
 
@@ -28,7 +28,7 @@ def is_example(scenario: Path) -> bool:
 
 
 def catalogue() -> list[dict[str, str]]:
-    """Returns the name, title, text and question of each lesson and sample that the page offers. The question of a sample is empty."""
+    """Returns the name, title, text and question of each lesson and sample that the page offers. A sample has an empty question."""
     samples = {Path(sample["path"]).name: sample for sample in json.loads((ROOT / "package.json").read_text(encoding="utf-8"))["samples"]}
     return [*map(_lesson, LESSONS), *({"name": name, "title": samples[name]["displayName"], "text": samples[name]["description"], "question": ""}
                                       for name in SAMPLES)]
@@ -42,7 +42,7 @@ def _lesson(name: str) -> dict[str, str]:
 
 
 def copy(scenario: Path) -> Path:
-    """Copies a sample or lesson with its Kotlin to out/live/NAME, unless the folder exists. Returns the scenario of the copy."""
+    """Copies a sample or lesson and its Kotlin to out/live/NAME, unless that folder exists. Returns the scenario of the copy."""
     folder = Path("out/live") / scenario.parent.name
     target = folder.absolute() / scenario.name
     if target.is_file():

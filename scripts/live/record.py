@@ -1,4 +1,4 @@
-"""The record of a live run (docs/record-format.md), which begins with its first tick."""
+"""Manages the record of a live run, which begins with its first tick. docs/record-format.md describes the format."""
 import contextlib
 import os
 import shutil
@@ -9,14 +9,14 @@ from pathlib import Path
 from build.console import Failure
 from live.session import new_file
 
-# Larger records are deleted.
+# A record that becomes larger is deleted.
 MAX_BYTES = 1_000_000_000
 _MAGIC_BYTES = 8
 _CHUNK = struct.Struct("<4sII")
 
 
 class Record:
-    """A record that the player is writing."""
+    """A record to which the player is writing."""
 
     def __init__(self, path: Path, maximum: int = MAX_BYTES) -> None:
         self._path = path
@@ -28,9 +28,9 @@ class Record:
         self._is_deleted = False
 
     def limit(self) -> bool:
-        """Deletes the content of a record that is too large. Returns whether it did so for the first time."""
+        """Deletes the content of the record if it is too large. Returns whether this is the first deletion."""
         with contextlib.suppress(FileNotFoundError):
-            # After a deletion, the player's writes leave a hole, which counts for the size of the file but not for its blocks.
+            # Compares blocks, because after a deletion the file begins with a hole, which counts for its size but not for its blocks.
             if 512 * self._path.stat().st_blocks > self._maximum:
                 os.truncate(self._path, 0)
                 was_deleted, self._is_deleted = self._is_deleted, True
@@ -42,9 +42,9 @@ class Record:
         return f"the record exceeded {self._maximum / 1e9:g} GB and was deleted; press Restart to begin another one"
 
     def save(self, target: Path) -> None:
-        """Copies all finished ticks to a new file, and ends it.
+        """Copies all finished ticks to a new file, and adds the end of a record.
 
-        Raises `Failure` without finished ticks, and `FileExistsError` for an existing file or link.
+        Raises `Failure` if no tick is finished, and `FileExistsError` if the file or link exists.
         """
         if self._is_deleted:
             raise Failure(self.deletion)
@@ -57,7 +57,7 @@ class Record:
             output.write(head + struct.pack("<I", zlib.crc32(head)))
 
     def _end(self) -> int:
-        """Returns the end of the last finished tick."""
+        """Returns the position in the file after the last finished tick."""
         at, end = _MAGIC_BYTES, 0
         if self._path.exists():
             with self._path.open("rb") as source:

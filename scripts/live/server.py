@@ -1,6 +1,6 @@
-"""The server of `./collektive live`: `server.py OPTIONS`, the command's options as JSON.
+"""Runs the server of `./collektive live`: `server.py OPTIONS`, where OPTIONS are the command's options as JSON.
 
-It listens on 127.0.0.1 only. The address of the page contains a secret token; requests with another token, Host or Origin are refused.
+The server listens on 127.0.0.1 only. The address of the page contains a secret token. The server refuses requests with another token, Host or Origin.
 """
 import asyncio
 import contextlib
@@ -34,9 +34,9 @@ from live import examples, session
 from live.record import Record
 
 HOST = "127.0.0.1"
-# A page that sends more commands per second is disconnected.
+# The server disconnects a page that sends more commands per second.
 MAX_COMMANDS = 200
-# A page with more unsent events is disconnected. Frames do not count.
+# The server disconnects a page that has more unsent events. Frames do not count.
 MAX_WAITING = 500
 WATCH_SECONDS = 0.25
 PAGES = {"": "live.html", "view": "live-view.html"}
@@ -45,7 +45,7 @@ PLAYER_COMMANDS = {"run", "step", "speed", "add", "remove", "select", "parameter
 
 
 class Page:
-    """A connected page. Events are sent in order. A new frame replaces an unsent one."""
+    """A connected page. It receives all events in order, but a new frame replaces an unsent one."""
 
     def __init__(self, connection: ServerConnection) -> None:
         self.connection = connection
@@ -62,7 +62,7 @@ class Page:
         self._ready.set()
 
     async def send(self) -> None:
-        """Sends events and frames until the page has gone or is too slow for the events."""
+        """Sends events and frames until the page is closed or is too slow for the events."""
         while True:
             await self._ready.wait()
             if len(self._events) > MAX_WAITING:
@@ -78,7 +78,7 @@ class Page:
 
 
 class Live:
-    """A running scenario, its sources, and the pages that show it. The first connected page controls it."""
+    """A running scenario, its sources, and the pages that show it. The page that has been connected for the longest time controls the scenario."""
 
     def __init__(self, options: dict[str, Any], work: Path) -> None:
         self.scenario: str = options["scenario"]
@@ -108,7 +108,7 @@ class Live:
     async def start(self) -> None:
         """Reads the scenario, compiles changed code, and starts the player."""
         plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options())
-        # Assigned together, because the file watcher compares them.
+        # The plan and its sources change together, because the file watcher compares them.
         self.plan, self._sources = plan, self.read_sources(plan)
         self.header = self.last_frame = self.stopped = self.compiled = None
         jar, dll = await asyncio.gather(asyncio.to_thread(plan.programs_jar), asyncio.to_thread(plan.scripts_dll))
@@ -118,7 +118,7 @@ class Live:
         await self.player.start(self.scenario, self.plan, self.jar, dll, self.work / "out", self.player_options())
 
     async def restart(self, scenario: str, seed: str | None, values: dict[str, str], trust: bool) -> None:
-        """Starts a scenario in place of the running one. If it is invalid, the previous scenario and values are kept."""
+        """Starts a scenario in place of the running one. If it is invalid, keeps the previous scenario and values."""
         before = self.scenario, self.seed, self.values, self.trust
         plan = self.plan
         self.scenario, self.seed, self.values, self.trust = scenario, seed, values, trust
@@ -127,7 +127,7 @@ class Live:
             await self.player.stop()
             await self.start()
         except Failure as failure:
-            # The player has printed the error of an invalid scenario, and the compilers have printed theirs.
+            # The player has already printed the error of an invalid scenario, and the compilers have printed their errors.
             reason = str(failure) or f"the {'scenario is invalid' if self.plan is plan else 'sources are not compiled'}; the reason is in the terminal"
             stopped = {"event": "stopped", "message": reason}
         if self.plan is plan:
@@ -159,7 +159,7 @@ class Live:
 
     @property
     def files(self) -> dict[str, dict[str, str]]:
-        """The sources as the page shows them."""
+        """Returns the sources in the form that the page shows."""
         return {name: {"text": source.text, "problem": source.problem} for name, source in self._sources.items()}
 
     def identity(self) -> dict[str, str]:
@@ -202,7 +202,7 @@ class Live:
         try:
             await self.receive(page)
         except ConnectionClosed:
-            pass  # a page may be closed at any time
+            pass  # the page was closed, which can happen at any time
         finally:
             sending.cancel()
             with contextlib.suppress(asyncio.CancelledError, ConnectionClosed):
@@ -255,7 +255,7 @@ class Live:
             raise KeyError(next(iter(command), ""))
 
     async def save(self, page: Page, name: str, text: str) -> None:
-        """Writes a source of the programs and reloads them."""
+        """Writes a source file of the programs, and reloads the programs."""
         source = self._sources.get(name)
         problem = f"'{name}' is not a file in the programs folder" if source is None else source.problem
         if source is None or problem:
@@ -294,14 +294,14 @@ class Live:
                     self.broadcast({"event": "warning", "message": self.record.deletion})
                 current = self.read_sources(self.plan)
             except (OSError, Failure):
-                continue  # an editor replaces a file
+                continue  # an editor is just replacing a file
             if current != self._sources:
                 self._sources = current
                 self.broadcast({"event": "files", "files": self.files})
                 await self.reload()
 
     def beside_scenario(self, name: str, suffix: str) -> Path | None:
-        """Returns the path of a new file, or None for another kind of name."""
+        """Returns the path of a new file beside the scenario, or None if the name is not a plain file name with the given suffix."""
         file = Path(self.scenario).with_name(name)
         return file if Path(name).name == name and file.suffix == suffix else None
 
@@ -353,7 +353,7 @@ def _text(value: Any) -> str:
 
 
 def _value(text: Any) -> Any:
-    """Returns the value of an option of the command line."""
+    """Parses the value of a command-line option."""
     try:
         return json.loads(text) if isinstance(text, str) else text
     except ValueError:
@@ -419,10 +419,10 @@ async def main(options: dict[str, Any]) -> int:
             if not options["no_browser"] and (sys.platform == "darwin" or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
                 await asyncio.to_thread(webbrowser.open, address)
             watching = asyncio.create_task(live.watch())
-            # The first compilation takes seconds.
+            # Compile once in advance, because the first compilation takes seconds and later ones are fast.
             warming = asyncio.create_task(live.compiler.compile(live.plan)) if live.is_editable else None
             waiting = asyncio.create_task(ended.wait())
-            # The watch ends only with an error.
+            # The file watcher ends only with an error, which must end the server.
             await asyncio.wait([watching, waiting], return_when=asyncio.FIRST_COMPLETED)
             waiting.cancel()
             if watching.done():

@@ -1,4 +1,4 @@
-"""The processes of a live run: the player, and the compiler that stays loaded."""
+"""Controls the processes of a live run: the player, and a compiler that stays loaded between compilations."""
 import asyncio
 import codecs
 import contextlib
@@ -27,7 +27,7 @@ _PROBLEM = re.compile(r"^(?:file://)?(?P<path>.+?\.(?:kt|java)):(?P<line>\d+)(?:
 
 @dataclass(frozen=True)
 class Compiled:
-    """The outcome of a compilation: `jar` is None after errors."""
+    """The outcome of a compilation. After errors, `jar` is None."""
 
     jar: Path | None
     problems: list[dict[str, Any]]
@@ -36,7 +36,7 @@ class Compiled:
 
 
 class Compiler:
-    """A process that compiles the programs of a plan, one request after the other."""
+    """A process that compiles the programs of a plan. It handles one request after the other."""
 
     def __init__(self, work: Path) -> None:
         self._work = work / "compiler"
@@ -81,14 +81,14 @@ class Compiler:
 
 
 def _problem(match: re.Match[str], folder: Path) -> dict[str, Any]:
-    # The Kotlin compiler shortens paths below the current folder.
+    # The Kotlin compiler prints paths below the current folder as relative paths.
     path = Path(match["path"]).absolute()
     return {"file": str(path.relative_to(folder)) if path.is_relative_to(folder) else str(path), "line": int(match["line"]),
             "column": int(match["column"] or 1), "severity": match["severity"], "message": match["message"]}
 
 
 class Player:
-    """A process that plays a scenario. Calls `on_message` with each message: the JSON of an event, and the message if it has a frame."""
+    """A process that plays a scenario. Calls `on_message` for each message, with the JSON of its event, and with the whole message if it has a frame."""
 
     def __init__(self, on_message: Callable[[dict[str, Any], bytes | None], Awaitable[None]]) -> None:
         self._on_message = on_message
@@ -97,7 +97,7 @@ class Player:
         self._reading: asyncio.Task[None] | None = None
 
     async def start(self, scenario: str, plan: player.Plan, jar: Path, dll: Path, folder: Path, words: Sequence[str]) -> None:
-        """Starts the process, which writes its outputs to an empty folder."""
+        """Starts the process. It writes its outputs to the given folder, which must be empty."""
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         ours, theirs = socket.socketpair()
@@ -109,7 +109,7 @@ class Player:
         self._reading = asyncio.create_task(self._read(reader, self._process))
 
     def send(self, command: dict[str, Any]) -> None:
-        """Sends a command. Commands after the end of the process have no effect."""
+        """Sends a command. This has no effect after the end of the process."""
         if self._writer is not None and not self._writer.is_closing():
             self._writer.write(json.dumps(command).encode() + b"\n")
 
@@ -118,7 +118,7 @@ class Player:
         if self._process is None or self._writer is None or self._reading is None:
             return
         self._reading.cancel()
-        # The process ends with its channel.
+        # The process ends when its channel is closed.
         self._writer.close()
         try:
             await asyncio.wait_for(self._process.wait(), _EXIT_SECONDS)
@@ -144,7 +144,7 @@ class Player:
 
 @dataclass(frozen=True)
 class Source:
-    """A file of the programs: its text with line feeds and without a byte-order mark, and why it cannot be edited, if so."""
+    """A source file of the programs. The text has line feeds and no byte-order mark. `problem` is the reason why the file cannot be edited, or empty."""
 
     path: Path
     text: str
@@ -153,7 +153,7 @@ class Source:
     newline: str
 
     def write(self, text: str) -> None:
-        """Replaces the content atomically. Keeps mark, line ends, and permissions, and a link to the file."""
+        """Replaces the content atomically. Keeps the byte-order mark, line endings, permissions and a link to the file."""
         target = self.path.resolve()
         descriptor, part = tempfile.mkstemp(".part", f".{target.name}.", target.parent)
         try:
@@ -167,7 +167,7 @@ class Source:
 
 
 def sources(plan: player.Plan, folder: Path) -> dict[str, Source]:
-    """Returns the program sources by relative path; empty for a jar. Links must stay inside the programs folder or the given one."""
+    """Returns the program sources by relative path. A jar has none. A link must stay inside the programs folder or `folder`."""
     programs = plan.parts["programs"].path
     if programs.is_file():
         return {}
@@ -192,7 +192,7 @@ def _source(path: Path, roots: list[Path]) -> Source:
 
 @contextlib.contextmanager
 def new_file(path: Path) -> Iterator[BinaryIO]:
-    """Opens a new file, and removes it after an error. Raises `FileExistsError` for an existing file or link."""
+    """Opens a new file, and removes it after an error. Raises `FileExistsError` if a file or link of that name exists."""
     with path.open("xb") as output:
         try:
             yield output

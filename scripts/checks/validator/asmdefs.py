@@ -6,12 +6,12 @@ from typing import Any
 
 from validator.assets import Assets
 
-# Assemblies and plugins of Unity's packages.
+# Assemblies of Unity's packages that assembly definitions may reference.
 UNITY_ASSEMBLIES = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
 UNITY_PLUGINS = {"nunit.framework.dll"}
 # Plugins that the build adds to the package.
 BUILT_PLUGINS = {"Collektive.FlatBuffers.dll"}
-# Path and content by assembly.
+# The path and content of each assembly definition, by name.
 Definitions = dict[str, tuple[str, dict[str, Any]]]
 PLATFORMS = {"Editor", "LinuxStandalone64", "macOSStandalone", "WindowsStandalone64"}
 
@@ -52,7 +52,7 @@ def check_definition(path: str, definition: dict[str, Any], definitions: Definit
         yield f"{path}: its platforms are {sorted(platforms)}: allowed are {sorted(PLATFORMS)}"
     if platforms not in (set(), {"Editor"}) and not is_test:
         yield f"{path}: its platforms are {sorted(platforms)}: runtime code must compile for all platforms, so that unsupported players report an error"
-    # Tests of edit mode may be anywhere.
+    # Tests that run in edit mode do not need to be in a folder Editor.
     if ("Editor" in folders) != (platforms == {"Editor"}) and ("Editor" in folders or not is_test):
         yield f"{path}: editor code must be in a folder Editor and have only the platform Editor"
     if is_test != ("UNITY_INCLUDE_TESTS" in definition.get("defineConstraints", [])):
@@ -76,7 +76,7 @@ def cycles(definitions: Definitions) -> Iterator[str]:
 
 
 def unassigned(assets: Assets, definitions: Definitions) -> Iterator[str]:
-    """Yields C# files without an assembly definition, which Unity would compile into the user's assembly."""
+    """Yields the C# files that belong to no assembly definition. Unity would compile them into the user's assembly."""
     folders = [os.path.dirname(path) + "/" for path, _ in definitions.values()]
     for path in assets.with_ending(".cs"):
         if not any(path.startswith(folder) for folder in folders):

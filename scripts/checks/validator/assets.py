@@ -19,7 +19,7 @@ class Assets:
             guid = guid_of(os.path.join(root, path + ".meta"))
             if guid:
                 self.guids[guid] = path
-        # Libraries that are staged with the samples: the names of their programs by path.
+        # The names of the programs in each library that is staged with the samples, by the library's path.
         self.libraries: dict[str, set[str]] = {}
         for schema in Path(root, "unity/Samples~").glob("*/*.fbs"):
             path = os.path.relpath(schema.with_suffix(".clkprograms"), root)
@@ -35,7 +35,7 @@ class Assets:
 
 
 def guid_of(meta: str) -> str | None:
-    """Returns the GUID in a meta file, or None."""
+    """Returns the GUID in a meta file, or None if the file has none."""
     if not os.path.exists(meta):
         return None
     with open(meta) as file:

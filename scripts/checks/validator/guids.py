@@ -1,6 +1,6 @@
-"""Checks that GUIDs never change, because users' scenes refer to assets by their GUIDs.
+"""Checks that GUIDs never change, because users' scenes refer to assets by GUID.
 
-`scripts/checks/validator/guids.txt` contains the GUID of every asset that a scene, a prefab or an assembly definition can refer to.
+`scripts/checks/validator/guids.txt` contains the GUID of every asset to which a scene, a prefab or an assembly definition can refer.
 """
 import os
 from collections.abc import Iterable, Iterator
@@ -11,9 +11,9 @@ GUIDS_FILE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "guids.txt
 
 
 def referable(assets: Assets, classes: Iterable[str]) -> dict[str, str]:
-    """Returns the assets that files outside the package can refer to, by GUID."""
+    """Returns the assets to which files outside the package can refer, by GUID."""
     names = {name.rsplit(".", 1)[-1] for name in classes}
-    # The metas of libraries refer to their importer.
+    # Importers are included, because the metas of libraries refer to their importer.
     scripts = [path for path in assets.with_ending(".cs") if os.path.basename(path)[:-3] in names or path.endswith("Importer.cs")]
     paths = set(scripts + assets.with_ending(".asmdef", ".prefab", ".mat", ".shader", ".unity", ".asset")) | set(assets.libraries)
     return {guid: path for guid, path in assets.guids.items() if path in paths}
@@ -38,7 +38,7 @@ def problems(assets: Assets, classes: Iterable[str], guids_file: str = GUIDS_FIL
 
 
 def update(assets: Assets, classes: Iterable[str], guids_file: str = GUIDS_FILE) -> None:
-    """Adds new and renamed assets. Keeps missing ones, which remain errors."""
+    """Adds new and renamed assets to the file. Keeps the entries of missing assets, which remain errors."""
     listed = {**read(guids_file), **referable(assets, classes)}
     with open(guids_file, "w") as file:
         for guid, path in sorted(listed.items(), key=lambda entry: entry[1]):

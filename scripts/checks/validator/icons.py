@@ -1,4 +1,4 @@
-"""Checks that each component of the menus and each asset type of the package has an icon."""
+"""Checks that each component in the menus and each asset type of the package has an icon."""
 import re
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""Checks the manifest: names, samples, and an allow-list of exactly the assets."""
+"""Checks the manifest: its names and samples, and that its allow-list contains exactly the assets."""
 import fnmatch
 import os
 import re
@@ -26,7 +26,7 @@ def problems(assets: Assets) -> Iterator[str]:
     allowed = [entry for entry in manifest["files"] if not entry.startswith("!")]
     refused = [entry[1:] for entry in manifest["files"] if entry.startswith("!")]
     for asset in assets.paths:
-        # npm always packs the manifest. The one in unity/ is for git URLs.
+        # Manifests are not listed. npm always packs package.json, and the manifest in unity/ is only for git URLs.
         for path in [asset, asset + ".meta"]:
             if os.path.isdir(os.path.join(root, path)) or path in ("package.json", "unity/package.json", "unity/package.json.meta"):
                 continue

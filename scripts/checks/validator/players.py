@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from validator import unity_yaml
 from validator.assets import Assets
 
-# The components of a primitive, by Unity's class numbers: a mesh filter, a renderer and a collider.
+# The components of each primitive: Unity's class numbers of its mesh filter, renderer and collider.
 PRIMITIVES = {"Sphere": {33, 23, 135}, "Cube": {33, 23, 65}, "Capsule": {33, 23, 136}, "Cylinder": {33, 23, 136}, "Plane": {33, 23, 64}, "Quad": {33, 23, 64}}
 
 
@@ -25,7 +25,7 @@ def problems(assets: Assets) -> Iterator[str]:
         try:
             present = {document.class_id for document in unity_yaml.read(os.path.join(assets.root, scene))}
         except unity_yaml.UnityYamlError:
-            # references.py reports this error.
+            # references.py reports that the scene is not valid.
             continue
         for name in sorted(names):
             if missing := PRIMITIVES[name] - present:

@@ -1,4 +1,4 @@
-"""Checks that no version of Unity copies two native libraries of the packages to one place in a player."""
+"""Checks that no version of Unity copies two native libraries of the packages to the same path in a player."""
 import itertools
 import re
 from collections.abc import Iterable, Iterator
@@ -9,12 +9,12 @@ from build import manifest, metas
 from build.places import ROOT
 from build.platforms import PLATFORMS
 
-# The first version in which a Linux player has a folder for each processor. Some releases of 6000.3 and 6000.4 have them too.
+# The first version of Unity whose Linux players have a folder for each processor. Some releases of 6000.3 and 6000.4 have these folders, too.
 LINUX_FOLDERS = (6000, 5)
 
 
 class Library(NamedTuple):
-    """A native library in a package: its path, its .meta, and the first version of Unity that the package is for."""
+    """A native library in a package: its path, its .meta, and the first version of Unity that the package supports."""
 
     path: str
     meta: str
@@ -22,7 +22,7 @@ class Library(NamedTuple):
 
     @property
     def players(self) -> dict[str, str]:
-        """The platforms of players that contain the library, and its processor there."""
+        """The platforms of the players that contain the library, and the processor for each."""
         return dict(re.findall(r"first:\n +Standalone: (\w+)\n +second:\n +enabled: 1\n +settings:\n +CPU: (\w+)", self.meta))
 
 
@@ -31,7 +31,7 @@ def problems(libraries: Iterable[Library]) -> Iterator[str]:
     for one, other in itertools.combinations(libraries, 2):
         if Path(one.path).name != Path(other.path).name:
             continue
-        # Both packages can be installed from this version on.
+        # The first version of Unity in which both packages can be installed.
         first = max(_number(one.unity), _number(other.unity))
         for player in sorted(one.players.keys() & other.players.keys()):
             has_folders = player != "Linux64" or first >= LINUX_FOLDERS

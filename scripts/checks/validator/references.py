@@ -1,4 +1,4 @@
-"""Checks objects and references of prefabs, scenes and materials, and fields of scripts against the C#."""
+"""Checks the objects and references in prefabs, scenes and materials, and compares the fields of scripts with the C#."""
 import os
 import re
 from collections.abc import Iterator, Mapping
@@ -12,22 +12,22 @@ from validator.unity_yaml import Document
 
 Files = dict[str, list[Document]]
 
-# Unity's class numbers of the objects in the package.
+# Unity's class number of each type of object that occurs in the package.
 CLASSES = {
     1: "GameObject", 4: "Transform", 20: "Camera", 21: "Material", 23: "MeshRenderer", 29: "OcclusionCullingSettings", 33: "MeshFilter",
     54: "Rigidbody", 65: "BoxCollider", 81: "AudioListener", 104: "RenderSettings", 108: "Light", 114: "MonoBehaviour", 135: "SphereCollider",
     157: "LightmapSettings", 196: "NavMeshSettings", 1001: "PrefabInstance", 1660057539: "SceneRoots",
 }
 YAML_ENDINGS = (".prefab", ".unity", ".mat", ".asset")
-# File id and reference type of an imported asset's main object.
+# The file id and the reference type of the main object of an imported asset.
 IMPORTED = {".cs": ("11500000", "3"), ".shader": ("4800000", "3")}
-# The identifier of a library of programs in ProgramLibraryImporter.cs; the one of a program is its name.
+# The identifier that ProgramLibraryImporter.cs gives to a library of programs. A program's identifier is its name.
 LIBRARY = "<root>"
-# Fields for scripts. Scenes refer to libraries and programs instead.
+# Fields that only scripts may set. Scenes must refer to libraries and programs instead.
 TEXTS = {"Collektive.Unity.SimulationManager": {"settings.schema", "settings.jars", "settings.program"}, "Collektive.Unity.Node": {"program"}}
-# The file id by which a PrefabInstance refers to the whole prefab.
+# The file id with which a PrefabInstance refers to the whole prefab.
 WHOLE_PREFAB = "100100000"
-# Fields that Unity itself writes for every MonoBehaviour.
+# Fields that Unity writes for every MonoBehaviour.
 COMMON_FIELDS = {
     "m_ObjectHideFlags", "m_CorrespondingSourceObject", "m_PrefabInstance", "m_PrefabAsset", "m_GameObject", "m_Enabled", "m_EditorHideFlags",
     "m_Script", "m_Name", "m_EditorClassIdentifier",
@@ -47,7 +47,7 @@ def problems(assets: Assets, classes: Mapping[str, ScriptClass]) -> Iterator[str
 
 
 class AssetFile:
-    """Checks one prefab, scene, material or asset."""
+    """The check of one prefab, scene, material or asset."""
 
     def __init__(self, assets: Assets, classes: Mapping[str, ScriptClass], files: Files, path: str, documents: list[Document]) -> None:
         self.assets = assets
@@ -81,7 +81,7 @@ class AssetFile:
             yield from self.check_scene()
 
     def check_reference(self, reference: dict[str, str]) -> str | None:
-        """Returns the error of a reference, or None."""
+        """Returns the error in a reference, or None if the reference is valid."""
         file_id, guid = reference["fileID"], reference.get("guid")
         if file_id == "0":
             return None
@@ -140,7 +140,7 @@ class AssetFile:
     def check_script(self, document: Document) -> Iterator[str]:
         script = self.script_of(document)
         if script is None:
-            # check_reference has reported this.
+            # check_reference has already reported the missing asset.
             return
         known = self.class_of(script)
         if known is None:
@@ -169,7 +169,7 @@ class AssetFile:
         for change in document.fields["m_Modification"]["m_Modifications"]:
             target = targets.get(change["target"]["fileID"])
             if target is None:
-                # check_reference has reported this.
+                # check_reference has already reported the missing object.
                 continue
             path = re.sub(r"\.Array\.(size|data\[\d+\])", "", change["propertyPath"])
             if target.type_name == "MonoBehaviour" and path.split(".")[0] not in COMMON_FIELDS:
@@ -184,7 +184,7 @@ class AssetFile:
         return self.assets.guids.get(document.fields["m_Script"].get("guid"))
 
     def class_of(self, script: str) -> ScriptClass | None:
-        """Returns the class with the name of the script file, which Unity uses."""
+        """Returns the class that has the name of the script file. Unity uses this class."""
         name = os.path.basename(script)[:-len(".cs")]
         namespace = re.search(r"^namespace ([\w.]+)", self.assets.read(script), re.M)
         return self.classes.get(f"{namespace[1]}.{name}" if namespace else name)
@@ -197,7 +197,7 @@ def is_root(document: Document) -> bool:
 
 
 def references(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, str]]]:
-    """Yields the references in a value and their paths."""
+    """Yields the path of each reference in a value, and the reference."""
     if isinstance(value, dict):
         if "fileID" in value:
             yield where, value
@@ -210,7 +210,7 @@ def references(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, str
 
 
 def flattened(fields: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    """Yields paths and values of a script's fields. Elements of a list have the path of the list."""
+    """Yields the path and value of each field of a script. The elements of a list have the path of the list."""
     for key, value in fields.items():
         path = prefix + key
         yield path, value
@@ -223,7 +223,7 @@ def flattened(fields: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, A
 
 
 def is_vector(value: dict[str, Any]) -> bool:
-    """Returns whether a value is a vector, colour or mask, whose parts are not checked."""
+    """Returns whether a value is a vector, a colour or a mask. The parts of these are not checked."""
     return set(value) <= set("xyzwrgba") or "m_Bits" in value
 
 

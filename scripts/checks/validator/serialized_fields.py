@@ -1,8 +1,8 @@
-"""The fields that Unity serialises of each component and asset class, as Collektive.SerializedFields.exe prints them."""
+"""Reads the output of Collektive.SerializedFields.exe: the fields that Unity serialises for each component and asset class."""
 
 
 class ScriptClass:
-    """One class: its full name, `component` or `asset`, and its fields' kinds by path."""
+    """A class: its full name, whether it is a `component` or an `asset`, and the kinds of its fields by path."""
 
     def __init__(self, name: str, kind: str) -> None:
         self.name = name
@@ -11,7 +11,7 @@ class ScriptClass:
 
 
 def parse(text: str) -> dict[str, ScriptClass]:
-    """The classes by full name."""
+    """Returns the classes by full name."""
     classes: dict[str, ScriptClass] = {}
     for line in text.splitlines():
         words = line.split()

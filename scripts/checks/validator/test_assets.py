@@ -23,7 +23,7 @@ ASMDEF = "unity/Runtime/Unity/Collektive.Unity.asmdef"
 
 @functools.cache
 def classes() -> dict[str, serialized_fields.ScriptClass]:
-    """Returns the fields of each component that Unity serialises."""
+    """Returns the serialised fields of each component."""
     command = managed.command("mono-sgen", CSHARP / "Collektive.SerializedFields.exe", CSHARP / "Collektive.Unity.dll", CSHARP / "Collektive.Samples.dll")
     output = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE, text=True, check=True).stdout
     return serialized_fields.parse(output)
@@ -51,7 +51,7 @@ class LocalIdsTest(unittest.TestCase):
 
 
 class ValidatorTest(unittest.TestCase):
-    """Each test breaks one thing in a copy of the package."""
+    """Tests the validator. Each test causes one error in a copy of the package."""
 
     def setUp(self) -> None:
         self.root = tempfile.mkdtemp(prefix="collektive-assets-")
@@ -70,7 +70,7 @@ class ValidatorTest(unittest.TestCase):
         path = os.path.join(self.root, path)
         with open(path) as file:
             text, count = re.subn(pattern, new, file.read(), count=1, flags=re.M)
-        self.assertEqual(count, 1, f"nothing to change in {path}")
+        self.assertEqual(count, 1, f"the pattern must occur in {path}")
         with open(path, "w") as file:
             file.write(text)
 
@@ -78,7 +78,7 @@ class ValidatorTest(unittest.TestCase):
         return str(assets.guid_of(os.path.join(self.root, path + ".meta")))
 
     def assert_problem(self, *words: str) -> None:
-        """Asserts that one problem contains all words."""
+        """Asserts that the validator reports a problem that contains all words."""
         problems = list(validate.problems(self.root, classes(), self.guids_file))
         self.assertTrue(any(all(word in problem for word in words) for problem in problems), "\n".join(problems) or "no problem was found")
 
@@ -239,7 +239,7 @@ class ValidatorTest(unittest.TestCase):
 
 
 class NativeLibrariesTest(unittest.TestCase):
-    """The rule for native libraries of one name: by player, processor and the first version of Unity that installs both."""
+    """Tests the rule for native libraries with the same name, which depends on players, processors and versions of Unity."""
 
     @staticmethod
     def library(platform: str, unity: str, name: str = "libcollektive_shim.so") -> plugins.Library:

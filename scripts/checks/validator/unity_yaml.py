@@ -7,12 +7,12 @@ import yaml
 
 
 class UnityYamlError(Exception):
-    """An error in a line."""
+    """An error in a file. The message begins with the number of the line."""
 
 
 @dataclass(frozen=True)
 class Document:
-    """One object of a file. All scalars of its fields are strings."""
+    """An object in a file. All scalars of its fields are strings."""
     class_id: int
     file_id: int
     stripped: bool
@@ -22,12 +22,12 @@ class Document:
 
 
 HEADER = ["%YAML 1.1", "%TAG !u! tag:unity3d.com,2011:"]
-# Not YAML: a word after the anchor.
+# The first line of an object. The word `stripped` after the anchor is not valid YAML.
 OBJECT = re.compile(r"--- !u!(\d+) &(-?\d+)( stripped)?")
 
 
 class _Loader(yaml.CBaseLoader):
-    """Rejects duplicate keys, and flow mappings like {a} whose keys have no values: PyYAML accepts both."""
+    """A loader that rejects duplicate keys, and flow mappings such as {a} whose keys have no values. PyYAML accepts both."""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Any, Any]:
         keys = []
@@ -40,7 +40,7 @@ class _Loader(yaml.CBaseLoader):
 
 
 def read(path: str) -> list[Document]:
-    """Returns the objects of a file. Raises UnityYamlError when it is not as Unity writes it."""
+    """Returns the objects in a file. Raises UnityYamlError if Unity would not write the file in this form."""
     with open(path, encoding="utf-8") as file:
         lines = file.read().split("\n")
     if lines[:2] != HEADER:
