@@ -1,4 +1,4 @@
-"""Fixtures: sweeps of a project with its own schema, Kotlin, C# and scenario."""
+"""Fixtures with sweeps of a project that has its own schema, Kotlin, C# and scenario."""
 import json
 import os
 import shutil
@@ -17,7 +17,7 @@ GRADIENTS = ROOT / "experiments/gradients"
 
 
 class Project:
-    """A copy of a project, and sweeps of it."""
+    """A copy of the project, and sweeps of the copy."""
 
     def __init__(self, folder: Path):
         self.folder = folder
@@ -38,7 +38,7 @@ class Project:
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=os.environ, start_new_session=True)
 
     def sweep(self, *words: str, out: str = "out", **keys: Any) -> subprocess.CompletedProcess[str]:
-        """Runs a sweep, for at most two minutes."""
+        """Runs a sweep into a folder, for at most two minutes."""
         process = self.start(*words, out=out, **keys)
         try:
             output, errors = process.communicate(timeout=120)
@@ -51,7 +51,7 @@ class Project:
         return pd.read_parquet(self.folder / out / f"{name}.parquet")
 
     def run(self, values: str, out: str = "out") -> Path:
-        """Returns the folder of a run."""
+        """Returns the folder of the run with the given values."""
         (found,) = (self.folder / out / "runs").glob(f"{values}-*")
         return found
 
@@ -62,7 +62,7 @@ class Project:
 
 
 def processes(*words: str) -> list[int]:
-    """Returns the ids of processes whose command lines contain all words."""
+    """Returns the ids of the processes whose command lines contain all words."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -81,7 +81,7 @@ def project(tmp_path: Path) -> Project:
 
 @pytest.fixture(scope="session")
 def lamps(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """A sweep of eight runs in `out`. Tests must not change it."""
+    """A project with a sweep of eight runs in `out`. Tests must not change this sweep."""
     finished_sweep = Project(tmp_path_factory.mktemp("lamps"))
     result = finished_sweep.sweep("--csv", **EIGHT)
     assert result.returncode == 0, result.stderr

@@ -1,6 +1,8 @@
 """
-Runs random experiments through sweep, tables and plot, and compares them with a model of the rows: `fuzz.py SECONDS SEED FINDINGS`. A finding is a folder of
-that name and the case's number, with the experiment and the sweep's results.
+Tests sweeps, tables and plots with random experiments: `fuzz.py SECONDS SEED FINDINGS`.
+
+The tables are compared with a model of their rows. The experiment and the results of each failed case stay in a folder, whose name consists of FINDINGS
+and the number of the case.
 """
 import contextlib
 import hashlib
@@ -44,7 +46,7 @@ MAX_RUNS = 12
 
 
 class Case:
-    """An experiment, and the rows that its tables must have."""
+    """A random experiment, and a model of the rows that its tables must have."""
 
     def __init__(self, chance: random.Random):
         self.chance = chance
@@ -61,7 +63,7 @@ class Case:
             else:
                 self.root["set"][key] = values[0]
         if not self.root["zip"] and not {"deltaTime", "outputs.interval"} & set(keys) and chance.random() < 0.3:
-            # The first interval is invalid with the second tick.
+            # No run has the first interval with the second tick, which would be invalid together.
             self.root["zip"] = {"deltaTime": [0.5, 1.5], "outputs.interval": [0.5, 1.5]}
         while self._count() > MAX_RUNS:
             key = chance.choice([key for key, values in self.root["vary"].items() if len(values) > 1])
@@ -84,7 +86,7 @@ class Case:
         return math.prod(len(values) for values in self.root["vary"].values()) * max([1, *(len(values) for values in self.root["zip"].values())])
 
     def grow(self) -> bool:
-        """Adds a value to a key, as `--resume` allows. Returns whether one was added."""
+        """Adds a value to a key, which is allowed with `--resume`. Returns whether it added one."""
         for key, values in self.root["vary"].items():
             more = [value for value in self._distinct(key) if identity(value) not in map(identity, values)]
             if more and self._count() // len(values) * (len(values) + 1) <= MAX_RUNS:
@@ -93,30 +95,30 @@ class Case:
         return False
 
     def text(self) -> str:
-        """The experiment as a file, in one of the forms that the player reads."""
+        """Returns the content of the experiment file, in one of the forms of JSON that the player accepts."""
         written = json.dumps(self.root, indent=self.chance.choice([None, 1]), ensure_ascii=self.chance.random() < 0.5)
         if self.chance.random() < 0.5:
             written = "// a comment\n" + written[:-1] + ", /* the end */ }"
         return ("\ufeff" if self.chance.random() < 0.3 else "") + written
 
     def runs(self) -> list[dict[str, Any]]:
-        """The values of the keys that vary, for each run."""
+        """Returns the values of the keys that vary, for each run."""
         vary, together = self.root["vary"], self.root["zip"]
         rows = [dict(zip(together, row)) for row in zip(*together.values())] or [{}]
         return [{**dict(zip(vary, chosen)), **row} for chosen in itertools.product(*vary.values()) for row in rows]
 
     def settings(self, values: dict[str, Any]) -> dict[str, Any]:
-        """The keys of a run with these values. An object is overridden by keys in it."""
+        """Returns all keys of a run with these values. Keys inside an object override the object's values."""
         fixed = self.root["set"]
         return {**DEFAULTS, **{f"fields.{key}": value for key, value in fixed.get("fields", {}).items()}, **fixed, **values}
 
     def measured(self) -> list[str]:
-        """The metrics of the tables."""
+        """Returns the metrics that the tables must contain."""
         return list(self.root.get("measure") or self.root["set"]["fields.names"].split("|"))
 
 
 def metrics_at(settings: dict[str, Any], second: float) -> dict[str, float]:
-    """Computes the scene's metrics like FuzzScene.cs."""
+    """Computes the scene's metrics in the same way as FuzzScene.cs."""
     names = settings["fields.names"].split("|")
     offset = second + len(settings["fields.label"].encode("utf-16-le")) // 2 + 100 * settings["fields.flag"] + settings["fields.place"][0]
     values = {name: settings["fields.slope"] * (index + 1) + offset for index, name in enumerate(names)}
@@ -128,18 +130,18 @@ def metrics_at(settings: dict[str, Any], second: float) -> dict[str, float]:
 
 
 def ticks(settings: dict[str, Any]) -> int:
-    """The number of ticks of a run."""
+    """Returns the number of ticks in a run."""
     return max(1, round(settings["seconds"] / settings["deltaTime"]))
 
 
 def seconds_of_rows(settings: dict[str, Any], interval: float) -> list[float]:
-    """The times of a table's rows: each interval ends with the first tick that is not before its end."""
+    """Returns the times of a table's rows. The row of an interval is written in the first tick at or after the end of the interval."""
     whole = (math.ceil(index * interval / settings["deltaTime"] - 1e-5) for index in itertools.count())
     return [second_of(settings, tick) for tick in itertools.takewhile(lambda tick: tick <= ticks(settings), whole)]
 
 
 def second_of(settings: dict[str, Any], tick: int) -> float:
-    """Returns the simulated time after a tick, with seven digits."""
+    """Returns the simulated time after a tick, rounded to seven digits."""
     return tick * float(f"{settings['deltaTime']:.7g}")
 
 
@@ -156,15 +158,15 @@ def require_close(found: Any, expected: float, what: str) -> None:
 
 
 def check(case: Case, out: Path) -> None:
-    """Compares the tables with the model."""
+    """Compares the tables of a sweep with the model."""
     runs, series = pd.read_parquet(out / "runs.parquet"), pd.read_parquet(out / "series.parquet")
     expected = case.runs()
-    require(len(runs) == len(expected) == len(set(runs["run"])), f"{len(runs)} rows of {len(expected)} runs")
+    require(len(runs) == len(expected) == len(set(runs["run"])), f"the table must have a row for each of {len(expected)} runs, but has {len(runs)} rows")
     columns = list(series.columns)
     metrics = columns[columns.index("second") + 1:columns.index("links")]
-    # Without a complete run, only the experiment knows the metrics.
+    # If no run is complete, the metrics are known only if the experiment lists them.
     is_known = "measure" in case.root or "complete" in set(runs["status"])
-    require(len(metrics) == len(case.measured()) or not is_known, f"columns {metrics} of {case.measured()}")
+    require(len(metrics) == len(case.measured()) or not is_known, f"the columns are {metrics}, but the metrics are {case.measured()}")
     nodes = pd.read_parquet(out / "nodes.parquet") if (out / "nodes.parquet").exists() else None
     for (_, row), values in zip(runs.iterrows(), expected):
         settings = case.settings(values)
@@ -183,7 +185,7 @@ def check(case: Case, out: Path) -> None:
             for second, found in zip(seconds, mine[column]):
                 require_close(found, metrics_at(settings, second)[name], f"{column} at {second} of {row['run']}")
         if "outputs.nodes" in case.root["set"] and is_complete:
-            require(nodes is not None, "no table of nodes")
+            require(nodes is not None, "the table of nodes is missing")
             assert nodes is not None
             cells = nodes[nodes["run"] == row["run"]]
             require(cells["second"].tolist() == [round(second, 6) for second in seconds_of_rows(settings, 1.5) for _ in range(settings["fields.nodes"])],
@@ -192,7 +194,7 @@ def check(case: Case, out: Path) -> None:
 
 
 def run_command(*words: str) -> tuple[int, str]:
-    """Runs a command of the package. Returns its exit code and errors."""
+    """Runs a command of the package. Returns its exit code and its standard error."""
     errors = io.StringIO()
     with contextlib.redirect_stderr(errors), contextlib.redirect_stdout(io.StringIO()):
         code = main(list(words))
@@ -200,14 +202,14 @@ def run_command(*words: str) -> tuple[int, str]:
 
 
 def damage(chance: random.Random, out: Path) -> int:
-    """Damages results. Returns the number of complete or failed runs that must be repeated."""
+    """Damages the results of random runs. Returns the number of finished runs that must be repeated."""
     folders = sorted((out / "runs").iterdir())
     chosen = chance.sample(folders, chance.randint(1, len(folders)))
     count = 0
     for folder in chosen:
         path = folder / chance.choice(sorted(set(os.listdir(folder)) - {MARKER}))
         content = path.read_bytes()
-        # JSON is still valid without the end of its last line.
+        # Removes at least two bytes, because the JSON would still be valid without its last line feed.
         changed = chance.choice([b"", content[:len(content) // 2], content[:-2], b"\0" * len(content), b"[" * 100_000, None])
         if changed == content:
             continue
@@ -227,7 +229,7 @@ def damage(chance: random.Random, out: Path) -> int:
 
 
 def mutate(chance: random.Random, content: bytes, path: Path) -> None:
-    """Reads damaged forms of an experiment: each is read, or is an error of one line."""
+    """Reads damaged forms of an experiment file. Each must be either valid, or an error of one line."""
     for _ in range(30):
         changed = bytearray(content)
         for _ in range(chance.randint(1, 4)):
@@ -247,12 +249,12 @@ def mutate(chance: random.Random, content: bytes, path: Path) -> None:
             read(str(path))
         except ExperimentError:
             code, errors = run_command("sweep", str(path), "--out", str(path.parent / "none"))
-            require(code == 1 and errors.startswith("collektive: ") and errors.count("\n") == 1, f"not one line: {errors}")
-            require(not (path.parent / "none").exists(), "an invalid experiment created its folder")
+            require(code == 1 and errors.startswith("collektive: ") and errors.count("\n") == 1, f"the error must have one line: {errors}")
+            require(not (path.parent / "none").exists(), "an invalid experiment must not create its folder")
 
 
 def try_case(case: Case, folder: Path) -> None:
-    """Sweeps, damages, resumes and plots an experiment."""
+    """Runs a sweep of an experiment, damages its results, resumes it and plots it."""
     chance, path, out = case.chance, folder / "experiment.json", folder / "out"
     fails = any(case.settings(values)["fields.fate"] for values in case.runs())
     words = ["sweep", str(path), "--out", str(out), "--jobs", "2", "--keep-going", *(["--csv"] if chance.random() < 0.3 else [])]
@@ -261,14 +263,14 @@ def try_case(case: Case, folder: Path) -> None:
         path.write_text(case.text(), encoding="utf-8")
         code, errors = run_command(*words, *more)
         require(code == int(fails) and "Traceback" not in errors, f"exit code {code}: {errors}")
-        require(not any(name.endswith(".part") for name in os.listdir(out / "runs")), "an unfinished folder was left behind")
+        require(not any(name.endswith(".part") for name in os.listdir(out / "runs")), "no unfinished folder may remain")
         check(case, out)
         return errors
 
     sweep()
     if chance.random() < 0.5:
         count = damage(chance, out)
-        require(sweep("--resume").count("is damaged; repeating the run") == count, f"the number of damaged runs is not {count}")
+        require(sweep("--resume").count("is damaged; repeating the run") == count, f"the sweep must report {count} damaged runs")
     if chance.random() < 0.4 and case.grow():
         fails = any(case.settings(values)["fields.fate"] for values in case.runs())
         sweep("--resume")
@@ -278,13 +280,16 @@ def try_case(case: Case, folder: Path) -> None:
         require(code == int(not is_any_complete), f"plot: exit code {code}: {errors}")
         if is_any_complete:
             page = (out / "figures.html").read_text(encoding="utf-8")
-            require("<script" not in page and "Content-Security-Policy" in page, "the page allows scripts")
-            require({path.parent for path in out.glob("**/*.svg")} == {out / "figures"}, "figures are outside the folder figures")
+            require("<script" not in page and "Content-Security-Policy" in page, "the page must not allow scripts")
+            require({path.parent for path in out.glob("**/*.svg")} == {out / "figures"}, "all figures must be in the folder figures")
     mutate(chance, case.text().encode(), folder / "changed.json")
 
 
 def run_failing(at: int, folder: Path, *words: str) -> tuple[int, int]:
-    """Runs a command in which one write, rename, deletion, sync or start of a process fails. Returns its exit code and the number of these calls."""
+    """Runs a command in which one call fails. Returns its exit code and the number of calls that could have failed.
+
+    These calls are writes, renames, deletions and syncs of files, and starts of processes.
+    """
     calls = folder / "calls"
     calls.write_bytes(bytes(8))
     variables = {**os.environ, "LD_PRELOAD": str(BUILD / "failing.so"), "FAILING_CALLS": str(calls), "FAILING_AT": str(at),
@@ -298,14 +303,14 @@ def run_failing(at: int, folder: Path, *words: str) -> tuple[int, int]:
 
 
 def check_folders(out: Path) -> None:
-    """Every folder is complete, marked as unfinished, or absent."""
+    """Checks that each folder is complete, marked as unfinished, or absent."""
     for folder in [*out.glob("runs/*"), *out.glob("bundle*")]:
         if folder.name.endswith(".part"):
-            require((folder / MARKER).exists() or not os.listdir(folder), f"{folder} is not marked")
+            require((folder / MARKER).exists() or not os.listdir(folder), f"{folder} must have a marker")
         elif folder.name == "bundle":
-            require((folder / "programs.jar").exists() and (folder / "Scenario.dll").exists(), "the bundle is not complete")
+            require((folder / "programs.jar").exists() and (folder / "Scenario.dll").exists(), "the bundle must be complete")
         elif not (folder / "run.json").exists():
-            require((folder / MARKER).exists(), f"{folder} has no run.json, and is not marked")
+            require((folder / MARKER).exists(), f"{folder} has no run.json, so it must have a marker")
         else:
             record = json.loads((folder / "run.json").read_text())
             for name, digest in record["files"].items():
@@ -315,7 +320,10 @@ def check_folders(out: Path) -> None:
 
 
 def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
-    """Sweeps while one call fails, resumes while another one fails, and resumes. Returns the number of calls of the sweep that could have failed."""
+    """Runs a sweep in which one call fails, resumes it while another call fails, and resumes it again without a failure.
+
+    Returns the number of calls in the first sweep that could have failed.
+    """
     path, out = folder / "experiment.json", folder / "out"
     path.write_text(case.text(), encoding="utf-8")
     words = ["sweep", str(path), "--out", str(out), "--jobs", "2", "--keep-going"]
@@ -334,7 +342,7 @@ def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
 
 
 def fuzz(seconds: float, seed: int, findings: Path, report: Callable[[str], None] = print) -> int:
-    """Tries experiments for a number of seconds, and at least one. Returns the number of findings."""
+    """Tests random experiments for a number of seconds, but at least one experiment. Returns the number of findings."""
     end, count, found = time.monotonic() + seconds, 0, 0
     while count == 0 or time.monotonic() < end:
         case = Case(random.Random(f"{seed}/{count}"))

@@ -11,8 +11,8 @@ KEYS = {"vary": {"seed": "1-16", "network.loss": [0.3]}, "set": {"seconds": 10}}
 
 @pytest.fixture
 def cluster() -> Iterator[Cluster]:
-    """Two nodes with separate processes on the loopback interface."""
-    # Detects a lost node within two seconds instead of twenty.
+    """A cluster of two nodes, whose processes communicate over the loopback interface."""
+    # With these settings, Ray detects a lost node within two seconds instead of twenty.
     checks = {"health_check_initial_delay_ms": 0, "health_check_period_ms": 500, "health_check_failure_threshold": 3}
     made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False, "_system_config": checks})
     made.add_node(num_cpus=1)

@@ -1,4 +1,4 @@
-"""Tests experiment files: errors have a line and are reported before the first run."""
+"""Tests that errors in experiment files are reported with their line, before the first run."""
 import json
 import os
 from pathlib import Path
@@ -110,7 +110,7 @@ def test_any_value_gives_a_valid_folder_name() -> None:
 ])
 def test_two_configurations_never_share_a_folder(one: dict[str, object], other: dict[str, object]) -> None:
     assert named(one) != named(other)
-    # A name must not be a prefix of another one either, because folders of unfinished runs have a suffix.
+    # A name must not be a prefix of another one, because the folder of an unfinished run has a suffix after the name.
     assert not named(other).startswith(named(one))
 
 

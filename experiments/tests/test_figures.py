@@ -1,4 +1,4 @@
-"""Tests the figures of ./collektive plot: kinds, options, errors and files."""
+"""Tests the figures of ./collektive plot with their kinds, options, errors and files."""
 import json
 import re
 import shutil
@@ -25,7 +25,7 @@ KINDS = {
 
 
 def write_sweep(folder: Path, seeds: int = 5, losses: Sequence[float] = LOSSES, **settings: Any) -> str:
-    """Writes the tables of a sweep in which lossy runs of one program do not converge."""
+    """Writes the tables of a sweep. With one of the programs, runs with message loss do not converge."""
     random = np.random.default_rng(3)
     keys = {"program": PROGRAMS, "network.loss": losses, "seed": range(1, seeds + 1)}
     rows: list[dict[str, Any]] = []
@@ -48,13 +48,13 @@ def write_sweep(folder: Path, seeds: int = 5, losses: Sequence[float] = LOSSES, 
 
 @pytest.fixture(scope="module")
 def sweep(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """A sweep's folder without figures. Tests must not change it."""
+    """The folder of a sweep without figures. Tests must not change it."""
     return write_sweep(tmp_path_factory.mktemp("figures") / "out")
 
 
 @pytest.fixture
 def out(sweep: str) -> Iterator[Path]:
-    """The sweep's folder, whose figures are deleted after the test."""
+    """The folder of the sweep. Its figures are deleted after each test."""
     yield Path(sweep)
     shutil.rmtree(Path(sweep) / "figures", ignore_errors=True)
     (Path(sweep) / "figures.html").unlink(missing_ok=True)
@@ -64,7 +64,7 @@ def out(sweep: str) -> Iterator[Path]:
 def test_each_kind_is_a_vector_file_with_embedded_fonts(out: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(out), "--metric", "error", *KINDS[kind], "--size", "3.3x2.2", "--style", "ieee"]) == 0
     paths = capsys.readouterr().out.split()
-    assert len(paths) == 3 * (4 if kind in ("time", "ecdf") else 1), "a figure for each value of a key that is neither x nor by"
+    assert len(paths) == 3 * (4 if kind in ("time", "ecdf") else 1), "there must be a figure for each value of a key that is neither x nor by"
     pdf = Path(paths[1]).read_bytes()
     assert b"/MediaBox [ 0 0 237.6 158.4 ]" in pdf
     assert b"/FontFile2" in pdf and b"/Type3" not in pdf
@@ -159,7 +159,7 @@ def test_figures_and_labels_of_the_experiment_are_on_the_page(tmp_path: Path) ->
     assert page.count("<svg") == 4
     assert {"message loss", "mean error [m]", "Bellman-Ford"} <= set(re.findall(">([^<]+)</text>", page))
     assert "mean error against message loss: mean and 95 % bootstrap interval of 3 runs per configuration." in page
-    # The figures and labels of another file replace them.
+    # The figures and labels of another file replace those of the sweep.
     (tmp_path / "scenario.json").write_text("{}")
     experiment: dict[str, Any] = {"version": 1, "scenario": "scenario.json", "vary": {"program": list(PROGRAMS), "network.loss": list(LOSSES), "seed": [1]}}
     (tmp_path / "e.json").write_text(json.dumps({**experiment, "labels": {"eror": "x"}}))
@@ -174,7 +174,7 @@ def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
     with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe an existing figure: 'error-line-network.loss-"):
         plot(write_sweep(tmp_path / "out", 1, figures=[figure, figure]))
     assert not (tmp_path / "out/figures").exists()
-    # So are those of a requested figure and of another metric.
+    # The names of a requested figure and of a metric's figure must not be equal either.
     folder = write_sweep(tmp_path / "one", 3, (0.0,), figures=[{"metric": "error"}])
     for path in (tmp_path / "one/runs.parquet", tmp_path / "one/series.parquet"):
         table = pd.read_parquet(path).query("program == 'bellman-ford'")

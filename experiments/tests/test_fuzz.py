@@ -1,4 +1,4 @@
-"""Tests the experiment fuzzer in short runs, and single failing calls."""
+"""Runs the fuzzer of experiments for a short time, and tests sweeps in which a single call fails."""
 import random
 from pathlib import Path
 

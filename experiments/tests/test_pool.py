@@ -13,7 +13,7 @@ from collektive_experiments.worker import Outcome
 
 
 class FakeWorker:
-    """A worker whose run ends on request or when it is killed."""
+    """A worker whose run ends when the test requests it, or when the worker is killed."""
 
     def __init__(self, *_: Any):
         self.began = threading.Event()
@@ -58,7 +58,7 @@ Events = queue.SimpleQueue[Ended | BaseException]
 
 @pytest.fixture
 def started(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> tuple[LocalPool, FakeWorker, Events]:
-    """A pool whose only worker has begun the only run."""
+    """Returns a pool whose only worker has begun the only run."""
     worker = FakeWorker()
     monkeypatch.setattr(sweep, "Worker", lambda *_: worker)
     pool = LocalPool(cast(Store, FakeStore(str(tmp_path))), 1, 60, False)

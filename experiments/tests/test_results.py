@@ -38,7 +38,7 @@ def test_the_same_values_give_the_same_interval() -> None:
     low, high = interval(values)
     assert (low, high) == interval(values)
     assert low < 4.5 < high
-    # The spread of a mean of ten is 2.87 / sqrt(10).
+    # The standard deviation of the mean of ten values is 2.87 / sqrt(10).
     assert abs((high - low) - 2 * 1.96 * 2.87 / 10 ** 0.5) < 0.3
 
 
@@ -79,7 +79,7 @@ def test_runs_of_equal_seeds_are_paired() -> None:
     assert (row["pairs"], row["delta"]) == (20, 1)
     assert 0.2 < row["difference_low"] < 0.3 < row["difference_high"] < 0.4
     assert row["p"] < 0.01
-    # Without pairs, noise hides the difference.
+    # If the runs are not paired, noise hides the difference.
     paired.runs["seed"] = range(40)
     row = compare(paired, "error", "program").iloc[0]
     assert row["pairs"] == 0 and row["p"] > 0.5
@@ -106,12 +106,12 @@ def test_holm_corrects_as_published_and_never_lowers_or_reorders() -> None:
 
 
 def test_kaplan_meier_reproduces_a_published_curve() -> None:
-    # Freireich et al. 1963, 6-mercaptopurine: weeks in remission.
+    # Weeks in remission with 6-mercaptopurine, from Freireich et al. (1963).
     times = np.array([6, 6, 6, 7, 10, 13, 16, 22, 23, 6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35], float)
     moments, shares, low, high = kaplan_meier(times, np.arange(21) < 9)
     assert list(moments) == [6, 7, 10, 13, 16, 22, 23]
     assert 1 - shares == pytest.approx([0.857, 0.807, 0.753, 0.690, 0.627, 0.538, 0.448], abs=5e-4)
-    # R: survfit(..., conf.type = "log-log")
+    # These values come from R: survfit(..., conf.type = "log-log").
     assert (1 - high[0], 1 - low[0]) == pytest.approx((0.620, 0.952), abs=1e-3)
 
 
@@ -122,7 +122,7 @@ def test_kaplan_meier_of_uncensored_runs_is_the_empirical_distribution() -> None
         moments, shares, low, high = kaplan_meier(times, np.ones(size, bool))
         assert shares == pytest.approx([(times <= moment).mean() for moment in moments])
         assert ((low <= shares) & (shares <= high))[:-1].all()
-        # Censored runs lower the estimate, and runs that are all censored give none.
+        # Censored runs lower the estimate. If all runs are censored, there is nothing to estimate.
         moments, shares, _, _ = kaplan_meier(times, random.random(size) < 0.5)
         assert all(share <= (times <= moment).mean() + 1e-12 for moment, share in zip(moments, shares))
     assert len(kaplan_meier(np.ones(3), np.zeros(3, bool))[0]) == 0

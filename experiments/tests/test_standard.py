@@ -1,4 +1,4 @@
-"""Tests the standard scene and metrics in SQL: errors before the first run, and reproducible results."""
+"""Tests the standard scene and metrics in SQL. Errors must be reported before the first run, and results must be reproducible."""
 import base64
 import copy
 import csv
@@ -98,7 +98,7 @@ SCENARIO: dict[str, Any] = {
     "metrics": {"reached": "avg(flag)", "mean": "avg(value) filter (where flag)", "sources": "total(source)", "degree_mean": "avg(degree)"},
     "converged": {"reached": {"from": 0.9}}, "seconds": 5, "deltaTime": 0.1,
 }
-# Path of a key, its value and part of the message. SqlMetricsTests has more metrics.
+# The path of a key, an invalid value, and a part of the message. SqlMetricsTests tests more invalid metrics.
 REFUSED: list[tuple[str, Any, str]] = [
     ("metrics.bad", "avg(knwon)", "no such column: knwon, at character 5 of 'avg(knwon)'; columns: id, time, degree, x, y, z, message_values, "),
     ("metrics.bad", "avg(flag", "'avg(flag' ends too early"),
@@ -186,7 +186,7 @@ class Study:
         self.worker = Worker(str(self.bundle), str(folder / "worker.txt"))
 
     def write(self, scenario: dict[str, Any]) -> str:
-        """Replaces the scenario, and returns its text."""
+        """Writes the scenario of the study, and returns its text."""
         text = json.dumps({**scenario, **self.paths}, indent=1)
         (self.bundle / "inputs/scenario.json").write_text(text)
         return text
@@ -256,7 +256,7 @@ def test_runs_are_reproducible_in_one_process_and_with_two_threads(study: Study,
         manifest = json.loads((out / "manifest.json").read_text())
         results.append((manifest["digest"], manifest["end"], manifest["nodes"], manifest["converged"]))
     assert results[0] == results[1] == results[2]
-    # The process of short runs is used again: neither the scene nor the metrics keep anything.
+    # The process is reused for later runs, because neither the scene nor the metrics keep state.
     assert study.worker._idle is not None
     assert not study.worker._idle.is_fresh
 
@@ -291,7 +291,7 @@ def test_metrics_have_the_expected_values(study: Study, tmp_path: Path) -> None:
     assert study.worker.run({"seconds": 3, "outputs.interval": 0.1, "stopWhenConverged": True}, "{}", str(tmp_path / "stopped"), 300,
                             is_repeated=False).status == "complete"
     assert json.loads((tmp_path / "stopped/manifest.json").read_text())["ticks"] == 5
-    # The band contains the value at the start, before the first round.
+    # The value is in the band at the start, before the first round.
     assert study.worker.run({"seconds": 3, "outputs.interval": 0.2, "stopWhenConverged": True, "converged": {"nodes": {"from": 9}}}, "{}",
                             str(tmp_path / "first"), 300, is_repeated=False).status == "complete"
     manifest = json.loads((tmp_path / "first/manifest.json").read_text())
@@ -305,7 +305,7 @@ def test_functions_are_metrics_like_sql(study: Study, tmp_path: Path) -> None:
                  "converged": {"step": {"from": 1, "to": 1, "seconds": 0.5}},
                  "fields": {"deployment": {"nodes": 9, "columns": 3, "spacing": 1}, "neighbourhood": {"radius": 1.1},
                             "sets": [{"name": "source", "ids": [0], "until": 1.7}]}})
-    # The last tick is not that of a row.
+    # The last tick does not coincide with a row of the table.
     assert study.worker.run({"seconds": 2.2}, "{}", str(tmp_path / "out"), 300, is_repeated=False).status == "complete"
     with (tmp_path / "out/metrics.csv").open() as file:
         rows = list(csv.DictReader(file))
@@ -334,13 +334,13 @@ def test_a_set_has_its_members_from_one_tick_to_another(study: Study, tmp_path: 
     assert study.worker.run({"seconds": 1}, "{}", str(tmp_path / "out"), 300, is_repeated=False).status == "complete"
     with (tmp_path / "out/metrics.csv").open() as file:
         active = {row["sensed"] for row in csv.DictReader(file) if row["sources"] == "1"}
-    # 0.3 as a float is greater.
+    # The set is active at 0.3 s, because 0.3 is slightly greater as a float than as a double.
     assert active == {"0.3", "0.4", "0.5", "0.6", "0.7"}
 
 
 SPEED = "sqrt(pow(sensor_velocity_x, 2) + pow(sensor_velocity_z, 2))"
 NEAREST = "(select min(pow(other.x - nodes.x, 2) + pow(other.z - nodes.z, 2)) from nodes other where other.id <> nodes.id)"
-# Fields, simulated seconds, and the least and greatest value of metrics at the end.
+# The fields of each scene, the simulated seconds, and the minimum and maximum of each metric at the end.
 SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
     ({"deployment": {"nodes": 6, "columns": 3, "spacing": 2}}, 0.1, {"max(x)": (4, 4), "max(z)": (2, 2), "count(*)": (6, 6)}),
     ({"deployment": {"nodes": 36, "spacing": 2, "disorder": 0.5}}, 0.1, {"max(abs(x - 2 * round(x / 2)))": (0.3, 0.5), "min(abs(z))": (0, 0.5)}),
@@ -365,15 +365,16 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
      {"count(*) filter (where id < 100)": (45, 75), "count(*) filter (where id >= 100)": (20, 70)}),
     ({"deployment": {"kind": "File", "file": "stations.csv"}, "sets": [{"name": "source", "ids": [7]}]}, 0.1,
      {"count(*)": (2, 2), "max(id)": (7, 7), "total(x) filter (where source)": (1, 1), "total(z) filter (where id = 3)": (4, 4)}),
-    # Closed-form results. A circle cut by a square's sides (mean degree 19.83, standard deviation 0.4), and news on a ring: n / 2 rounds.
+    # The next results have closed forms. In a square, whose sides cut off parts of the nodes' circles, the mean degree is 19.83 with a standard deviation
+    # of 0.4. On a ring of n nodes, a message reaches all nodes after n / 2 rounds.
     ({"deployment": {"kind": "Uniform", "nodes": 400, "size": [30, 30]}, "neighbourhood": {"radius": 4}}, 0.1, {"avg(degree)": (18.8, 20.8)}),
     ({"deployment": {"kind": "File", "file": "ring.csv"}, "neighbourhood": {"radius": 1}, "sets": [{"name": "source", "ids": [0]}]}, 1,
      {"sum(value = 9)": (2, 2), "sum(value = 10)": (0, 0), "avg(degree)": (2, 2)}),
     ({"deployment": {"kind": "File", "file": "ring.csv"}, "neighbourhood": {"radius": 1}, "sets": [{"name": "source", "ids": [0]}]}, 1.1,
      {"max(value)": (10, 10), "sum(value)": (100, 100)}),
-    # A gradient without sources: two paths of 8 bytes, with Unit (0 bytes) and null (1 byte).
+    # In a gradient without sources, a message has two paths of 8 bytes, with Unit (0 bytes) and null (1 byte).
     ({"deployment": {"nodes": 9}}, 0.1, {"avg(message_values)": (2, 2), "avg(message_bytes)": (17, 17)}),
-    # A degree of latitude is 111195 m; at 44 degrees one of longitude is 79987 m.
+    # A degree of latitude is 111195 m long, and at a latitude of 44 degrees, a degree of longitude is 79987 m long.
     ({"deployment": {"kind": "File", "file": "cities.geojson"}}, 0.1,
      {"count(*)": (3, 3), "total(x) filter (where id = 1)": (79.98, 79.99), "min(x) + max(x)": (0, 0), "max(z) - min(z)": (111.1, 111.2)}),
     ({"deployment": {"kind": "File", "file": "walk.csv"}, "movement": {"kind": "Trace"}, "reading": {"file": "values.csv"}}, 1.1,

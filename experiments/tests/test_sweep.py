@@ -19,11 +19,11 @@ from collektive_experiments import compare, files, load
 from collektive_experiments.store import Store
 
 MANY = {"vary": {"seed": "1-16"}, "set": {"seconds": 20}}
-"""Runs that take long enough to be disturbed."""
+"""Keys of a sweep whose runs take so long that tests can disturb them."""
 
 
 def await_runs(project: Project, count: int, out: str = "out") -> None:
-    """Waits until a number of runs have ended."""
+    """Waits until the given number of runs have ended."""
     end = time.monotonic() + 60
     runs = project.folder / out / "runs"
     while not runs.is_dir() or sum(not name.endswith(".part") for name in os.listdir(runs)) < count:
@@ -51,9 +51,9 @@ def test_each_run_is_a_row_with_its_parameters_and_results(lamps: Project) -> No
     assert list(runs["nodes"]) == list(runs["fields.lamps"])
     assert [name.rpartition("-")[0] for name in runs["run"][:2]] == ["fields.lamps=5,network.loss=0,seed=1", "fields.lamps=5,network.loss=0,seed=2"]
     assert list(runs.loc[runs["network.loss"] == 0, "agreeing"]) == [5, 5, 10, 10]
-    assert "seen" not in runs.columns, "only what is measured"
+    assert "seen" not in runs.columns, "a metric that is not measured must not have a column"
     assert list(runs.loc[runs["network.loss"] == 0, "converged.agreeing"]) == [1.0] * 4 or runs["converged.agreeing"].isna().any()
-    # 1 s, minus 0.2 s in the band.
+    # The runs last 1 s, and a run converges only if it stays in the band for 0.2 s.
     assert set(runs.loc[runs["converged.agreeing"].isna(), "censored.agreeing"]) <= {0.8}
     assert (runs["converged.agreeing"].isna() != runs["censored.agreeing"].isna()).all()
 
@@ -109,7 +109,7 @@ def test_csv_tables_do_not_become_outdated(project: Project) -> None:
 def test_changed_scripts_are_not_mixed_with_earlier_runs(project: Project) -> None:
     keys = {"vary": {"seed": [1]}}
     assert project.sweep(vary={"sed": [1]}).returncode == 1
-    # A sweep that fails before its first run releases the folder.
+    # A sweep that fails before its first run does not keep the folder locked.
     assert project.sweep(**keys).returncode == 0
     scene = project.folder / "project/scene/Lamps.cs"
     scene.write_text(scene.read_text() + "\n// other\n")
@@ -203,7 +203,7 @@ def test_a_sweep_stops_if_its_first_runs_fail_in_the_same_way_unless_keep_going(
     keys: dict[str, Any] = {"vary": {"seed": "1-8"}, "set": {"fields.lamps": 0}}
     result = project.sweep(**keys)
     assert result.returncode == 1
-    assert "the sweep stops: its first 5 runs all failed in the same way" in result.stderr
+    assert "the sweep stopped: its first 5 runs all failed in the same way" in result.stderr
     result = project.sweep("--resume", "--keep-going", **keys)
     assert result.returncode == 1
     assert list(project.table()["status"]) == ["failed"] * 8
@@ -211,7 +211,7 @@ def test_a_sweep_stops_if_its_first_runs_fail_in_the_same_way_unless_keep_going(
 
 def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(project: Project) -> None:
     scene = project.folder / "project/scene/Lamps.cs"
-    # 1: an exception; 2: the process dies; 3: it hangs.
+    # With fate 1, the scene throws an exception. With fate 2, its process is killed, and with fate 3, it hangs.
     scene.write_text(scene.read_text().replace("public bool loop;", "public bool loop;\n        public int fate;").replace(
         "for (var i = 0; i < lamps; i++)\n",
         'if (fate == 1) throw new System.InvalidOperationException("no luck");\n'
@@ -270,7 +270,7 @@ def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lam
     disk.mkdir()
     keep = project.folder / "out"
     bundle = sum(file.stat().st_size for file in (lamps.folder / "out/bundle").rglob("*") if file.is_file())
-    # The disk has space for the inputs and some of the runs, which take 0.1 MB each.
+    # The disk has space for the inputs and for some of the runs, each of which takes 0.1 MB.
     size = f"{bundle // 1024 + 1500}k"
     script = 'mount -t tmpfs -o size="$1" none "$2" || exit 99; shift; disk=$1; keep=$2; shift 2; "$@"; code=$?; cp -r "$disk/out" "$keep"; exit $code'
     nodes = {"fields": ["position"], "interval": 0.1}
@@ -289,7 +289,7 @@ def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lam
 
 
 def code_block(language: str) -> str:
-    """The first code block in a language of the page about experiments."""
+    """Returns the first code block in a language on the page about experiments."""
     return str(re.findall(rf"(?ms)^```{language}\n(.*?)^```$", (ROOT / "Documentation~/experiments.md").read_text())[0])
 
 
@@ -306,7 +306,7 @@ def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pyt
         assert result.returncode == 0, result.stderr
     results = load(str(out))
     effects = compare(results, "converged.error", "program").set_index(["network.loss", "a", "b"])
-    # Without loss all converge; with it, distances alone take longer than paths.
+    # Without message loss, all runs converge. With loss, the program that sends only distances takes longer than the program that sends paths.
     assert results.runs["converged.error"].notna().all()
     assert effects.loc[(0.4, "path-vector", "bellman-ford"), "difference"] > 0
     assert {"error-time.svg", "error-time.pdf", "error-end.svg", "reached-time.svg", "converged.error-end.pdf",
@@ -314,7 +314,7 @@ def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pyt
     page = (out / "figures.html").read_text()
     assert page.count("<svg") == 7
     assert "95 % bootstrap interval of 3 runs per configuration" in page
-    # The page's Python, in the folder of the sweep.
+    # Runs the Python code of the page in the folder of the sweep.
     monkeypatch.chdir(tmp_path)
     names: dict[str, str] = {}
     exec(code_block("python"), names)
@@ -360,7 +360,7 @@ def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
     for index in ("4", "-1"):
         unknown = subprocess.run([script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": index})
         assert (unknown.returncode, f"the job has no task {index}" in unknown.stderr, "Traceback" in unknown.stderr) == (1, True, False), unknown.stderr
-    # Runs of a missing task are repeated.
+    # The sweep itself executes the runs of tasks that did not run.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr
     assert "3 of 4 runs are already complete" in resumed.stderr

@@ -20,7 +20,7 @@ TWO = {"vary": {"seed": "1-2"}}
 
 
 def change_scene(project: Project, build: str = "", declared: str = "", measure: str = "", names: str | None = None) -> None:
-    """Adds C# to the scene: at the beginning of its building, to its namespace, and at the end of a measurement."""
+    """Adds C# to the scene: `build` at the beginning of Build, `declared` before the class, and `measure` at the end of Measure."""
     scene = project.folder / "project/scene/Lamps.cs"
     text = scene.read_text().replace("for (var i = 0; i < lamps; i++)\n", build + "\n            for (var i = 0; i < lamps; i++)\n", 1)
     text = text.replace("public sealed class LampScene", declared + "\n    public sealed class LampScene")
@@ -32,7 +32,7 @@ def change_scene(project: Project, build: str = "", declared: str = "", measure:
 
 
 def change_program(project: Project, statement: str) -> None:
-    """Adds Kotlin at the beginning of the program."""
+    """Adds a Kotlin statement at the beginning of the program."""
     program = project.folder / "project/programs/Brightest.kt"
     program.write_text(program.read_text().replace("val mine = sensors.brightness()", statement + "\n    val mine = sensors.brightness()"))
 
@@ -51,7 +51,7 @@ STATE = [
     ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",
      "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
 ]
-# States of the same kinds.
+# More examples of the same kinds of state.
 MORE_STATE = [
     ("lamps += Kept.List.Count; Kept.List.Add(1);", "internal static class Kept { public static readonly List<int> List = new List<int>(); }"),
     ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
@@ -74,7 +74,7 @@ def test_a_run_is_not_affected_by_scripts_of_earlier_runs(project: Project, buil
 def test_static_fields_are_initialised_in_the_run_that_needs_them(project: Project) -> None:
     change_scene(project, "lamps += (int)(First.Value * 50);", "internal static class First { public static readonly float Value = Random.value; }")
     assert project.sweep("--jobs", "1", **TWO).returncode == 0
-    assert len(set(project.table()["nodes"])) > 1, "not the value of each run's seed"
+    assert len(set(project.table()["nodes"])) > 1, "each run must have the value of its own seed"
 
 
 def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project) -> None:
@@ -194,7 +194,7 @@ def test_nothing_is_written_through_a_symbolic_link(project: Project, name: str)
     assert os.listdir(elsewhere) == ["thesis.txt"]
     assert (elsewhere / "thesis.txt").read_text() == "all of it"
     assert "Traceback" not in result.stderr
-    # A file is replaced, and the link with it.
+    # The sweep replaces these two files, and with them the links. All other links are errors.
     assert (result.returncode == 0) == (name in ("sweep.json", "runs.parquet"))
 
 
@@ -209,7 +209,7 @@ def test_resume_repeats_runs_with_damaged_results(project: Project) -> None:
         if damage == "removed":
             path.unlink()
         else:
-            # At the end of a line, where the rest is a valid table.
+            # Cuts the file at the end of a line, so the rest is a valid table.
             path.write_bytes(b"" if damage == "empty" else content[:content.rindex(b"\n", 0, -1) + 1])
     (project.folder / "out/sweep.json").write_text("")
     result = project.sweep("--resume", **keys)

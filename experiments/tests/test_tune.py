@@ -32,7 +32,7 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
     assert [row["trial"] for row in rows] == ["0", "1", "2", "3", "4"]
     best = max(rows, key=lambda row: float(row["agreeing"]))
     assert f"5 trials, best agreeing {float(best['agreeing']):g} in trial" in second.stdout
-    # The value of a trial is the mean of its runs.
+    # The value of a trial is the mean over its runs.
     for row in rows:
         ends = [json.loads((folder / "manifest.json").read_text()) for folder in (project.folder / "out/runs").iterdir()]
         values = [end["end"]["agreeing"] for end in ends if end["scenario"]["fields"]["lamps"] == int(row["fields.lamps"])

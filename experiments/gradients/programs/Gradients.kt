@@ -13,13 +13,13 @@ import standard.SensorData
 import java.util.ArrayDeque
 import kotlin.math.abs
 
-/** Distances of [FAR] metres or more count as unknown. */
+/** The distance in metres that stands for an unknown distance. Greater distances count as unknown, too. */
 private const val FAR = 100.0
 
-/** Ids of the nodes that may be sources. */
+/** The ids of the nodes that may be sources. */
 private val CANDIDATES = listOf(0, 48)
 
-/** Whether the node is the source: its set is active only before or after the switch. */
+/** Whether the node is the source. Each candidate is in a set that is active only before or only after the switch. */
 private val SensorData.isSource get() = sets() != 0L
 
 private fun Aggregate<Int>.metric(sensors: SensorData) =
@@ -29,13 +29,13 @@ private fun SensorData.start() = if (isSource) 0.0 else Double.POSITIVE_INFINITY
 
 private fun answer(distance: Double) = ActuatorData(value = minOf(distance, FAR), flag = distance < FAR)
 
-/** Distances along self-avoiding paths, which are part of the messages. */
+/** Computes distances along self-avoiding paths, which the messages contain. */
 @Program("path-vector")
 public fun Aggregate<Int>.pathVector(sensors: SensorData): ActuatorData = answer(
     gradientCast(sensors.isSource, sensors.start(), metric(sensors), accumulateData = { _, toNeighbor, data -> data + toNeighbor }),
 )
 
-/** A permanent gradient from each candidate. The nearest candidate that is a source counts. */
+/** Computes a permanent gradient from each candidate, and returns the distance to the nearest candidate that is a source. */
 @Program("multi-path")
 public fun Aggregate<Int>.multiPath(sensors: SensorData): ActuatorData {
     val distances = multiGradientCast(
@@ -47,26 +47,26 @@ public fun Aggregate<Int>.multiPath(sensors: SensorData): ActuatorData {
     return answer(distances.values.min())
 }
 
-/** Distances alone: small messages, but distances creep up when a source vanishes. */
+/** Sends only distances. Messages are small, but distances creep up when a source disappears. */
 @Program("bellman-ford")
 public fun Aggregate<Int>.bellmanFord(sensors: SensorData): ActuatorData = answer(
     bellmanFordGradientCast(sensors.isSource, sensors.start(), { _, toNeighbor, data -> data + toNeighbor }, metric = metric(sensors)),
 )
 
-/** The mean difference between the nodes' distances and the shortest paths along links, in metres. */
+/** Returns the mean difference in metres between the nodes' distances and the lengths of the shortest paths along links. */
 @Metric("error")
 public fun error(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
     val shortest = shortestPaths(network)
     return network.nodes.map { abs((it.answer?.value ?: FAR) - shortest.getValue(it.id)) }.average()
 }
 
-/** The algorithm of Bellman and Ford, with a queue of the nodes whose distance became shorter. */
+/** Computes the shortest paths with the algorithm of Bellman and Ford, with a queue of the nodes whose distance has become shorter. */
 private fun shortestPaths(network: NetworkSnapshot<SensorData, ActuatorData>): Map<Int, Double> {
     val distances = network.nodes.associateTo(HashMap()) { it.id to if (it.sensors?.isSource == true) 0.0 else FAR }
     val pending = ArrayDeque(network.nodes)
     while (true) {
         val node = pending.poll() ?: return distances
-        // Links have the same length in both directions.
+        // The incoming links are sufficient, because links have the same length in both directions.
         for (link in node.links) {
             val path = distances.getValue(node.id) + link.length
             if (path >= distances.getValue(link.from)) continue

@@ -12,7 +12,7 @@ namespace Fuzz
         protected override void Sense(ref fuzz.SensorData data) => data.Level = Level;
     }
 
-    /// <summary>A scene with arbitrary metric names, whose values the fuzzer's model also computes.</summary>
+    /// <summary>A scene with metrics of arbitrary names. The fuzzer's model computes their values, too.</summary>
     public sealed class FuzzScene : SceneBuilder
     {
         public string names = "one";
