@@ -1,4 +1,4 @@
-"""Sweeps, tables and figures of Collektive for Unity."""
+"""Runs sweeps of Collektive for Unity, and loads, compares and plots their results."""
 from .experiment import Experiment, Run, read
 from .figure_options import FigureOptions, read_options
 from .figures import at_end, draw, over_time, plot

@@ -1,4 +1,4 @@
-"""The commands ./collektive sweep, tune and plot."""
+"""Implements the commands ./collektive sweep, tune and plot."""
 import argparse
 import os
 import re
@@ -15,7 +15,7 @@ from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
 
 
 class Parser(argparse.ArgumentParser):
-    """Reports errors like the other commands."""
+    """A parser that reports errors in the same way as the other commands."""
 
     def error(self, message: str) -> NoReturn:
         """Ends the program."""
@@ -76,7 +76,7 @@ def _sweep(options: argparse.Namespace) -> int:
 
 
 def _tune(options: argparse.Namespace) -> int:
-    # Optuna is downloaded only when it is used.
+    # Imported here, because Optuna is downloaded only for this command.
     from .tune import read_search, tune
     experiment = experiments.read(options.experiment)
     search = read_search(experiment)
@@ -88,24 +88,24 @@ def _tune(options: argparse.Namespace) -> int:
 def _pool(options: argparse.Namespace, store: Store) -> Pool:
     if options.ray is None:
         return LocalPool(store, options.jobs, options.time_limit, options.trust_jvm)
-    # Ray is downloaded only when it is used.
+    # Imported here, because Ray is downloaded only for this option.
     from .cluster import RayPool
     return RayPool(store, options.ray, options.time_limit, options.trust_jvm)
 
 
 def _threads(experiment: experiments.Experiment) -> int:
-    """Returns the largest number of threads of a run."""
+    """Returns the largest number of threads that a run uses."""
     threads = Located(experiment.scenario).root.get("threads", 1)
     return int(max(run.settings.get("threads", threads) for run in experiment.runs()))
 
 
 def _line(message: str) -> str:
-    """Returns a message on one line, with control characters escaped."""
+    """Converts a message to one line, and escapes its control characters."""
     return re.sub(r"[\x00-\x1f\x7f\u2028\u2029]", lambda found: repr(found[0])[1:-1], message)
 
 
 def _plot(options: argparse.Namespace) -> int:
-    # Importing Matplotlib takes half a second.
+    # Imported here, because importing Matplotlib takes half a second.
     from .figures import plot
     given = {option: value for option in figure_options.KEYS if (value := getattr(options, option)) is not None}
     requested = figure_options.read_options(given, lambda option, problem: ExperimentError(f"plot: --{option} {problem}")) if given else None

@@ -1,4 +1,4 @@
-"""The bundle of a sweep: a folder with copies of the scenario's inputs, the compiled code and the player."""
+"""Creates the bundle of a sweep, a folder with copies of the scenario's inputs, the compiled code and the player."""
 import hashlib
 import json
 import os
@@ -12,11 +12,11 @@ from .positions import ExperimentError, Located
 
 
 def write_scenario(scenario: str, folder: str) -> None:
-    """Writes the scenario beside the copies of its inputs, whose paths and hashes are in inputs.json."""
+    """Writes the scenario to the bundle, with the paths and hashes of the copied inputs from inputs.json."""
     root: dict[str, Any] = Located(scenario).root
     with open(os.path.join(folder, "inputs.json"), encoding="utf-8") as file:
         root.update(json.load(file)["paths"])
-    # Runs of a sweep write no replay pages.
+    # Runs of a sweep do not write replay pages.
     outputs = root.setdefault("outputs", {})
     if isinstance(outputs, dict):
         outputs.update(metrics=True, replay=False, pictures=False)
@@ -37,14 +37,15 @@ def fingerprint(folder: str) -> str:
 
 
 def programs_jar(bundle: str, runtime: str) -> str:
-    """Returns the path of the programs for a runtime, or for that of the scenario if it is empty."""
+    """Returns the path of the programs for a runtime. An empty name stands for the runtime of the scenario."""
     return os.path.join(bundle, f"programs-{runtime.lower()}.jar" if runtime else "programs.jar")
 
 
 def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = ()) -> None:
     """
-    Creates the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code. Compiles the programs for
-    the scenario's runtime, or for the given ones.
+    Creates the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code.
+
+    The programs are compiled for the given runtimes. Without runtimes, they are compiled for the runtime of the scenario. The environment variable
     `COLLEKTIVE` is the path of the command in the checkout that builds the bundle.
     """
     work = bundle + PART

@@ -1,4 +1,4 @@
-"""Runs a sweep on a Ray cluster. Each worker is an actor. Ray's runtime environment distributes the bundle and this package."""
+"""Runs a sweep on a Ray cluster. Each worker is an actor, and Ray copies the bundle and this package to all nodes."""
 import io
 import logging
 import os
@@ -19,12 +19,12 @@ from .sweep import Ended, Task
 from .worker import Outcome, Worker, WorkerError
 
 MAX_LOSSES = 3
-"""A run that has lost this many workers is counted as crashed."""
+"""The number of lost workers after which a run counts as crashed."""
 WAIT_SECONDS = 0.5
 
 
 def connect(address: str, bundle: str) -> None:
-    """Joins the cluster. `auto` joins the local cluster, or starts one for the sweep."""
+    """Joins a cluster. The address `auto` joins the local cluster, or starts one for the sweep if none is running."""
     environment = {"working_dir": bundle, "py_modules": [os.path.dirname(os.path.abspath(__file__))]}
     try:
         ray.init(address=address, runtime_env=environment, log_to_driver=False, logging_level=logging.ERROR)
@@ -40,7 +40,7 @@ def connect(address: str, bundle: str) -> None:
 
 @ray.remote(num_cpus=1, max_restarts=0)
 class _RemoteWorker:
-    """A worker on a node of the cluster. Its current folder is the bundle."""
+    """A worker on a node of the cluster. Its working directory is the bundle."""
 
     def __init__(self, trust: bool):
         self._folder = tempfile.TemporaryDirectory(prefix="collektive-")
@@ -48,7 +48,7 @@ class _RemoteWorker:
         self._count = 0
 
     def run(self, settings: dict[str, Any], process: str, limit: float, is_repeated: bool) -> tuple[Outcome, float, bytes]:
-        """Returns the outcome, the duration in seconds, and the run's folder as a tar file."""
+        """Executes a run. Returns its outcome, its duration in seconds, and its folder as a tar file."""
         self._count += 1
         out = os.path.join(self._folder.name, str(self._count))
         os.mkdir(out)
@@ -61,12 +61,12 @@ class _RemoteWorker:
         return outcome, seconds, packed.getvalue()
 
 
-# Ray's decorator gives a class that type checkers do not know.
+# Type checkers do not know the class that Ray's decorator returns.
 RemoteWorker: Any = _RemoteWorker
 
 
 class RayPool:
-    """Workers on all processors of a cluster. If a worker is lost, another one repeats its run."""
+    """A pool with a worker on each processor of a cluster. If a worker is lost, another one repeats its run."""
 
     def __init__(self, store: Store, address: str, limit: float, trust: bool):
         connect(address, os.path.abspath(store.bundle))
@@ -94,7 +94,7 @@ class RayPool:
             idle: list[Any] = []
             running: dict[Any, tuple[Any, Task]] = {}
             while (self._tasks or running) and not self._stopped:
-                # Nodes may join and leave.
+                # The number of processors can change, because nodes may join and leave.
                 processors = int(ray.cluster_resources().get("CPU", 1))  # type: ignore[no-untyped-call]
                 needed = min(processors, len(self._tasks) + len(running))
                 while len(running) + len(idle) < needed:
@@ -103,7 +103,7 @@ class RayPool:
                     worker, task = idle.pop(), self._tasks.popleft()
                     run, is_repeated = task
                     running[worker.run.remote(run.settings, run.process, self._limit, is_repeated)] = worker, task
-                # A worker that was requested may wait for the processor of an idle one when a node is lost.
+                # Idle workers must release their processors. After the loss of a node, a requested worker may be waiting for one of them.
                 while idle:
                     ray.kill(idle.pop())
                 done, _ = ray.wait(list(running), timeout=WAIT_SECONDS)
@@ -115,7 +115,7 @@ class RayPool:
             self._ended.put(error)
 
     def _take(self, reference: Any, task: Task) -> bool:
-        """Stores a result. Returns whether its worker is still running."""
+        """Stores the result of a run. Returns whether its worker is still running."""
         name = task[0].name
         try:
             outcome, seconds, packed = ray.get(reference)

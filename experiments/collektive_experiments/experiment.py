@@ -1,4 +1,4 @@
-"""Reads experiment files: a scenario, the keys that vary, and the metrics."""
+"""Reads experiment files, which name a scenario, the keys that vary, and the metrics."""
 import hashlib
 import itertools
 import json
@@ -15,12 +15,12 @@ KEYS = ("version", "scenario", "vary", "zip", "set", "measure", "figures", "labe
 VERSION = 1
 MAX_RUNS = 100_000
 MAX_PREFIX = 120
-"""Length of the readable part of a folder's name. File systems allow 255 bytes."""
+"""The maximum length of the readable part of a folder's name. File systems allow 255 bytes for the whole name."""
 FIXED = ("version", "scene", "scripts", "schema", "programs", "data", "runtimeJars", "runtimePlugin")
-"""Keys of files, which are compiled or copied once for all runs."""
+"""Keys that cannot vary, because their files are compiled or copied once for all runs."""
 NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
 RUNTIME = "runtime"
-"""Key of the aggregate runtime. The bundle has compiled programs for each."""
+"""The key of the aggregate runtime. It can vary, because the bundle contains the programs compiled for each runtime."""
 RUNTIMES = ("builtin", "collektive")
 RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 
@@ -31,7 +31,7 @@ Values = dict[str, Any]
 class Run:
     """One run of an experiment."""
     name: str
-    """The name of its folder: the values of the keys that vary, and a hash of all settings."""
+    """The name of the run's folder, which consists of the values of the keys that vary and a hash of all settings."""
     values: Values = field(hash=False)
     """The values of the keys that vary."""
     settings: Values = field(hash=False)
@@ -40,8 +40,9 @@ class Run:
     @property
     def process(self) -> str:
         """
-        The settings that a process starts with, as JSON. Runs share a process only if these are equal: by default, it starts only one JVM, and the
-        programs are compiled for one runtime.
+        The settings with which a process starts, as JSON.
+
+        Runs can share a process only if these settings are equal, because a process starts only one JVM, and programs are compiled for one runtime.
         """
         keys = [key for key in self.settings if key in ("jvm", RUNTIME) or key.startswith("jvm.")]
         return json.dumps({key: self.settings[key] for key in keys}, sort_keys=True)
@@ -52,19 +53,19 @@ class Experiment:
     """A validated experiment file."""
     path: str
     scenario: str
-    """Path of the scenario file."""
+    """The path of the scenario file."""
     product: list[tuple[str, list[Any]]]
-    """Keys of `vary`, which are combined with all values of other keys."""
+    """The keys of `vary`, whose values are combined with all values of the other keys."""
     together: list[tuple[str, list[Any]]]
-    """Keys of `zip`, which vary together."""
+    """The keys of `zip`, which vary together."""
     fixed: Values
-    """Keys that are the same in all runs."""
+    """The keys of `set`, which have the same value in all runs."""
     measure: dict[str, str]
-    """The metrics in tables and figures, in order, with their units. Empty for all metrics of the scene."""
+    """The units of the metrics in tables and figures, in their order. If empty, all metrics of the scene are measured."""
     figures: list[FigureOptions] = field(hash=False)
-    """Figures in addition to those of each metric."""
+    """Figures that are drawn in addition to the two figures of each metric."""
     labels: dict[str, str] = field(hash=False)
-    """Texts for figures, by metric, key or value."""
+    """The texts that figures show instead of metrics, keys or values."""
     located: Located = field(repr=False)
 
     @property
@@ -74,7 +75,7 @@ class Experiment:
 
     @property
     def runtimes(self) -> list[str]:
-        """The runtimes of the runs in lower case, or an empty list for the runtime of the scenario."""
+        """The runtimes of the runs in lower case. The list is empty if all runs use the runtime of the scenario."""
         values = dict(self.product + self.together).get(RUNTIME) or ([self.fixed[RUNTIME]] if RUNTIME in self.fixed else [])
         return sorted({value.lower() for value in values})
 
@@ -87,7 +88,7 @@ class Experiment:
         return count
 
     def runs(self) -> Iterator[Run]:
-        """Yields all runs in the order of the file. The last key changes fastest."""
+        """Yields all runs in the order of the file. The value of the last key changes fastest."""
         rows = [dict(zip([key for key, _ in self.together], row)) for row in zip(*(values for _, values in self.together))] or [{}]
         for chosen in itertools.product(*(values for _, values in self.product)):
             for row in rows:
@@ -96,7 +97,7 @@ class Experiment:
                 yield Run(name_of(values, settings), values, settings)
 
     def settings(self, values: Values) -> Values:
-        """Returns all keys of a run. An object precedes the keys in it, which would be lost otherwise."""
+        """Returns all keys of a run. The key of an object comes before keys inside that object, because it would overwrite them."""
         return dict(sorted({**self.fixed, **values}.items(), key=lambda item: item[0].count(".")))
 
 
@@ -107,7 +108,7 @@ def name_of(values: Values, settings: Values) -> str:
 
 
 def identity(value: Any) -> str:
-    """Returns a canonical string, which is the same for values that are equal for a run, such as 1 and 1.0."""
+    """Returns a canonical string, which is the same for values that make no difference to a run, such as 1 and 1.0."""
     def normalize(part: Any) -> Any:
         if isinstance(part, dict):
             return {key: normalize(item) for key, item in part.items()}
@@ -127,7 +128,7 @@ def text(value: Any) -> str:
 
 
 def read(path: str) -> Experiment:
-    """Reads an experiment file strictly. Raises `ExperimentError` with the line of the error."""
+    """Reads an experiment file. Raises `ExperimentError` with the line of the first error, including unknown keys."""
     located = Located(path)
     root = located.root
     if not isinstance(root, dict):
@@ -209,7 +210,7 @@ def _read_measure(located: Located) -> dict[str, str]:
 
 
 def read_figures(located: Located) -> list[FigureOptions]:
-    """Reads `figures` of an experiment file or of a sweep's settings."""
+    """Reads the key `figures` of an experiment file or of a sweep's settings."""
     figures = located.root.get("figures", [])
     if not isinstance(figures, list):
         raise located.error("'figures' must be a list of objects", "figures")
@@ -233,7 +234,7 @@ def _read_labels(located: Located) -> dict[str, str]:
 
 
 def check_labels(experiment: Experiment, metrics: list[str]) -> None:
-    """Checks that each label has a metric, key or value."""
+    """Checks that each label belongs to a metric, key or value."""
     known = {*metrics, *experiment.keys, *(text(value) for _, values in experiment.product + experiment.together for value in values)}
     for name in experiment.labels:
         if name not in known:
@@ -270,7 +271,7 @@ def _check(experiment: Experiment) -> None:
 def _reject_duplicates(located: Located, part: str, keys: list[str], rows: list[tuple[Any, ...]]) -> None:
     seen: set[str] = set()
     for index, row in enumerate(rows):
-        # Tables and figures show 1 and "1" as the same text.
+        # Values such as 1 and "1" count as duplicates, too, because tables and figures show the same text for both.
         forms = {identity(row), "\0".join(map(text, row))}
         if forms & seen:
             twice = ", ".join(f"{key}={text(value)}" for key, value in zip(keys, row))

@@ -1,4 +1,4 @@
-"""Figures that users request: options of ./collektive plot, and `figures` of experiment files."""
+"""Checks requests for figures, which are options of ./collektive plot or elements of `figures` in experiment files."""
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -14,30 +14,30 @@ LOGS = ("x", "y", "xy")
 TIME = "time"
 """The value of `x` for a figure over simulated time."""
 CONVERGED = "converged."
-"""Prefix of the columns of convergence times."""
+"""The prefix of columns with convergence times."""
 CENSORED = "censored."
-"""Prefix of the columns with the last possible convergence time, for runs that did not converge."""
+"""The prefix of columns that contain, for runs that did not converge, the last time at which convergence could have been observed."""
 MAX_GROUPS = 10
-"""More lines in one figure are not distinct."""
+"""The maximum number of lines in a figure. More lines could not be distinguished."""
 MIN_INCHES, MAX_INCHES = 1, 20
 SIZE = re.compile(r"([0-9.]{1,9})x([0-9.]{1,9})")
 
 Fail = Callable[[str, str], ExperimentError]
-"""Returns an error for an option and the problem with it."""
+"""A function that returns the error for an option and a description of the problem."""
 
 
 @dataclass(frozen=True)
 class FigureOptions:
-    """A request for one figure of each of its metrics."""
+    """A request for a figure of each of its metrics."""
     metrics: tuple[str, ...]
     x: str | None
     by: str | None
     kind: str
     log: str
     range: tuple[float | None, float | None]
-    """Limits of the metric's axis, or None for the limits of the data."""
+    """The limits of the metric's axis. None stands for the limit of the data."""
     size: tuple[float, float]
-    """Width and height in inches."""
+    """The width and height in inches."""
     style: str
     fail: Fail
 
@@ -47,7 +47,7 @@ def _fail(option: str, problem: str) -> ExperimentError:
 
 
 def read_options(given: Mapping[str, Any], fail: Fail = _fail) -> FigureOptions:
-    """Reads options that have a value. Checks everything except the names of keys and metrics."""
+    """Reads the given options. Checks everything except the names of keys and metrics."""
     for option, value in given.items():
         if option not in KEYS:
             raise fail(option, f"is unknown; known here: {', '.join(KEYS)}")
@@ -78,7 +78,7 @@ def read_options(given: Mapping[str, Any], fail: Fail = _fail) -> FigureOptions:
 
 
 def check_keys(options: FigureOptions, varied: Mapping[str, Iterable[Any]]) -> None:
-    """Checks the names of keys against the keys that vary and their values."""
+    """Checks that the named keys vary, and that their values suit the kind of figure."""
     known = [key for key in varied if key != "seed"]
     for option, key in (("x", options.x), ("by", options.by)):
         if key is None or (option == "x" and key == TIME):
@@ -100,7 +100,7 @@ def check_keys(options: FigureOptions, varied: Mapping[str, Iterable[Any]]) -> N
 
 
 def check_metrics(options: FigureOptions, at_end: Sequence[str], over_time: Sequence[str]) -> None:
-    """Checks the names of metrics against those that have a value at the end of each run, and those that have values over time."""
+    """Checks that each named metric exists. For a figure over time, it must have values over time, and otherwise a value at the end of each run."""
     for name in options.metrics:
         if options.x == TIME and name in at_end and name not in over_time:
             raise options.fail("metric", f"is '{name}', which has one value per run; name a key with x, or use the kind 'ecdf'")

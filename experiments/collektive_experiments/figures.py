@@ -1,4 +1,4 @@
-"""Plots metrics of a sweep as SVG and PDF files and one HTML page."""
+"""Plots the metrics of a sweep as SVG and PDF files and on one HTML page."""
 import hashlib
 import html
 import io
@@ -25,20 +25,20 @@ from .positions import ExperimentError, Located
 from .results import VALUE, Results, compare, label, load
 from .statistics import interval, kaplan_meier
 
-# The colour-blind-safe palette of Okabe and Ito, without yellow, which is too pale for lines.
+# The palette of Okabe and Ito, which is safe for colour-blind readers. It lacks yellow, which is too pale for lines.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 LINES = ("-", "--", "-.", ":")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*", "<", ">")
 HATCHES = ("", "////", "....", "xxxx", "\\\\\\\\", "++++", "oooo", "----", "||||", "****")
 COLUMNS = 4
-# PDF files contain TrueType fonts. Publishers refuse Matplotlib's default, Type 3.
+# PDF files contain TrueType fonts, because publishers refuse Matplotlib's default, Type 3.
 STYLE: Any = {"font.size": 9, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.alpha": 0.3, "svg.fonttype": "none",
          "svg.hashsalt": "collektive", "legend.frameon": False, "text.parse_math": False, "pdf.fonttype": 42, "axes.axisbelow": True}
 SMALL: Any = {"font.size": 8, "axes.labelsize": 8, "xtick.labelsize": 7, "ytick.labelsize": 7, "legend.fontsize": 7, "legend.title_fontsize": 7,
               "lines.linewidth": 1.2, "lines.markersize": 4, "axes.linewidth": 0.6, "grid.linewidth": 0.4, "hatch.linewidth": 0.5,
               "legend.handlelength": 2.6, "legend.columnspacing": 1.2, "legend.borderaxespad": 0.2, "figure.constrained_layout.w_pad": 0.02,
               "figure.constrained_layout.h_pad": 0.02}
-# STIX resembles the text fonts of both publishers. Matplotlib contains both fonts, so figures are equal on all machines.
+# STIX resembles the text fonts of both publishers. Both fonts are part of Matplotlib, so figures are equal on all machines.
 PAPER: Any = {**SMALL, "font.family": ["STIXGeneral", "DejaVu Sans"], "svg.fonttype": "path"}
 STYLES: Any = {
     "plain": SMALL,
@@ -48,22 +48,22 @@ STYLES: Any = {
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MAX_PANELS = 24
 MAX_POINTS = 20
-"""Up to this number of runs, single points are drawn over a box plot."""
+"""The maximum number of runs for which a box plot shows a point for each run."""
 BOUND = "bound\0"
-"""A column that marks censored runs, whose name no metric has."""
+"""The name of a column that marks censored runs. No metric can have this name."""
 GOLDEN_RATIO = 0.618034
-"""Spreads the points of a box plot."""
+"""The multiplier that spreads the points of a box plot sideways."""
 TOLERANCE, MIN_AXES = 0.02, 0.5
-"""Inches that a figure may exceed its size, and the minimum width and height of axes."""
+"""The inches by which labels may extend beyond a figure, and the minimum width and height of its axes in inches."""
 MAX_CELLS = 64
-"""Up to this number of cells, a heat map contains numbers."""
+"""The maximum number of cells for which a heat map contains numbers."""
 
 
 class PowerFormatter(LogFormatter):
-    """Labels a logarithmic axis without math text, which is disabled because metric names may contain its markup."""
+    """Labels a logarithmic axis without Matplotlib's math text, which is disabled because names of metrics may contain its markup."""
 
     def __call__(self, x: float, pos: int | None = None) -> str:
-        """Returns the label of a tick, which is empty for some minor ones."""
+        """Returns the label of a tick. Some minor ticks have an empty label."""
         if not super().__call__(x, pos):
             return ""
         if 1e-3 <= x < 1e4:
@@ -80,7 +80,7 @@ class Drawing:
     pdf: bytes
 
     def write(self, path: str) -> Iterator[str]:
-        """Writes both files and the caption. Yields their paths."""
+        """Writes the SVG file, the PDF file and the caption. Yields their paths."""
         for ending, content in ((".svg", self.svg), (".pdf", self.pdf), (".txt", self.caption.encode() + b"\n")):
             with files.create(path + ending) as file:
                 file.write(content)
@@ -95,11 +95,14 @@ class Drawing:
 @matplotlib.rc_context(STYLE)
 def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptions | None = None, experiment: Experiment | None = None) -> list[str]:
     """
-    Writes figures of a sweep as SVG and PDF, with captions as text, to `figures/` in its folder, and returns their paths.
+    Writes figures of a sweep as SVG and PDF, and their captions as text, to `figures/` in the sweep's folder. Returns their paths.
 
-    With `options`, these are the requested figures. Otherwise they are `METRIC-time` and `METRIC-end` of each metric, with colours for the first
-    key that varies and panels for the others, the figures of the experiment file, and `figures.html` with all figures and captions. `experiment`
-    replaces the figures and labels that the experiment file had during the sweep.
+    With `options`, writes only the requested figures. Otherwise writes these files:
+    - `METRIC-time` and `METRIC-end` for each metric, with a colour for each value of the first key that varies, and panels for the other keys;
+    - the figures of the experiment file;
+    - `figures.html` with all figures and captions.
+
+    The figures and labels of `experiment` replace those that the experiment file had during the sweep.
     """
     results = load(folder, experiment.labels if experiment else None)
     if results.complete.empty:
@@ -143,7 +146,7 @@ def _requests(folder: str, experiment: Experiment | None) -> list[FigureOptions]
 
 
 def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) -> Drawing:
-    """Renders a figure, with the style in which it was drawn: Matplotlib creates ticks and fonts when it renders."""
+    """Renders a figure. The style must be the one in which it was drawn, because Matplotlib creates ticks and fonts during rendering."""
     svg, pdf = io.BytesIO(), io.BytesIO()
     with matplotlib.rc_context(style), warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always")
@@ -165,13 +168,13 @@ def _fits(figure: Figure) -> bool:
 
 
 def file_name(metric: str) -> str:
-    """Returns a file name for a metric. Adds a hash if the metric's name has characters that file names cannot have."""
+    """Returns a file name for a metric. Adds a hash if the metric's name contains characters that file names cannot contain."""
     name = re.sub(r"[^A-Za-z0-9_.,=-]", "_", metric)[:100]
     return name if name == metric and not name.startswith(".") else f"metric-{name}-{hashlib.sha256(metric.encode()).hexdigest()[:8]}"
 
 
 def check(results: Results, options: FigureOptions) -> None:
-    """Checks whether the sweep has the keys, metrics and values of a requested figure."""
+    """Checks that the sweep has the keys, metrics and values that a requested figure needs."""
     check_keys(options, {key: [value.item() if hasattr(value, "item") else value for value in results.runs[key].dropna().unique()]
                          for key in results.keys})
     check_metrics(options, metrics_at_end(results), results.metrics)
@@ -184,14 +187,14 @@ def check(results: Results, options: FigureOptions) -> None:
 
 
 def metrics_at_end(results: Results) -> list[str]:
-    """Returns the columns of numbers that each run has at its end, metrics first."""
+    """Returns the columns with a number for the end of each run, beginning with the metrics."""
     known = results.metrics + results.convergence_times
     others = {*known, *results.keys, "seed", *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
     return known + [name for name in results.runs.select_dtypes("number").columns if name not in others]
 
 
 def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure, str]]:
-    """Draws the requested figure of each metric, and of each combination of the keys that it does not show. Yields name, figure and caption."""
+    """Draws the requested figure for each metric and each combination of values of the keys that it does not show. Yields name, figure and caption."""
     for metric in options.metrics:
         data = results.series if options.x == TIME else results.complete
         others = _other_keys(data, results.configuration, [key for key in (options.x, options.by) if key and key != TIME])
@@ -208,12 +211,12 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
 
 
 def _other_keys(data: pd.DataFrame, keys: list[str], shown: list[str]) -> list[str]:
-    """Returns the keys that a figure does not show, without those that depend on the shown ones, such as keys of the same `zip`."""
+    """Returns the keys that a figure does not show, except those that the shown keys determine, such as keys of the same `zip`."""
     return [key for key in keys if key not in shown and (data.groupby(shown)[key].nunique().max() if shown else data[key].nunique()) > 1]
 
 
 def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, options: FigureOptions) -> str:
-    """Draws a figure of one pair of axes. Returns its caption."""
+    """Draws a figure with one pair of axes. Returns its caption."""
     axes = figure.add_subplot()
     if options.kind == "heat":
         counts = _heat(figure, axes, results, data, metric, options)
@@ -249,7 +252,7 @@ def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, opt
 def _add_legend(figure: Figure, axes: Axes, results: Results, by: str) -> None:
     """Adds a legend above the axes, with as many columns as fit."""
     handles, labels = axes.get_legend_handles_labels()
-    # Names explain themselves, numbers do not.
+    # Numbers need a title that explains them, and names do not.
     title = None if pd.api.types.is_string_dtype(results.runs[by]) else _axis(results, by)
     for columns in range(len(labels), 0, -1):
         legend = figure.legend(handles, labels, title=title, loc="outside upper center", ncols=columns)
@@ -263,13 +266,13 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
     parts = _split(results, data, by)
     for index, name, runs in parts:
         table = runs.pivot_table(index="run", columns="second", values=metric)
-        # Runs that ended have no later values.
+        # Runs that end earlier have no values at later times, so the number of runs differs between times.
         counts.update(table.notna().sum())
         if table.empty:
             continue
         bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
         line_style = _line_style(index)
-        # Markers of different lines are at different times.
+        # Lines have their markers at different times, so that markers do not cover each other.
         step = max(1, len(table.columns) // 6)
         axes.plot(table.columns, table.mean(), label=name, markevery=(index * step // (parts[-1][0] + 1), step), **line_style)
         axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=line_style["color"], alpha=0.2, linewidth=0)
@@ -304,7 +307,7 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
     width = 0.8 / boxes
     for place, (_, _, group) in enumerate(groups):
         for index, name, part in _split(results, group, by):
-            # Sorted, so that neighbours are at different places.
+            # The values are sorted, so that points of similar values are spread to different positions.
             sample = values[part.index].dropna().sort_values(kind="stable")
             counts.add(len(part))
             colour = COLOURS[(index if by else place) % len(COLOURS)]
@@ -404,7 +407,7 @@ def _line_style(index: int) -> dict[str, Any]:
 
 @matplotlib.rc_context({**STYLE, "lines.markersize": 4})
 def over_time(results: Results, metric: str) -> tuple[Figure, str]:
-    """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and its caption."""
+    """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and the caption."""
     figure, panels, colour, groups = _panels(results, results.series)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):
@@ -416,7 +419,7 @@ def over_time(results: Results, metric: str) -> tuple[Figure, str]:
 
 @matplotlib.rc_context(STYLE)
 def at_end(results: Results, metric: str) -> tuple[Figure, str]:
-    """Draws box plots of a metric's values at the end of the runs. Returns the figure and its caption."""
+    """Draws box plots of a metric's values at the end of the runs. Returns the figure and the caption."""
     figure, panels, colour, groups = _panels(results, results.complete)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):
@@ -442,7 +445,7 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
 
 
 def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[int, str, pd.DataFrame]]:
-    """Returns the parts of a table with each value of a key, with the value's index, which is the same in all figures, and its name."""
+    """Splits a table by the values of a key. Returns the index, the name and the rows of each value. A value has the same index in all figures."""
     if key is None:
         return [(0, "all runs", data)]
     parts = [(index, _value(results, value), data[data[key] == value]) for index, value in enumerate(_order(results.runs[key]))]
@@ -450,13 +453,13 @@ def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[
 
 
 def _order(values: "pd.Series[Any]") -> list[Any]:
-    """Returns the different values: numbers sorted, others in the order of the experiment."""
+    """Returns the distinct values. Numbers are sorted, and other values are in the order of the experiment."""
     found = values.dropna().unique().tolist()
     return sorted(found) if pd.api.types.is_numeric_dtype(values) else found
 
 
 def _finish(figure: Figure, panels: list[Axes], results: Results, metric: str, lines: str | None) -> None:
-    """Adds the label of the metric, and a legend for the key of lines."""
+    """Adds the label of the metric, and a legend for the key that the lines show."""
     for index, axes in enumerate(panels):
         if index % COLUMNS == 0:
             axes.set_ylabel(_axis(results, metric))

@@ -1,13 +1,13 @@
-"""Writes, renames and deletes files in a sweep's folder. Never follows symbolic links, and deletes only marked folders."""
+"""Writes, renames and deletes files in a sweep's folder. It never follows symbolic links, and deletes only folders with a marker."""
 import os
 import shutil
 import stat
 from typing import BinaryIO
 
 MARKER = ".collektive-sweep"
-"""Marks a folder that a sweep created and may delete."""
+"""The name of the marker file in folders that a sweep has created and may delete."""
 PART = ".part"
-"""Suffix of unfinished files and folders."""
+"""The suffix of unfinished files and folders."""
 
 
 def make(folder: str) -> None:
@@ -18,19 +18,19 @@ def make(folder: str) -> None:
 
 
 def make_marked(folder: str) -> None:
-    """Creates an empty folder with a marker, after deleting an unfinished one of the same name."""
+    """Creates an empty folder with a marker. If an unfinished folder of the same name exists, deletes it first."""
     remove(folder)
     os.mkdir(folder)
     os.close(_open(os.path.join(folder, MARKER), os.O_WRONLY | os.O_CREAT | os.O_EXCL))
 
 
 def is_marked(folder: str) -> bool:
-    """Returns whether a sweep created the folder."""
+    """Returns whether a sweep has created the folder."""
     return not os.path.islink(folder) and os.path.isfile(os.path.join(folder, MARKER))
 
 
 def remove(folder: str) -> None:
-    """Deletes a marked or empty folder, if it exists. Deletes the marker last, so that an interrupted deletion can be repeated."""
+    """Deletes a marked or empty folder if it exists. Deletes the marker last, so that an interrupted deletion can be repeated."""
     if not os.path.lexists(folder):
         return
     if os.path.islink(folder) or not os.path.isdir(folder) or (os.listdir(folder) and not is_marked(folder)):
@@ -59,7 +59,7 @@ def publish(path: str) -> None:
     if os.path.isdir(part):
         for folder, _, names in os.walk(part):
             for name in names:
-                # Opening a pipe that a script made would wait for its writer.
+                # Scripts can create pipes, and opening a pipe would wait for its writer.
                 if stat.S_ISREG(os.lstat(os.path.join(folder, name)).st_mode):
                     _sync(os.path.join(folder, name))
             _sync(folder)

@@ -1,4 +1,4 @@
-"""The options of ./collektive sweep. This module has no dependencies, because ./collektive loads it without the package."""
+"""Defines the options of ./collektive sweep, tune and plot. This module has no dependencies, because ./collektive loads it without the package."""
 import argparse
 import os
 import re
@@ -22,7 +22,7 @@ def add_tune_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_run_arguments(parser: argparse.ArgumentParser) -> "argparse._MutuallyExclusiveGroup":
-    """Adds the arguments of commands that execute runs. Returns the group of options for other machines."""
+    """Adds the arguments of commands that execute runs. Returns the group of options that select other machines."""
     parser.add_argument("experiment", metavar="EXPERIMENT.json")
     parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME)")
     parser.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)), metavar="N",
@@ -35,14 +35,14 @@ def _add_run_arguments(parser: argparse.ArgumentParser) -> "argparse._MutuallyEx
 
 
 def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds the arguments of ./collektive plot. The package checks their values, which may also be in an experiment file."""
+    """Adds the arguments of ./collektive plot. The package checks their values, because experiment files can contain them, too."""
     parser.add_argument("folder", metavar="FOLDER", help="folder of a sweep")
     parser.add_argument("--metric", nargs="+", metavar="NAME", help="draw only one figure of each of these metrics")
     parser.add_argument("--x", metavar="KEY", help="key of the horizontal axis, or time (the default of the kind line)")
     parser.add_argument("--by", metavar="KEY", help="key shown by colours, markers and line styles, or by the vertical axis of a heat map")
     parser.add_argument("--kind", metavar="line|box|heat|ecdf", help="kind of figure (default: line)")
     parser.add_argument("--log", metavar="x|y|xy", help="logarithmic axes")
-    # Otherwise, -1:1 would be an unknown option.
+    # Without this pattern, argparse would read a range such as -1:1 as an unknown option.
     parser._negative_number_matcher = re.compile(r"-[0-9.]")
     parser.add_argument("--range", metavar="A:B", help="limits of the metric's axis")
     parser.add_argument("--size", metavar="WxH", help="size in inches (default: the width of a column, 2.2 high)")

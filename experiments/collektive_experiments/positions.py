@@ -9,7 +9,7 @@ from typing import Any, NoReturn
 Path = tuple[str | int, ...]
 
 MAX_DEPTH = 64
-"""Maximum nesting of objects and lists, as in the player."""
+"""The maximum nesting of objects and lists, which is the same in the player."""
 MAX_DIGITS = 300
 SPACE = re.compile(r"(?:\s|//[^\n]*|/\*.*?\*/)*", re.S)
 STRING = re.compile(r'"(?:[^"\\]|\\.)*"', re.S)
@@ -20,18 +20,19 @@ LITERALS = {"true": True, "false": False, "null": None}
 
 
 class ExperimentError(Exception):
-    """An error in the user's input. The message contains file and line."""
+    """An error in the user's input. If the error is in a file, the message names the file and the line."""
 
 
 class Located:
     """
-    A JSON file and the lines of its values. Accepts comments, trailing commas, single quotes, unquoted keys and a byte order mark, as the player
-    does. Duplicate keys are errors.
+    The content of a JSON file, and the lines of its values.
+
+    Like the player, this accepts comments, trailing commas, single quotes, unquoted keys and a byte-order mark. Duplicate keys are errors.
     """
 
     def __init__(self, path: str):
         self.path = path
-        # A pipe may never end.
+        # Only files are read, because reading a pipe may never end.
         if os.path.exists(path) and not os.path.isfile(path):
             raise ExperimentError(f"'{path}' cannot be read: it is not a file")
         try:
@@ -48,7 +49,7 @@ class Located:
             self._fail(self._skip(end), "unexpected text after the value")
 
     def error(self, message: str, *place: str | int) -> ExperimentError:
-        """Returns an error with the line of a value, or of the nearest enclosing value."""
+        """Returns an error with the line of a value. If the value does not exist, uses the line of the object or list that would contain it."""
         while place and place not in self._lines:
             place = place[:-1]
         return ExperimentError(f"{self.path}:{self._lines.get(place, 1)}: {message}")
@@ -66,7 +67,7 @@ class Located:
         return match.end()
 
     def _value(self, at: int, place: Path) -> tuple[Any, int]:
-        """Returns the value that begins at an index, and the index of its end."""
+        """Returns the value that begins at an index, and the index after its end."""
         if len(place) > MAX_DEPTH:
             self._fail(at, f"more than {MAX_DEPTH} levels of objects and lists")
         self._lines[place] = self._line(at)

@@ -20,11 +20,11 @@ ALLOWED = {
     "it/unibo/collektive/": None,
     "com/google/flatbuffers/": None,
 }
-"""Classes that keep no state between sessions, by package. None stands for a package and its subpackages."""
+"""Classes that keep no state between sessions, by package. None stands for all classes of a package and its subpackages."""
 FORBIDDEN_PACKAGES = ("kotlin/concurrent/", "kotlin/io/", "kotlin/jvm/internal/unsafe/", "kotlin/system/",
                       "kotlin/coroutines/", "org/collektive/host/", "org/collektive/engine/")
 ALLOWED_OF_CLASS = {"getName", "getSimpleName", "hashCode", "equals", "desiredAssertionStatus", "isInstance", "cast"}
-# Sizes of constants in a class file, by tag. Texts have a variable size.
+# The sizes of constants in a class file, by tag. Texts are not listed, because their size varies.
 SIZES = {3: 4, 4: 4, 5: 8, 6: 8, 7: 2, 8: 2, 9: 4, 10: 4, 11: 4, 12: 4, 15: 3, 16: 2, 17: 4, 18: 4, 19: 2, 20: 2}
 TEXT, CLASS, NAME_AND_TYPE = 1, 7, 12
 WIDE = (5, 6)
@@ -34,8 +34,9 @@ MEMBERS = (9, 10, 11)
 @functools.cache
 def can_leave_state(jar: str) -> bool:
     """
-    Returns whether the programs of a jar refer to a class that may keep state after their session. Their own classes do not, because each session
-    loads them again. Returns true for an unreadable jar.
+    Returns whether the programs of a jar refer to a class that may keep state after their session.
+
+    The classes in the jar itself do not count, because each session loads them again. An unreadable jar may keep state.
     """
     try:
         with zipfile.ZipFile(jar) as archive:
@@ -57,7 +58,7 @@ def _can_leave_state(content: bytes, own: Set[str]) -> bool:
     for tag, value in constants.values():
         if tag == CLASS:
             name = text(struct.unpack(">H", value)[0])
-            # The name of an array class contains the type of its elements.
+            # The name of an array class contains the type of its elements, which is checked instead.
             name = name.lstrip("[").removeprefix("L").removesuffix(";") if name.startswith("[") else name
             if len(name) > 1 and name not in own and not _is_allowed(name):
                 return True
@@ -79,7 +80,7 @@ def _is_allowed(name: str) -> bool:
 
 
 def _constants(content: bytes) -> dict[int, tuple[int, bytes]]:
-    """Returns the constant pool of a class file: tags and contents, by index."""
+    """Returns the constant pool of a class file: the tag and content of each constant by index."""
     count, = struct.unpack_from(">H", content, 8)
     constants: dict[int, tuple[int, bytes]] = {}
     at, index = 10, 1

@@ -13,28 +13,28 @@ from .statistics import holm, paired_effect, unpaired_effect
 from .store import Store
 
 VALUE = "value\0"
-"""A column of values to compare, whose name no metric has."""
+"""The name of a column with the values to compare. No metric can have this name."""
 
 
 @dataclass(frozen=True)
 class Results:
     """The tables of a sweep."""
     runs: pd.DataFrame
-    """A row for each run: parameters, `seed`, `status`, `digest`, metrics at the end, times, versions."""
+    """A row for each run: parameters, `seed`, `status`, `digest`, the metrics at the end, times and versions."""
     series: pd.DataFrame
-    """A row for each complete run and interval of metrics (by default a simulated second)."""
+    """A row for each complete run and each interval of its metrics, which is a simulated second by default."""
     nodes: pd.DataFrame | None
-    """A row for each complete run, time and node; None if the scenario does not request `outputs.nodes`."""
+    """A row for each complete run, time and node, or None if the scenario does not request `outputs.nodes`."""
     keys: list[str]
     """The keys that vary."""
     units: dict[str, str]
-    """Units of the metrics that the experiment file measures, by column; empty if it names none."""
+    """The units of the metrics in the experiment file, by column. Empty if the file does not list metrics."""
     labels: dict[str, str] = field(default_factory=dict)
-    """Texts for figures, by metric, key or value."""
+    """The texts that figures show instead of metrics, keys or values."""
 
     @property
     def configuration(self) -> list[str]:
-        """The keys that vary, except the seed. Runs with equal values of these keys are repetitions."""
+        """The keys that vary, except the seed. Runs are repetitions of each other if they have equal values of these keys."""
         return [key for key in self.keys if key != "seed"]
 
     @property
@@ -54,18 +54,18 @@ class Results:
         return [name for name in self.runs.columns if name.startswith(CONVERGED)]
 
     def censored(self, metric: str) -> "pd.Series[bool]":
-        """Returns for each complete run whether only a lower bound of its convergence time is known. Other metrics are never censored."""
+        """Returns for each complete run whether only a lower bound of its convergence time is known. Values of other metrics are never censored."""
         values = self.complete[metric]
         return values.isna() & self.values(metric).notna()
 
     def values(self, metric: str) -> "pd.Series[float]":
-        """Returns the value of each complete run at its end. The convergence time of a censored run is the last one that could be observed."""
+        """Returns the value of each complete run at its end. For a censored run, this is the last convergence time that could have been observed."""
         values = self.complete[metric]
         return values.fillna(self.complete[CENSORED + metric.removeprefix(CONVERGED)]) if metric.startswith(CONVERGED) else values
 
 
 def load(folder: str, labels: dict[str, str] | None = None) -> Results:
-    """Reads the tables of a sweep's folder. `labels` replaces those of the experiment file."""
+    """Reads the tables in a sweep's folder. `labels` replaces the labels of the experiment file."""
     settings = Store(folder).settings()
     nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
     results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
@@ -86,12 +86,15 @@ def _read(folder: str, name: str) -> pd.DataFrame:
 
 def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     """
-    Compares the end values of a metric, or any other number of the runs' table, between each pair of values of a key, for each combination of
-    the other keys. Runs with equal seeds are paired. A row has both means, `difference` of the means with the 95 % bootstrap interval
-    `difference_low` to `difference_high`, and the effect size `delta` with its interval: the probability that `b` has the greater value, minus
-    the probability that it has the smaller one; from -1 to 1, 0 for no effect. It compares pairs or, if no seeds are equal,
-    all runs (Cliff's delta). `p` is the p-value of a permutation test of the difference, and `p_holm` the same corrected for all rows of the table.
-    `n_a` and `n_b` count runs with a value, and `pairs` their pairs. A run that has not converged counts with its `censored` time.
+    Compares the end values of a metric, or any other number in the table of runs, between each pair of values of a key.
+
+    Returns a row for each pair of values `a` and `b`, and for each combination of the other keys. Runs with equal seeds are paired. A run that has not
+    converged counts with its `censored` time. A row has these columns:
+    - both means, and the `difference` of the means with its 95 % bootstrap interval from `difference_low` to `difference_high`;
+    - the effect size `delta` with its interval: the probability that `b` has the greater value, minus the probability that it has the smaller one. It
+      is between -1 and 1, and 0 means no effect. It compares pairs, or all runs if no seeds are equal (Cliff's delta);
+    - `p`, the p-value of a permutation test of the difference, and `p_holm`, the same value corrected for all rows of the table;
+    - `n_a` and `n_b`, the numbers of runs with a value, and `pairs`, the number of their pairs.
     """
     rows = []
     others = [key for key in results.configuration if key != by]
@@ -110,5 +113,5 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
 
 
 def label(values: tuple[Any, ...], keys: list[str]) -> str:
-    """Formats a configuration for titles: the last part of each key, and its value."""
+    """Formats a configuration for titles, with the last part of each key and its value."""
     return ", ".join(f"{key.split('.')[-1]} {text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(keys, values))

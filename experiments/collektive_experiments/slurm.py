@@ -1,4 +1,4 @@
-"""Runs a sweep as an array job of Slurm, whose tasks share the sweep's folder."""
+"""Runs a sweep as an array job of Slurm. The tasks of the job share the sweep's folder."""
 import fcntl
 import json
 import os
@@ -14,7 +14,7 @@ from .sweep import Task
 from .worker import Worker
 
 MAX_TASKS = 1000
-"""Slurm's usual limit for the size of an array is 1001."""
+"""The maximum number of tasks. Slurm's usual limit for the size of an array is 1001."""
 SCRIPT = """#!/usr/bin/env bash
 # Executes {count} runs of a sweep. Submit with: sbatch {path}
 # Afterwards, write the tables and complete missing runs with: ./collektive sweep EXPERIMENT --out {folder} --resume
@@ -48,7 +48,7 @@ def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust:
 
 
 def run_task(folder: str, index: int) -> int:
-    """Executes the incomplete runs of one task. Returns the exit code."""
+    """Executes the incomplete runs of a task. Returns the exit code."""
     log = os.path.join(folder, f"logs/task-{index}.txt")
     with Store(folder) as store, files.open_log(log) as own:
         store.lock(shared=True)

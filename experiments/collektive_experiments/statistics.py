@@ -1,4 +1,4 @@
-"""Statistics of samples: intervals, effect sizes, corrected p-values and Kaplan-Meier curves."""
+"""Computes statistics of samples: intervals, effect sizes, corrected p-values and Kaplan-Meier curves."""
 from typing import Any
 
 import numpy as np
@@ -7,9 +7,9 @@ import numpy.typing as npt
 Floats = npt.NDArray[np.float64]
 
 RESAMPLES = 2000
-"""Number of bootstrap samples. The ends of an interval are then accurate to about 1/40 of its length."""
+"""The number of bootstrap samples. With this number, the ends of an interval are accurate to about 1/40 of its length."""
 MAX_EXACT_PAIRS = 12
-"""Up to this number of pairs, the permutation test enumerates all sign changes."""
+"""The maximum number of pairs for which the permutation test enumerates all sign changes."""
 NORMAL_95 = 1.959963984540054
 """The 97.5 % quantile of the normal distribution."""
 EFFECTS = ("mean_a", "mean_b", "difference", "difference_low", "difference_high", "delta", "delta_low", "delta_high", "p")
@@ -17,8 +17,10 @@ EFFECTS = ("mean_a", "mean_b", "difference", "difference_low", "difference_high"
 
 def interval(values: Floats, statistic: Any = np.mean, confidence: float = 0.95) -> tuple[float, float]:
     """
-    Returns the percentile bootstrap interval of a statistic of one sample, or of an axis of samples. The seed of the resampling is fixed, so the
-    same values give the same interval. Returns NaN for fewer than two values.
+    Returns the percentile bootstrap interval of a statistic of a sample.
+
+    The statistic is a function with the parameter `axis`, such as `numpy.mean`. The resampling has a fixed seed, so equal values give equal intervals.
+    The interval of fewer than two values is NaN.
     """
     if len(values) < 2:
         return float("nan"), float("nan")
@@ -29,7 +31,7 @@ def interval(values: Floats, statistic: Any = np.mean, confidence: float = 0.95)
 
 
 def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
-    """Compares two independent samples. The p-value is from a permutation test of the difference of means."""
+    """Compares two independent samples. The p-value comes from a permutation test of the difference of means."""
     if len(a) < 2 or len(b) < 2:
         return dict.fromkeys(EFFECTS, float("nan"))
     random = np.random.default_rng(0)
@@ -46,7 +48,7 @@ def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
 
 
 def paired_effect(a: Floats, b: Floats) -> dict[str, float]:
-    """Compares two samples whose values at equal indices belong together. The p-value is from a sign permutation test of the mean difference."""
+    """Compares two samples whose values at equal indices are pairs. The p-value comes from a sign permutation test of the mean difference."""
     if len(a) < 2:
         return dict.fromkeys(EFFECTS, float("nan"))
     differences = b - a
@@ -64,7 +66,7 @@ def paired_effect(a: Floats, b: Floats) -> dict[str, float]:
 
 
 def holm(values: Floats) -> Floats:
-    """Corrects p-values for multiple comparisons with the method of Holm. NaN stays NaN and does not count."""
+    """Corrects p-values for multiple comparisons with Holm's method. A NaN stays NaN and does not count as a comparison."""
     corrected = np.full(len(values), np.nan)
     order = np.argsort(values, kind="stable")[:np.count_nonzero(~np.isnan(values))]
     corrected[order] = np.minimum(1, np.maximum.accumulate(values[order] * np.arange(len(order), 0, -1)))
@@ -73,9 +75,11 @@ def holm(values: Floats) -> Floats:
 
 def kaplan_meier(times: Floats, is_observed: npt.NDArray[np.bool_]) -> tuple[Floats, Floats, Floats, Floats]:
     """
-    Estimates the share of runs in which an event has occurred by a time. The times of runs without the event are the ends of their observation.
-    Returns the times of events, the share from each of them on, and its 95 % interval (Greenwood's variance of log(-log)), which is NaN where the
-    share is 1. Without censored runs, the share is the empirical distribution function.
+    Estimates the share of runs in which an event has occurred by each point in time.
+
+    The time of a run without the event, which is censored, is the end of its observation. Returns the times of events, the share after each of them, and
+    the limits of its 95 % interval, which uses Greenwood's variance of log(-log). The limits are NaN where the share is 1. If no run is censored, the
+    share is the empirical distribution function.
     """
     moments = np.unique(times[is_observed])
     at_risk = (times[None, :] >= moments[:, None]).sum(axis=1)

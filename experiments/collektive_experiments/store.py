@@ -1,4 +1,4 @@
-"""Reads and writes the folder of a sweep: settings, finished runs and tables."""
+"""Reads and writes the folder of a sweep, which contains its settings, finished runs and tables."""
 import fcntl
 import hashlib
 import json
@@ -15,11 +15,11 @@ from .worker import Outcome
 
 VERSION = 3
 RESULTS = ("manifest.json", "metrics.csv")
-"""Files that each complete run has."""
+"""The files that each complete run has."""
 
 
 class Store:
-    """The folder of a sweep. A run's folder is renamed to its final name when the run has ended."""
+    """The folder of a sweep. When a run has ended, its folder is renamed to the final name."""
 
     def __init__(self, folder: str):
         self.folder = folder
@@ -37,7 +37,7 @@ class Store:
             self._lock.close()
 
     def lock(self, shared: bool = False) -> None:
-        """Locks the folder. Raises `ExperimentError` if a sweep, or unless `shared` a task of one, uses it."""
+        """Locks the folder. Tasks of one job can share the lock. Raises `ExperimentError` if another sweep has locked the folder."""
         self._lock = files.open_log(os.path.join(self.folder, MARKER))
         try:
             fcntl.flock(self._lock, (fcntl.LOCK_SH if shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
@@ -45,7 +45,7 @@ class Store:
             raise ExperimentError(f"another sweep writes to '{self.folder}': name another folder with --out") from error
 
     def open(self, experiment: Experiment, resume: bool) -> None:
-        """Creates or reopens the folder. Raises `ExperimentError` if another sweep uses or has created it, or if it is not a sweep's folder."""
+        """Creates or reopens the folder. Raises `ExperimentError` if it belongs to another sweep, or if it is not the folder of a sweep."""
         folder = os.path.realpath(self.folder)
         if any(character > "\uffff" for character in folder):
             raise ExperimentError(f"'{folder}' contains an emoji or another character beyond U+FFFF, and the JVM cannot load classes from there: "
@@ -68,7 +68,7 @@ class Store:
         settings = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
                  "measure": experiment.measure, "figures": experiment.located.root.get("figures", []), "labels": experiment.labels}
         if not os.listdir(self.runs):
-            # The sweep has no results yet.
+            # The folder has no results yet, so the bundle can be created again.
             files.remove(self.bundle)
         elif not resume:
             raise ExperimentError(f"'{self.folder}' has results of a sweep: continue it with --resume, or name another folder with --out")
@@ -87,7 +87,7 @@ class Store:
         return settings
 
     def is_complete(self, run: Run) -> bool:
-        """Returns whether the run is complete. Deletes a damaged run with a message."""
+        """Returns whether the run is complete. If its files are damaged, prints a message and deletes them."""
         folder = os.path.join(self.runs, run.name)
         if not os.path.lexists(folder):
             return False
@@ -100,20 +100,20 @@ class Store:
         return bool(record["status"] == "complete")
 
     def record(self, run: Run) -> dict[str, Any] | None:
-        """Returns run.json of a finished run, or None."""
+        """Returns the content of run.json, or None if the run is not finished."""
         record = _object(os.path.join(self.runs, run.name, "run.json"))
         if record is None or record.get("name") != run.name or not isinstance(record.get("files"), dict) or "status" not in record:
             return None
         return record
 
     def begin(self, run: Run) -> str:
-        """Returns an empty folder for a run."""
+        """Creates an empty folder for a run, and returns its path."""
         part = os.path.join(self.runs, run.name + PART)
         files.make_marked(part)
         return part
 
     def finish(self, run: Run, outcome: Outcome, seconds: float) -> None:
-        """Writes run.json of a finished run and renames its folder."""
+        """Writes run.json of a finished run, and renames the run's folder to its final name."""
         folder = os.path.join(self.runs, run.name)
         part = folder + PART
         names = [entry.name for entry in os.scandir(part) if entry.is_file(follow_symlinks=False) and entry.name != MARKER]

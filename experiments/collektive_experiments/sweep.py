@@ -24,32 +24,32 @@ from .store import Store
 from .worker import Outcome, Worker, WorkerError
 
 MIN_FREE_BYTES = 1 << 20
-"""Bytes that must be free on the disk before each run."""
+"""The number of bytes that must be free on the disk. The sweep stops after a failed run if fewer are free."""
 
 REPEATED_SHARE = 0.02
 MIN_REPEATED_RUNS = 3
-"""Share and minimum number of runs that are repeated in a fresh process, to check that results do not depend on earlier runs."""
+"""The share and the minimum number of runs that are repeated in a fresh process, to check that results do not depend on earlier runs."""
 
 MAX_EQUAL_FAILURES = 5
-"""If this many runs at the start fail with the same message, the sweep stops."""
+"""The number of runs after which the sweep stops if all of them have failed with the same message."""
 
 Task = tuple[Run, bool]
-"""A run, and whether it is repeated."""
+"""A run, and whether it is repeated in a fresh process."""
 Ended = tuple[Run, Outcome]
 
 
 class Pool(Protocol):
-    """Executes runs. Stores the results of each finished run and adds it to a queue."""
+    """A pool executes runs. It stores the results of each finished run, and adds the run to a queue."""
 
     def start(self, tasks: list[Task], ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
-        """Starts the runs, in order."""
+        """Starts the runs in order."""
 
     def stop(self) -> None:
         """Cancels the current runs."""
 
 
 class LocalPool:
-    """Workers on this machine, each with its own process."""
+    """A pool of workers on this machine, each with its own process."""
 
     def __init__(self, store: Store, jobs: int, limit: float, trust: bool):
         self._store = store
@@ -100,7 +100,7 @@ class LocalPool:
 
 
 def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> list[Task]:
-    """Creates the folder and the bundle, validates the keys, and returns the runs that are not complete."""
+    """Creates or reopens the folder and the bundle, validates the keys, and returns the runs that are not complete."""
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust, experiment.runtimes)
     check_keys(experiment, store, trust)
@@ -112,15 +112,15 @@ def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> li
 
 
 def _spread(count: int) -> Iterable[int]:
-    """Returns the indices of the runs that are repeated, the last one of each interval."""
+    """Returns the indices of the runs that are repeated. They are evenly spread over all runs, and the last run is one of them."""
     size = min(count, max(MIN_REPEATED_RUNS, math.ceil(count * REPEATED_SHARE)))
     return ((index + 1) * count // size - 1 for index in range(size))
 
 
 def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jobs: int, with_csv: bool, keep_going: bool = False) -> int:
-    """Executes the remaining runs and writes the tables. If the first runs all fail in the same way, the others run only with `keep_going`.
+    """Executes the remaining runs and writes the tables. If the first runs all fail in the same way, stops unless `keep_going` is true.
 
-    Returns 0 if all runs are complete, 1 otherwise, and 130 after Ctrl-C.
+    Returns 0 if all runs are complete, 1 if some are not, and 128 plus the number of the signal if a signal interrupted the sweep.
     """
     code = drive(store, experiment.count, todo, pool, jobs, math.inf if keep_going else MAX_EQUAL_FAILURES)
     written = tables.write(experiment, store, with_csv)
@@ -131,7 +131,7 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
 
 
 def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> float:
-    """Estimates the seconds of the sweep from trial runs: the first one, and the middle one twice in one process."""
+    """Estimates the duration of the sweep in seconds. Executes the first run once and the middle run twice, all with one worker."""
     runs = list(experiment.runs())
     with tempfile.TemporaryDirectory(prefix="collektive-") as folder, Store(os.path.join(folder, "out")) as store:
         begin(experiment, store, False, trust)
@@ -150,7 +150,10 @@ def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> fl
 
 
 def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, max_equal_failures: float) -> int:
-    """Executes the remaining runs of `total` ones. Stops if the first `max_equal_failures` runs all fail in the same way. Returns the exit code."""
+    """Executes the runs of `todo`, which remain of `total` runs, and returns the exit code.
+
+    Stops if the first `max_equal_failures` runs all fail in the same way.
+    """
     ended: queue.SimpleQueue[Ended | BaseException] = queue.SimpleQueue()
     progress = Progress(total, total - len(todo), jobs)
     interrupted: list[int] = []
@@ -177,7 +180,7 @@ def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, max
                 _require_room(store)
             progress.ended(outcome)
             if failed >= max_equal_failures and progress.done == 0 and len(messages) == 1:
-                raise ExperimentError(f"the sweep stops: its first {failed} runs all failed in the same way; correct the cause and continue with "
+                raise ExperimentError(f"the sweep stopped: its first {failed} runs all failed in the same way; correct the cause and continue with "
                                       "--resume, or run all with --keep-going")
             if outcome.status == "differs":
                 raise ExperimentError(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
@@ -204,10 +207,10 @@ def _require_room(store: Store) -> None:
 
 
 def check_keys(experiment: Experiment, store: Store, trust: bool, others: Iterable[tuple[dict[str, object], tuple[str | int, ...]]] = ()) -> list[str]:
-    """Validates the values of all keys with the player. Each value is combined with the first values of the other keys. Keys that vary together
-    are validated row by row. Each entry of `others` is combined with the first values of the remaining keys.
+    """Validates the values of all keys with the player, and returns the names of the metrics.
 
-    Returns the names of the metrics.
+    Each value is combined with the first values of the other keys. Keys that vary together are validated row by row. Each entry of `others`, which has
+    keys with values and a location for errors, is combined with the first values of the remaining keys.
     """
     worker = Worker(store.bundle, os.path.join(store.logs, "check.txt"), trust)
     located = experiment.located
@@ -236,7 +239,7 @@ def check_keys(experiment: Experiment, store: Store, trust: bool, others: Iterab
 
 
 def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
-    """Checks the names of metrics in `figures` and `labels`."""
+    """Checks that the metrics in `figures` and `labels` exist."""
     converged = list(Located(experiment.scenario).root.get("converged", {}))
     keys = [key.removeprefix(CONVERGED) for key in [*experiment.fixed, *experiment.keys] if key.startswith(CONVERGED)]
     converged += [re.sub(r"\.(from|to|seconds)$", "", key) for key in keys]
@@ -249,7 +252,7 @@ def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
 
 
 def _place(experiment: Experiment, worker: Worker, problem: str) -> tuple[str | int, ...]:
-    """Returns the location of the first key whose value causes a problem, for the error message."""
+    """Returns the location in the experiment file of the first key whose value causes the problem."""
     given = [*(("set", key, value) for key, value in experiment.fixed.items()),
              *((part, key, values[0]) for part, varied in (("vary", experiment.product), ("zip", experiment.together)) for key, values in varied)]
     settings: dict[str, object] = {}
@@ -261,13 +264,13 @@ def _place(experiment: Experiment, worker: Worker, problem: str) -> tuple[str | 
 
 
 def _sample(values: list[Any]) -> list[tuple[int, Any]]:
-    """Returns the values to check, with their indices. Long lists are ranges, whose last value is sufficient."""
+    """Returns the values to check with their indices. A long list comes from a range, so its first 99 values and the last one are sufficient."""
     indexed = list(enumerate(values))
     return indexed if len(indexed) <= 100 else [*indexed[:99], indexed[-1]]
 
 
 class Progress:
-    """Shows progress in one line of a terminal, or prints a line every ten seconds."""
+    """Shows the progress in one line of a terminal. Without a terminal, prints a line every ten seconds."""
 
     def __init__(self, total: int, done: int, jobs: int):
         self.done = done
@@ -284,7 +287,7 @@ class Progress:
         self.show()
 
     def show(self, at_once: bool = False) -> None:
-        """Updates the line, at most five times a second."""
+        """Updates the line at most five times a second, or immediately with `at_once`."""
         now = time.monotonic()
         if now < self._next and not at_once:
             return

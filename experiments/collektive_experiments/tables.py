@@ -19,7 +19,7 @@ from .figure_options import CENSORED, CONVERGED
 from .store import Store
 
 BATCH = 2000
-"""Number of rows that are kept in memory."""
+"""The number of rows that are kept in memory before they are written."""
 COUNTS = ("links", "sent", "dropped", "delayed", "expired")
 TIMES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99")
 RUN_COLUMNS: list[tuple[str, pa.DataType]] = [
@@ -33,7 +33,7 @@ Record = dict[str, Any]
 
 
 class Table:
-    """A table that is written row by row and published when it is complete."""
+    """A table that is written row by row, and gets its final name when it is complete."""
 
     def __init__(self, path: str, schema: pa.Schema, with_csv: bool):
         self._schema = schema
@@ -45,7 +45,7 @@ class Table:
             self._writers.append(pyarrow.csv.CSVWriter(self._files[1], schema))
 
     def add(self, row: dict[str, Any]) -> None:
-        """Adds a row, in which columns without a value are null."""
+        """Adds a row. Columns without a value are null."""
         self._rows.append(row)
         if len(self._rows) == BATCH:
             self._flush()
@@ -74,9 +74,9 @@ class Table:
 
 
 def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
-    """Writes the tables of all finished runs. Returns the number of runs in the written table."""
+    """Writes the tables of all finished runs. Returns the number of runs that the tables contain completely."""
     columns = _Columns(experiment, store)
-    # CSV tables of an earlier command must not become outdated.
+    # Existing CSV tables are always written again, so that they do not become outdated.
     with_csv = with_csv or os.path.exists(os.path.join(store.folder, "runs.csv"))
     runs = pa.schema([("run", pa.string()), *columns.parameters, *RUN_COLUMNS, *((name, pa.float64()) for name in columns.metrics),
                       *((prefix + name, pa.float64()) for name in columns.converged for prefix in (CONVERGED, CENSORED)), *RUN_TIMES,
@@ -144,19 +144,19 @@ class _Columns:
         self.converged = list(converged)
 
     def records(self) -> Iterator[tuple[Run, Record]]:
-        """Yields the finished runs in the experiment's order, with their run.json."""
+        """Yields the finished runs in the experiment's order with the content of their run.json."""
         for run in self._experiment.runs():
             if record := self._store.record(run):
                 yield run, record
 
     def values(self, run: Run) -> dict[str, Any]:
-        """Returns the run's parameters, always with the seed."""
+        """Returns the parameters of a run. These always include the seed."""
         seed = self._manifest(run).get("scenario", {}).get("seed")
         found = {"seed": seed, **run.values}
         return {key: _value(found.get(key), kind) for key, kind in self.parameters}
 
     def results(self, run: Run, record: Record) -> dict[str, Any]:
-        """Returns the rest of the run's row, after its series. Incomplete runs have no results."""
+        """Returns the other columns of a run's row. The series of the run must be read first. An incomplete run has no results."""
         row = {"status": record["status"], "message": record["message"] or None}
         if record["status"] != "complete":
             return row
@@ -166,13 +166,13 @@ class _Columns:
         for name in self.converged:
             row[CONVERGED + name] = time = manifest["converged"].get(name)
             if time is None and name in manifest["converged"]:
-                # A later stay in the band would be too short to count.
+                # A period in the band that began later would be too short to count as convergence.
                 row[CENSORED + name] = max(0.0, round(self._ends[run.name] - manifest["scenario"]["converged"][name]["seconds"], 6))
         row |= {f"version.{name}": manifest["versions"].get(name) for name in VERSIONS}
         return row
 
     def series(self, run: Run) -> Iterator[dict[str, Any]]:
-        """Yields the rows of metrics.csv: the second, metrics, counts and times."""
+        """Yields the rows of metrics.csv, with the second, metrics, counts and times."""
         table = self._table(run, "metrics.csv")
         names = next(table)[1:-len(COUNTS + TIMES)]
         self.rows[run.name] = 0
@@ -181,7 +181,7 @@ class _Columns:
             rest = cells[1 + len(names):]
             self.rows[run.name] += 1
             second = self._ends[run.name] = float(cells[0])
-            # Without answers, many metrics have no value.
+            # At second 0, missing values are normal, because many metrics need answers.
             yield {"second": second, **{column: self._number(run, name, metrics.get(name), warns=second > 0) for name, column in self._names.items()},
                    **{name: int(cell) for name, cell in zip(COUNTS, rest)}, **{name: float(cell) for name, cell in zip(TIMES, rest[len(COUNTS):])}}
 
@@ -198,7 +198,7 @@ class _Columns:
             yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names, cells[2:]) if cell}}
 
     def warn(self) -> None:
-        """Warns about metrics that are NaN or infinite, whose cells are empty."""
+        """Prints a warning about metrics that are NaN or infinite, because their cells are empty."""
         for name, runs in self._not_finite.items():
             print(f"collektive: the metric '{name}' is NaN or infinite in {len(runs)} runs, such as '{min(runs)}'; these cells are empty", file=sys.stderr)
 
@@ -212,7 +212,7 @@ class _Columns:
         return number
 
     def _node_column(self, field: str) -> str:
-        """Returns the column of a field. Names of other columns get the prefix `field.`"""
+        """Returns the column of a field. If another column has the field's name, adds the prefix `field.` to it."""
         taken = {"run", "second", "node", *(name for name, _ in self.parameters)}
         return "field." + field if field in taken else field
 

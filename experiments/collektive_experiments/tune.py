@@ -1,4 +1,4 @@
-"""Searches for the parameter values with the best metric. Optuna proposes them, and the workers of sweeps execute the runs."""
+"""Searches for the parameter values with the best metric. Optuna proposes values, and the workers of sweeps execute the runs."""
 import argparse
 import csv
 import json
@@ -26,7 +26,7 @@ STUDY = "tune"
 
 @dataclass(frozen=True)
 class Search:
-    """The key `tune` of an experiment file."""
+    """A search, as the key `tune` of an experiment file describes it."""
     metric: str
     direction: str
     trials: int
@@ -34,12 +34,12 @@ class Search:
 
     @property
     def identity(self) -> str:
-        """Returns the settings that must stay the same when a search is resumed."""
+        """Returns the settings that must not change when a search is resumed."""
         return json.dumps([self.metric, self.direction, {key: repr(value) for key, value in self.parameters.items()}])
 
 
 def read_search(experiment: Experiment) -> Search:
-    """Reads the key `tune` strictly. Raises `ExperimentError` with the line of the error."""
+    """Reads the key `tune`. Raises `ExperimentError` with the line of the first error, including unknown keys."""
     located = experiment.located
     tune = located.root.get("tune")
     if not isinstance(tune, dict):
@@ -84,7 +84,7 @@ def _distribution(located: Located, key: str, given: Any) -> optuna.distribution
 
 
 def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[], Pool], options: argparse.Namespace) -> int:
-    """Executes the remaining trials, with up to `jobs` at once. Returns the exit code."""
+    """Executes the remaining trials, up to `jobs` at the same time. Returns the exit code."""
     store.open(experiment, options.resume)
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     _check(experiment, search, store, options.trust_jvm)
@@ -94,7 +94,7 @@ def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[]
     while code == 0 and (left := total - len(_finished(study))) > 0:
         trials = [study.ask(search.parameters) for _ in range(min(left, options.jobs))]
         runs = {trial.number: [_run(experiment, run, trial.params) for run in experiment.runs()] for trial in trials}
-        # Different trials may propose the same values.
+        # Runs are collected by name, because different trials may propose the same values.
         every = {run.name: run for group in runs.values() for run in group}
         todo = [(run, False) for run in every.values() if not store.is_complete(run)]
         if todo:
@@ -119,7 +119,7 @@ def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[]
 
 
 def _check(experiment: Experiment, search: Search, store: Store, trust: bool) -> None:
-    """Validates the metric, and the first and last value of each parameter."""
+    """Validates the metric, and the first and last values of each parameter."""
     categorical = optuna.distributions.CategoricalDistribution
     ends = {key: (list(value.choices) if isinstance(value, categorical) else [value.low, value.high])  # type: ignore[attr-defined]
             for key, value in search.parameters.items()}
@@ -139,7 +139,7 @@ def _study(search: Search, store: Store) -> optuna.Study:
     if former != search.identity:
         raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction or parameters differ; name another folder with --out")
     study.set_user_attr("search", search.identity)
-    # A search of the same number of trials proposes the same values.
+    # The seed is the number of trials, so a resumed search always proposes the same values.
     study.sampler = optuna.samplers.TPESampler(seed=len(study.trials), constant_liar=True)
     return study
 
@@ -155,7 +155,7 @@ def _run(experiment: Experiment, run: Run, parameters: dict[str, Any]) -> Run:
 
 
 def _value(store: Store, run: Run, metric: str) -> float:
-    """Returns a metric at the end of a run, or NaN. A run that has not converged counts with its whole duration."""
+    """Returns the value of a metric at the end of a run, or NaN if it has none. The convergence time of a run without convergence is its whole duration."""
     if not store.is_complete(run):
         return math.nan
     with open(os.path.join(store.runs, run.name, "manifest.json"), encoding="utf-8") as file:
@@ -168,7 +168,7 @@ def _value(store: Store, run: Run, metric: str) -> float:
 
 
 def _write(study: optuna.Study, search: Search, path: str) -> None:
-    """Writes all finished trials as CSV."""
+    """Writes all finished trials to a CSV file."""
     lines: list[str] = []
     writer = csv.writer(argparse.Namespace(write=lines.append), lineterminator="\n")
     writer.writerow(["trial", search.metric, *search.parameters])

@@ -19,10 +19,10 @@ from .programs import can_leave_state
 
 MAX_TAIL = 4000
 MAX_START_SECONDS = 120.0
-"""Time limit until a process accepts runs."""
+"""The time limit in seconds until a new process accepts runs."""
 MAX_EXIT_SECONDS = 2.0
 REPEATED = "repeated"
-"""Folder of a repetition inside the run's folder, deleted after the comparison."""
+"""The folder of a repetition inside the run's folder. It is deleted after the comparison."""
 
 
 class WorkerError(Exception):
@@ -33,14 +33,16 @@ class WorkerError(Exception):
 class Outcome:
     """The outcome of a run."""
     status: str
-    """`complete`, `failed` (with an error), `crashed` (the process ended), `timeout`, or `differs` (a repetition had another result)."""
+    """`complete`, `failed` (with an error), `crashed` (the process ended), `timeout`, or `differs` (the repetition gave a different result)."""
     message: str = ""
 
 
 class _Process:
     """
-    A process of the player, with a JVM unless it only checks keys. Requests and responses use a socket that children of the process do not inherit.
-    Output goes to a log. The process ends when the socket is closed.
+    A process of the player. It starts a JVM, unless it only checks keys.
+
+    Requests and responses use a socket, which children of the process do not inherit. The process writes its output to a log, and ends when the socket is
+    closed.
     """
 
     def __init__(self, bundle: str, log: str, trust: bool, settings: str | None):
@@ -61,14 +63,14 @@ class _Process:
             self._process = subprocess.Popen(
                 ["mono-sgen", "--debug", os.path.join(bundle, "csharp/Collektive.Player.exe"), "serve", os.path.join(bundle, "inputs/scenario.json"),
                  "--scripts", os.path.join(bundle, "Scenario.dll"), "--jar", programs_jar(bundle, runtime),
-                 # A class path cannot contain colons.
+                 # The path is relative, because a class path cannot contain colons, and the path of the bundle may contain them.
                  "--host-jar", os.path.relpath(os.path.realpath(jar), os.path.realpath(os.path.dirname(log))),
                  "--java-home", java_home(), "--channel", str(child_end.fileno()), "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
                 stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()])
         self._ready = "" if settings is None else self._send({"start": True, "set": start})
 
     def keeps_state(self) -> bool | Outcome:
-        """Waits until the process accepts runs. Returns whether its scripts may keep state between runs."""
+        """Waits until the process accepts runs. Returns whether its scripts may keep state between runs, or the outcome if the process ended."""
         if self._keeps_state is None:
             answer = self._receive(self._ready, MAX_START_SECONDS)
             if isinstance(answer, Outcome):
@@ -81,7 +83,7 @@ class _Process:
         return self._receive(self._send(request), limit)
 
     def kill(self) -> None:
-        """Kills the process and its children. Any thread may call it."""
+        """Kills the process and its children. Any thread may call this method."""
         try:
             os.killpg(self._process.pid, signal.SIGKILL)
         except ProcessLookupError:
@@ -94,12 +96,12 @@ class _Process:
         self._process.wait()
 
     def _send(self, request: dict[str, Any]) -> str:
-        """Sends a request. Returns its id, which a script cannot guess."""
+        """Sends a request. Returns its id, which is random, so scripts cannot forge a response."""
         identity = secrets.token_hex(8)
         try:
             self._channel.sendall(json.dumps({"id": identity, **request}).encode() + b"\n")
         except OSError:
-            pass  # The process died; its answers end.
+            pass  # The process has ended. The caller detects this because no response arrives.
         return identity
 
     def _receive(self, identity: str, limit: float) -> dict[str, Any] | Outcome:
@@ -132,7 +134,7 @@ class _Process:
         return f"the process ended with signal {signal.Signals(-code).name}" if code < 0 else f"the process ended with code {code}"
 
     def _tail(self, start: int) -> str:
-        """Returns the last line of the log after an offset."""
+        """Returns the last line that was written to the log after an offset."""
         with open(self._log, "rb") as file:
             file.seek(max(start, os.path.getsize(self._log) - MAX_TAIL))
             printed = file.read().decode(errors="replace").strip()
@@ -141,8 +143,10 @@ class _Process:
 
 class Worker:
     """
-    Runs the bundle's scenario repeatedly. A process is reused only if neither scripts nor programs can keep state; otherwise the process of the next
-    run starts during a run. Not thread-safe, except `kill`.
+    A worker runs the bundle's scenario repeatedly.
+
+    It reuses a process only if neither scripts nor programs can keep state. Otherwise it starts the process of the next run while a run is executed. Only
+    the method `kill` is thread-safe.
     """
 
     def __init__(self, bundle: str, log: str, trust: bool = False):
@@ -157,8 +161,10 @@ class Worker:
 
     def run(self, settings: dict[str, Any], process: str, out: str, limit: float, is_repeated: bool) -> Outcome:
         """
-        Runs the scenario with `out`, a new folder, in a process with the settings of `Run.process`; `limit` is in seconds. With `is_repeated`, runs it
-        again in a fresh process, and both results must be equal.
+        Runs the scenario in a process that has started with the settings `process`, and returns the outcome.
+
+        The run writes its outputs to `out`, which must be a new folder. `limit` is in seconds. With `is_repeated`, runs the scenario again in a fresh
+        process, and both results must be equal.
         """
         outcome = self._run(settings, process, out, limit, fresh=False)
         if outcome.status != "complete" or not is_repeated:
@@ -173,7 +179,7 @@ class Worker:
         return Outcome("differs", problem) if problem else outcome
 
     def check(self, settings: dict[str, Any]) -> tuple[str | None, list[str]]:
-        """Returns the error in a scenario's keys, or None, and the scene's metrics."""
+        """Returns the error in a scenario's keys, or None if they are valid, and the scene's metrics."""
         process = self._idle = self._idle or self._start(None)
         answer = process.request({"check": True, "set": settings}, MAX_START_SECONDS)
         if isinstance(answer, Outcome):
@@ -188,7 +194,7 @@ class Worker:
         self._busy = self._idle = None
 
     def kill(self) -> None:
-        """Cancels the current run and prevents others. Any thread may call it."""
+        """Cancels the current run and prevents further ones. Any thread may call this method."""
         self._closed = True
         process = self._busy
         if process is not None:
@@ -245,7 +251,7 @@ def _manifest(folder: str) -> dict[str, Any]:
 
 
 def _difference(first: dict[str, Any], second: dict[str, Any]) -> str:
-    """Describes the first difference between the results of a run and its repetition. Returns an empty string if they are equal."""
+    """Describes the first difference between the results of a run and its repetition. Returns an empty string if the results are equal."""
     if first.get("digest") != second.get("digest"):
         return f"the digest was {first.get('digest')}, but {second.get('digest')} when repeated in a fresh process"
     for key in ("ticks", "nodes", "errors", "end", "converged"):
@@ -256,7 +262,7 @@ def _difference(first: dict[str, Any], second: dict[str, Any]) -> str:
 
 
 def java_home() -> str:
-    """Returns the JDK or JRE that runs simulations: COLLEKTIVE_JAVA_HOME, JAVA_HOME, or the newest one on this machine."""
+    """Returns the JDK or JRE that runs simulations, which is COLLEKTIVE_JAVA_HOME, JAVA_HOME or the newest one on this machine."""
     for name in ("COLLEKTIVE_JAVA_HOME", "JAVA_HOME"):
         if os.environ.get(name):
             return os.environ[name]

@@ -1,7 +1,7 @@
 """Renames the namespace of FlatBuffers in the C# of FOLDER: `rename_flatbuffers.py FOLDER [SOURCE]`. With SOURCE, first replaces FOLDER with a copy of
 SOURCE.
 
-Because of its own namespace, the package also works in projects that contain another copy of FlatBuffers.
+With the new namespace, the package also works in projects that contain another copy of FlatBuffers.
 """
 import shutil
 import sys

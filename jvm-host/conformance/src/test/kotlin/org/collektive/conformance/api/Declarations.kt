@@ -24,9 +24,9 @@ import kotlin.metadata.visibility
 /**
  * The public declarations of compiled Kotlin, one per line.
  *
- * The columns are separated by tabs: kind, owner, name, signature, and `operator` or `var`. The format is that of `core.tsv`, without
- * details that do not affect a user's sources, such as `inline`, `data` and `value`. Type parameters are numbered, with the prefix C for
- * classes, T for functions and A for aliases.
+ * The columns are separated by tabs: kind, owner, name, signature, and `operator` or `var`. `core.tsv` has the same format, but also
+ * contains details that do not affect a user's sources, such as `inline`, `data` and `value`. Type parameters are numbered, with the
+ * prefix C for classes, T for functions and A for aliases.
  */
 internal class Declarations {
     private val lines = sortedSetOf<String>()

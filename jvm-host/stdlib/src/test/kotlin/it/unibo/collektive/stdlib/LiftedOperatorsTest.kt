@@ -55,7 +55,7 @@ class LiftedOperatorsTest {
                     RandomValues.of(type, 31 * (31 * trial + place))
                 }
             }
-            // The order is that of the field, in which the device itself (1) is last.
+            // The ids are in the order of a field, in which the device itself (1) is last.
             val expected = runCatching { listOf(0, 2, 1).associateWith { id -> result(plain(types.indices.map { value(it, id) })) } }
             val found = runCatching {
                 val fields = types.indices.map { place ->

@@ -12,8 +12,8 @@ import kotlin.time.Instant
 /**
  * Returns the time of a monotonic clock that all devices of a connected component share.
  *
- * The clock starts at [Instant.DISTANT_PAST], whatever the devices' own clocks show. In each round, a device advances its last value by
- * the time since its last round. If a neighbour has sent a greater value, the device adopts that value.
+ * The clock starts at [Instant.DISTANT_PAST], independently of the devices' own clocks. In each round, a device advances its last value
+ * by the time since its last round. If a neighbour has sent a greater value, the device adopts that value.
  *
  * Once links have stopped changing for as many rounds as the component's diameter, clocks differ by no more than the age of the messages
  * between them. The function is not self-stabilising: one clock that is set too far ahead advances all others for ever.
