@@ -1,5 +1,7 @@
 """
-Runs the demo and the quick tests in fresh roots of distributions, created by debootstrap and removed afterwards. In the root `container`, follows the
+Runs the demo and the quick tests on freshly installed Linux distributions.
+
+debootstrap creates a root folder with each distribution, and the script removes the folder afterwards. In the root `container`, the script follows the
 Dockerfile instead, and then runs commands without a network.
 """
 import hashlib
@@ -18,19 +20,19 @@ from build.console import Failure, print_progress
 from build.places import BUILD, LOGS, ROOT
 from tests import bare_demo, junit
 
-# Names, and debootstrap's suites.
+# The names of the roots, and the suite that debootstrap installs in each.
 CONTAINER = "container"
 ROOTS = {"debian-12": "bookworm", "debian-13": "trixie", "ubuntu-24.04": "noble", CONTAINER: "bookworm"}
 DOCKERFILE = ROOT / "experiments/Dockerfile"
 STUDY = "experiments/gradients"
-# Debian has no package with Ubuntu's keys, so they come from Ubuntu's archive.
+# Ubuntu's keys come from Ubuntu's archive, because Debian does not package them.
 UBUNTU_KEYRING_SHA256 = "36de43b15853ccae0028e9a767613770c704833f82586f28eb262f0311adb8a8"
-# Variables that tell clients how to reach registries.
+# Environment variables that configure how clients reach registries.
 CLIENT_VARIABLES = re.compile(r"(https?|all|no)_proxy|(HTTPS?|ALL|NO)_PROXY|SSL_CERT_(FILE|DIR)|CURL_CA_BUNDLE|NODE_EXTRA_CA_CERTS|MAVEN_(OPTS|ARGS)|"
                               r"PIP_(CERT|INDEX_URL|EXTRA_INDEX_URL|TRUSTED_HOST)|(npm_config|NPM_CONFIG)_[^=]*|CARGO_(HTTP|NET|SOURCE|REGISTR)[^=]*")
-# Settings of the clients in the user's folder.
+# Files in the user's home folder with settings of the clients.
 CLIENT_FILES = (".m2/settings.xml", ".m2/settings-security.xml", ".cargo/config", ".cargo/config.toml", ".cargo/credentials.toml")
-# Mounts the root in the first argument, and runs the other arguments inside it.
+# A script that prepares the root in its first argument, and runs the other arguments as a command inside the root.
 ENTER = """
 set -e
 root=$1
@@ -55,7 +57,7 @@ class RootError(Exception):
 
 
 def test(names: Sequence[str], results: Path) -> tuple[str, int]:
-    """Tests the last commit in roots. Returns the failure or an empty string, and the number of skipped roots."""
+    """Tests the last commit in roots. Returns a description of the failures, which may be empty, and the number of skipped roots."""
     shutil.rmtree(results, ignore_errors=True)
     results.mkdir(parents=True)
     if not _is_possible():
@@ -80,7 +82,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
 
 
 def _is_possible() -> bool:
-    """Returns whether roots can be created here, and prints the reason if not."""
+    """Returns whether roots can be created on this machine. If not, prints the reason."""
     if not system.can_install():
         print_progress("skipped: fresh roots need root and apt-get")
         return False
@@ -97,12 +99,12 @@ def _is_possible() -> bool:
 
 
 def _namespace(*command: str | Path) -> list[str | Path]:
-    """Returns a command line in a namespace, whose mounts and processes end with the command."""
+    """Returns a command line that runs a command in a new namespace. The namespace's mounts and processes end with the command."""
     return ["unshare", "--mount", "--pid", "--fork", "--kill-child", *command]
 
 
 def _remove(folder: Path) -> None:
-    """Removes a folder that contains no mounts."""
+    """Removes a folder. Its mounts must have ended."""
     subprocess.run(["rm", "-rf", "--one-file-system", folder], check=True)
 
 
@@ -111,7 +113,7 @@ def _log(name: str) -> Path:
 
 
 def _test_root(name: str, work: Path, results: Path) -> int:
-    """Creates a root, and runs the demo and the tests in it. Returns the last exit code that is not 0."""
+    """Creates a root, and runs the demo and the tests in it. Returns the last exit code other than 0, or 0."""
     began, root = time.monotonic(), work / name
     print_progress(f"{name}: creating the root")
     _log(name).unlink(missing_ok=True)
@@ -135,7 +137,7 @@ def _test_distribution(name: str, root: Path, results: Path) -> int:
 
 
 def _test_container(root: Path, results: Path) -> int:
-    """Runs the steps of the Dockerfile, then commands without a network, until one fails."""
+    """Runs the steps of the Dockerfile and then commands without a network, until a step fails."""
     commands = [(f"build step {number}", ["sh", "-c", step], True) for number, step in enumerate(_steps(DOCKERFILE.read_text()), 1)]
     commands += [(f"{words[0]} without a network", ["./collektive", *words], False) for words in (
         ["demo", "--overwrite"], ["run", f"{STUDY}/scenario.json", "--out", "/out/run"], ["check", STUDY],
@@ -151,7 +153,7 @@ def _test_container(root: Path, results: Path) -> int:
 
 
 def _steps(dockerfile: str) -> list[str]:
-    """Returns the commands of the RUN instructions."""
+    """Returns the commands of the RUN instructions in a Dockerfile."""
     lines = re.sub(r"(?m)^#.*\n", "", dockerfile).replace("\\\n", "").splitlines()
     return [line.removeprefix("RUN ") for line in lines if line.startswith("RUN ")]
 
@@ -160,12 +162,12 @@ def _make(name: str, work: Path, root: Path) -> None:
     """Creates a minimal system with a clone of HEAD and this machine's client settings."""
     suite = ROOTS[name]
     if suite == "noble":
-        # Debian 12's debootstrap does not know this suite, but all Ubuntu suites work the same way.
+        # Debian 12's debootstrap does not know this suite. The script of another Ubuntu suite works, too, because all of them are equal.
         script = [] if Path("/usr/share/debootstrap/scripts", suite).exists() else ["/usr/share/debootstrap/scripts/jammy"]
         mirror = _mirror("Ubuntu")
         keyring = _ubuntu_keyring(name, work, suite, mirror, script)
         _debootstrap(name, root, suite, mirror, script, f"--keyring={keyring}")
-        # Enabled by default in Ubuntu.
+        # These components are enabled by default in an installed Ubuntu, but not by debootstrap.
         sources = root / "etc/apt/sources.list"
         sources.write_text(re.sub(rf"(.*) {suite} main.*", rf"\1 {suite} main universe\n\1 {suite}-updates main universe", sources.read_text()))
     else:
@@ -186,7 +188,7 @@ def _debootstrap(name: str, root: Path, suite: str, mirror: str, script: list[st
 
 
 def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list[str]) -> Path:
-    """Returns the file of Ubuntu's keys."""
+    """Downloads the file with Ubuntu's keys, checks its hash and returns its path."""
     packages = work / "keyring-packages"
     _debootstrap(name, packages, suite, mirror, script, "--download-only", "--no-check-gpg")
     package = next((packages / "var/cache/apt/archives").glob("ubuntu-keyring_*.deb"))
@@ -204,14 +206,14 @@ def _logged(name: str, command: Sequence[str | Path]) -> None:
 
 
 def _add_clients(root: Path) -> None:
-    """Copies name servers, proxies, certificates and client settings of this machine to the root."""
+    """Copies this machine's name servers, proxies, certificates and client settings to the root."""
     home = Path.home()
     for file in ("resolv.conf", "hosts"):
         shutil.copy(Path("/etc", file), root / "etc" / file)
     settings = subprocess.run(["apt-config", "dump"], stdout=subprocess.PIPE, text=True, check=True).stdout
     (root / "etc/apt/apt.conf.d/00host").write_text("".join(line for line in settings.splitlines(keepends=True) if line.startswith("Acquire::")))
     certificates = [*Path("/usr/local/share/ca-certificates").glob("*.crt")]
-    # A bundle of certificates in a place that differs from Debian's.
+    # Bundles of certificates that the environment variables name, unless Debian has a bundle at the same path.
     bundles = [Path(value) for value in _client_variables().values() if os.path.isfile(value) and not value.startswith("/etc/ssl/certs/")]
     for source, target in [*((file, root / str(file).lstrip("/")) for file in [*certificates, *bundles]),
                            *((home / file, root / "root" / file) for file in CLIENT_FILES if (home / file).exists())]:
@@ -230,7 +232,10 @@ def _client_variables() -> dict[str, str]:
 
 
 def _run(name: str, root: Path, *command: str, has_network: bool = True) -> int:
-    """Runs a command in the clone inside the root, with its output in the log, and prints its steps. Without a network, it has the loopback interface."""
+    """Runs a command in the clone inside the root. Writes its output to the log, and prints its progress messages.
+
+    Without a network, the command has only the loopback interface.
+    """
     print_progress(f"{name}: {' '.join(command)}")
     variables = [f"{key}={value}" for key, value in _client_variables().items()]
     inside = ["sh", "-c", 'cd /root/collektive && exec "$@"', "sh", *command]
@@ -246,7 +251,7 @@ def _run(name: str, root: Path, *command: str, has_network: bool = True) -> int:
                     print(f"{name} {line}", end="", file=sys.stderr, flush=True)
         return process.wait()
     except BaseException:
-        # The first process of a namespace, and unshare itself, ignore Ctrl-C.
+        # This process must be killed, because unshare and the first process of a namespace ignore Ctrl-C.
         process.kill()
         process.wait()
         raise

@@ -8,7 +8,7 @@ from tests import junit
 
 
 class Demo:
-    """Checks that return an error or None."""
+    """The results of a demo. Each check returns an error, or None."""
 
     def __init__(self, folder: str, code: int) -> None:
         self.folder, self.code = folder, code
@@ -45,12 +45,12 @@ def case(name: str, check: Callable[[], str | None]) -> junit.Case:
 
 
 def check(folder: str, code: int, results: str) -> None:
-    """Checks the results of a demo that ended with a code, and writes RESULTS.xml."""
+    """Checks the results of a demo that has ended with an exit code, and writes a JUnit XML file."""
     demo = Demo(folder, code)
     junit.write(results, "demo", [
         case("the exit code is 0", demo.ended),
-        case("its manifest has 500 nodes, 1200 ticks and no error", demo.manifest),
+        case("the manifest has 500 nodes, 1200 ticks and 0 errors", demo.manifest),
         case("metrics.csv has all rows", demo.metrics),
-        case("it has three pictures", demo.pictures),
-        case("it has a replay page", demo.page),
+        case("the demo has three pictures", demo.pictures),
+        case("the demo has a replay page", demo.page),
     ])

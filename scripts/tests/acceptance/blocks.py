@@ -1,4 +1,4 @@
-"""Finds the code blocks of pages, and assigns each to the test of its kind."""
+"""Finds the code blocks in pages, and assigns each block to a kind of test."""
 import glob
 import os
 import re
@@ -9,7 +9,7 @@ from build.places import ROOT
 
 FENCE = re.compile(r'(?m)^( *)```(\w*)(?: title="([^"]+)")?\n(.*?)^\1```$', re.S)
 STORIES = ["Documentation~/without-unity.md", "Documentation~/first-study.md",
-           # The suite live follows tutorial-live.md.
+           # tutorial-live.md is missing here, because the suite live tests it.
            *sorted(os.path.relpath(path, ROOT) for path in glob.glob(os.path.join(ROOT, "Documentation~/tutorial-*.md")) if "tutorial-live" not in path)]
 PROJECTS = ["README.md", "Documentation~/getting-started.md", "Documentation~/first-swarm-in-unity.md"]
 PAGES = sorted(os.path.relpath(path, ROOT) for pattern in ("*.md", "docs/*.md", "Documentation~/*.md") for path in glob.glob(os.path.join(ROOT, pattern)))
@@ -29,7 +29,7 @@ class Block:
 
     @property
     def kind(self):
-        """The kind of test, or an empty string."""
+        """The kind of test for this block, or an empty string if no test covers it."""
         kinds = {
             "story": self.page in STORIES and (self.title or self.language in ("sh", "text")),  # test_stories.py
             "project": self.page in PROJECTS and self.language in ("fbs", "kotlin", "csharp"),  # test_readme.py and test_pages.py

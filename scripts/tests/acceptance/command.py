@@ -17,10 +17,10 @@ from build.places import COLLEKTIVE, ROOT
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SAMPLE = os.path.join(ROOT, "unity/Samples~/GradientAscent")
-# Shared by all tests of this process, so that compiled code is reused.
+# All tests of this process share this folder, so they reuse compiled code.
 WORK = tempfile.mkdtemp(prefix="collektive-test-")
 atexit.register(shutil.rmtree, WORK, ignore_errors=True)
-# Background jobs of shells ignore SIGINT, and children inherit that unless this process has a handler.
+# A background job of a shell ignores SIGINT. Without this handler, child processes would inherit that.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
@@ -35,7 +35,7 @@ def last_error(result):
 
 
 def processes(*words):
-    """Returns the command lines that contain all words, by process id."""
+    """Returns the command lines of the processes that contain all words, by process id."""
     found = {}
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -49,12 +49,12 @@ def processes(*words):
 
 
 def jdk():
-    """The JDK that runs simulations."""
+    """Returns the JDK that runs simulations."""
     return str(find_jdk())
 
 
 def compiled(compile_part, *parts):
-    """Compiles a part of a project, and releases the lock on the outputs: commands that the test starts may have to build."""
+    """Compiles a part of a project. Afterwards releases the lock on the outputs, because commands that the test starts may have to build."""
     try:
         return str(compile_part(*parts))
     finally:
@@ -62,7 +62,7 @@ def compiled(compile_part, *parts):
 
 
 class Folder(unittest.TestCase):
-    """A test with an empty folder."""
+    """A test case with an empty folder for each test."""
 
     def setUp(self) -> None:
         self.folder = os.path.join(WORK, "test")
@@ -80,10 +80,10 @@ class Folder(unittest.TestCase):
         return os.path.join(self.folder, *parts)
 
     def wait_until(self, holds) -> None:
-        """Waits until holds() is true, for at most a minute."""
+        """Waits until holds() returns true, for at most a minute."""
         end = time.monotonic() + 60
         while not holds():
-            self.assertLess(time.monotonic(), end, "the condition was not met within a minute")
+            self.assertLess(time.monotonic(), end, "the condition must be met within a minute")
             time.sleep(0.05)
 
     def manifest(self, out):
@@ -92,14 +92,14 @@ class Folder(unittest.TestCase):
 
 
 class Project(Folder):
-    """A project outside the clone, with its own schema, Kotlin, C# and scenario."""
+    """A test case with a project outside the clone, which has its own schema, Kotlin, C# and scenario."""
 
     def setUp(self) -> None:
         super().setUp()
         shutil.copytree(os.path.join(HERE, "foreign"), self.path("project"))
 
     def programs_jar(self):
-        """Returns the jar of the current programs, which a run has built."""
+        """Returns the jar of the current programs, which an earlier run must have built."""
         project = Path(self.path("project"))
         return compiled(projects.programs_jar, inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"))
 

@@ -1,4 +1,4 @@
-"""Compiles an installed package as Unity would."""
+"""Compiles an installed package in the same way as Unity."""
 import shutil
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,9 +11,9 @@ HEADLESS = ROOT / "unity/Headless~"
 
 
 def compile_project(project: Path) -> None:
-    """Compiles the package in Packages/ of a project, its samples and a player into bin/.
+    """Compiles the package in Packages/ of a project, its samples and a player to bin/.
 
-    The stand-in of Unity with its physics and the player come from this checkout.
+    The player, and the stand-in for Unity with its physics, come from this checkout.
     """
     package, folder = project / "Packages/org.collektive.unity/unity", project / "bin"
     folder.mkdir()

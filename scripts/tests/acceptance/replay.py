@@ -7,7 +7,7 @@ import struct
 
 
 def read(path):
-    """Returns metadata and a list of frames: (time, {id: (x, y, z, first field or None)}, set of links (from, to))."""
+    """Returns the metadata and a list of frames. A frame is (time, {id: (x, y, z, first field or None)}, set of links (from, to))."""
     text = open(path, encoding="utf-8").read()
     lines = re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1).split("\n")
     header = json.loads(_unpack(lines[0]))
@@ -50,7 +50,7 @@ class _Segment:
                     motion[slot] = moved
         self.seen.update(present)
         nodes = {self.ids[slot]: (*(axis[slot] * self.step for axis in self.last[:3]), self.value(0, self.last[3][slot])) for slot in present}
-        self.number()  # the number of all links
+        self.number()  # skips the total number of links
         self.links -= set(self.pairs())
         self.links |= set(self.pairs())
         return nodes, {(self.ids[a], self.ids[b]) for a, b in self.links}

@@ -32,7 +32,7 @@ class SimultaneousCommandsTest(Project):
         files = [os.path.join(place, name) for place, _, names in os.walk(home) for name in names]
         archives = [file for file in files if file.endswith(".jsa")]
         self.assertEqual(len(archives), 1, files)
-        # The JVM verifies the archive's checksum.
+        # With these options, the JVM verifies the checksum of the archive.
         java = [os.path.join(jdk(), "bin/java"), "-Xshare:on", "-XX:+VerifySharedSpaces", f"-XX:SharedArchiveFile={archives[0]}", "-XX:+UseSerialGC"]
         checked = subprocess.run([*java, "-cp", HOST_JAR, "-version"], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr + checked.stdout)

@@ -1,4 +1,4 @@
-"""Tests that each code block of pages has a test, here or in the file that blocks.py names."""
+"""Tests that a test covers each code block of the pages, in this file or in the file that blocks.py names."""
 import os
 import re
 import shlex
@@ -9,14 +9,14 @@ from command import collektive
 
 from build.places import ROOT
 
-# Blocks without a test, and the reason.
+# Blocks that no test covers, and the reason for each.
 EXEMPT = {
     ("Documentation~/from-collektive.md", "kts"): "needs Collektive's artefacts, which the tests do not fetch",
     ("Documentation~/experiments.md", "bash"): "needs Slurm",
     ("Documentation~/experiments.md", "yaml"): "needs Kubernetes",
     ("docs/boundary.md", "text"): "a command line with placeholders; test_own.c runs it",
 }
-# Options of Unity's players in pages.
+# Options in pages that belong to Unity's players.
 UNITY = {"-batchmode", "-nographics"}
 DESCRIPTORS = {"void": "V", "boolean": "Z", "int": "I", "long": "J", "byte[]": "[B", "String": "Ljava/lang/String;", "ByteBuffer": "Ljava/nio/ByteBuffer;"}
 
@@ -38,12 +38,12 @@ def test_all_code_blocks_are_found(page) -> None:
 
 
 def commands():
-    """Returns the place and the words of each command line."""
+    """Returns the place and the words of each command line in the pages."""
     found = []
     for block in of_kind("command"):
         lines = block.text.replace("\\\n", " ").splitlines()
         for line in lines:
-            # If a block has no prompts, all lines are commands.
+            # In a block without prompts, all lines are commands.
             if line.startswith("$ ") or not any(other.startswith("$ ") for other in lines):
                 found.append((block.place, shlex.split(line.removeprefix("$ "), comments=True)))
     return found
@@ -61,12 +61,12 @@ def test_commands_that_are_not_run_have_valid_options(place, words) -> None:
     else:
         unknown = [] if words == ["export", "PATH=$PWD:$PATH"] else [words[0]]
     assert unknown == []
-    # Files of this repository exist.
+    # Paths of files in this repository must exist.
     assert [word for word in words if re.match(r"(experiments|unity|docs)/", word) and not os.path.exists(os.path.join(ROOT, word))] == []
 
 
 def player_options():
-    """Returns the command line options of players, which PlayerArguments derives from settings."""
+    """Returns the command-line options of players, which PlayerArguments derives from the settings."""
     fields = re.findall(r"(?m)^ +public (?!.*\()([\w<>]+) (\w+)(?: =|;)", text("unity/Runtime/Unity/Manager/SimulationSettings.cs"))
     prefix = re.search(r'Prefix = "([^"]+)"', text("unity/Runtime/Unity/Manager/PlayerArguments.cs"))[1]
     return {prefix + name for kind, name in fields if not kind.startswith("List")}
@@ -80,7 +80,7 @@ def test_options_of_players_are_known() -> None:
 def test_java_of_the_boundary_page_matches_the_native_library() -> None:
     shim = text("native-shim/src/host.c")
     shim = shim.replace("CALL_TYPE", re.search(r'#define CALL_TYPE (".*")', shim)[1])
-    # From the natives of the class Shim to the entries of Host.
+    # This part of the source lists the native methods of the class Shim and the entry points of Host.
     bound = re.findall(r'"(\w+)",\s*"(\(\S*\)\S+)"', shim[shim.index('NATIVE("grow"'):shim.index("entries[i].name")])
     documented = set()
     for block in of_kind("contract"):

@@ -1,4 +1,4 @@
-"""Tests the check of scenarios and experiments before their runs."""
+"""Tests ./collektive check, which checks scenarios and experiments before they are run."""
 import json
 import os
 import re
@@ -8,7 +8,7 @@ from command import Project, collektive
 
 class CheckTest(Project):
     def write(self, name: str, **values: object) -> str:
-        """Writes a copy of the project's scenario with other values, and returns its path."""
+        """Writes a copy of the project's scenario in which some values are replaced, and returns its path."""
         with open(self.path("project", "lamps.json")) as file:
             scenario = json.load(file)
         path = self.path("project", name)

@@ -1,4 +1,4 @@
-"""Tests errors about unknown and invalid commands and options."""
+"""Tests the errors about unknown and invalid commands and options."""
 import tempfile
 import unittest
 from pathlib import Path

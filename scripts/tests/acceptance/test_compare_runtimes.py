@@ -1,4 +1,4 @@
-"""Tests that functions are compared on two runtimes, and that a difference is reduced to a small run."""
+"""Tests ./collektive compare-runtimes, which compares functions on two runtimes and reduces a difference to a small run."""
 import os
 import re
 from unittest import mock
@@ -28,7 +28,7 @@ context(device: Device) fun Aggregate<Int>.reached(): Double = distanceTo(device
 fun Aggregate<Int>.fails(): Int = if (localId == 1) error("always") else neighboring(localId).neighbors.size
 fun plain(x: Int): Int = x
 """
-# The class that implements Aggregate differs.
+# The function returns the name of the class that implements Aggregate, which differs between the runtimes.
 DIFFERENT = IMPORTS + """
 fun Aggregate<Int>.different(): String {
     val rounds = evolve(0) { it + 1 }

@@ -1,4 +1,4 @@
-"""Tests the case study of the README, and reproducibility."""
+"""Tests the demo, which is the case study of the README, and the reproducibility of runs."""
 import csv
 import json
 import os
@@ -12,7 +12,7 @@ from command import HERE, SAMPLE, Folder, collektive
 
 @pytest.mark.alone
 class DemoTest(Folder):
-    """Checks the results of one whole demo."""
+    """Checks the results of a whole demo."""
 
     @classmethod
     def setUpClass(cls) -> None:
@@ -29,7 +29,7 @@ class DemoTest(Folder):
         self.assertEqual(self.whole["scenario"]["seconds"], 60)
         self.assertEqual(self.whole["scenario"]["seed"], 1)
         self.assertEqual(self.whole["scenario"]["program"], "gradient-ascent")
-        # Other keys have their defaults.
+        # The manifest also lists keys that have their defaults.
         self.assertEqual(self.whole["scenario"]["fields"],
                          {"nodes": 500, "range": 3, "bodyRadius": 0.25, "source": [25, 0, 0], "obstacles": True, "fieldScale": 1})
         self.assertEqual(self.whole["ticks"], 1200)
@@ -57,7 +57,7 @@ class DemoTest(Folder):
             phases = [float(row[name + "_ms"]) for name in ("queries", "rules", "sense", "step", "act", "physics", "other")]
             self.assertAlmostEqual(sum(phases), float(row["tick_ms"]), places=3, msg=row["second"])
             self.assertGreater(min(phases), 0, row)
-        # A run writes its page after the ticks.
+        # The ticks take most of the duration of the run, which also includes writing the page.
         seconds = sum(float(row["tick_ms"]) for row in rows) * 20 / 1000
         self.assertLess(0.8 * self.whole["wall_seconds"], seconds)
         self.assertLess(seconds, self.whole["wall_seconds"] + 0.01)
@@ -82,7 +82,7 @@ class DemoTest(Folder):
         self.assertEqual(len(frames[-1][1]), 500)
 
     def test_it_is_fast_enough(self) -> None:
-        # The targets are 2 and 33 ms on two idle cores. A busy machine may take twice as long.
+        # On two idle cores, the targets are 2 ms and 33 ms. A busy machine may take twice as long.
         self.assertLessEqual(self.whole["step_ms_median"], 2 * 2, "bridge and rounds, median")
         self.assertLessEqual(self.whole["tick_ms_p99"], 2 * 33, "whole tick, p99")
 
@@ -97,7 +97,7 @@ class DemoTest(Folder):
 
 
 def crosses(start, end, box):
-    """Returns whether a line between two ground points crosses a box, seen from above."""
+    """Returns whether a line between two points on the ground crosses a box when seen from above."""
     low, high = 0.0, 1.0
     for axis, (a, b) in enumerate(zip(start, end)):
         centre, size = box["centre"][2 * axis], box["size"][2 * axis]
@@ -131,7 +131,7 @@ class Repeatability(Folder):
         self.assertNotEqual(digests[0], digests[2])
 
     def test_results_do_not_depend_on_threads_or_placement(self) -> None:
-        """Tests bodies that crowd around the source and push each other."""
+        """Compares runs in which the bodies crowd around the source and push each other."""
         results = []
         for process, threads in enumerate([1, 2, 4, 2]):
             self.write(fields={"nodes": 300, "range": 3, "source": [-10, 0, 0]}, seconds=12, threads=threads)
@@ -151,7 +151,7 @@ class Repeatability(Folder):
         self.assertEqual(self.without_clock("a"), self.without_clock("b"))
 
     def without_clock(self, out):
-        """Returns the results of a run without the times that headless.md lists."""
+        """Returns the results of a run without the measured times, which headless.md lists."""
         def is_clock(key):
             return "_ms" in key or key == "wall_seconds"
         with open(self.path(out, "metrics.csv")) as file:

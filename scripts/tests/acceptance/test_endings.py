@@ -13,7 +13,7 @@ from build.places import COLLEKTIVE
 
 
 class WholeRuns(Project):
-    """Tests the ends of runs."""
+    """Tests runs that end early, in different ways."""
 
     SCRIPT = """
         private void Update()
@@ -131,7 +131,7 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, expected, result.stderr)
 
     def fails_at_tick_4(self, code):
-        """Runs a script with this code at tick 4, expects an incomplete run, and returns its messages."""
+        """Runs a script that executes the code at tick 4. Checks that the run is incomplete, and returns its result with the messages."""
         result = self.at_tick_4(code)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")
@@ -156,7 +156,7 @@ class WholeRuns(Project):
 
         protected override void Sense(""")
         result = self.run_it()
-        # Mono ends the process, by a signal if the stack overflows in its own code.
+        # Mono exits with 1. If the stack overflows in Mono's own code, a signal ends the process.
         self.assertIn(result.returncode, (1, 128 + signal.SIGSEGV))
         self.assertIn(f"the player exited with code {result.returncode} during the run. Usual causes: infinite recursion in a script,", last_error(result))
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "running")
@@ -215,7 +215,7 @@ class WholeRuns(Project):
     def test_rows_have_the_time_of_their_tick(self) -> None:
         self.change("lamps.json", '"metrics": true', '"interval": 1, "nodes": { "fields": ["position"] }')
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.3, "converged": { "agreeing": { "from": 10 } }')
-        # Three ticks of 0.3333333 are an interval, however often, although their sum is below it.
+        # Three ticks of 0.3333333 count as an interval of 1 s, although their sum is below 1. This must hold for later intervals, too.
         for ticks, times in [("0.3", [0, 1.2, 2.1, 3, 4.2, 5.1, 6]), ("0.3333333333", [0, 1, 2, 3, 4, 5, 5.999999])]:
             result = self.run_it("--seconds", "6", "--set", f"deltaTime={ticks}")
             self.assertEqual(result.returncode, 0, result.stderr)

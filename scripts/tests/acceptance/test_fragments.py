@@ -1,4 +1,4 @@
-"""Compiles code fragments of pages, each with the declarations that it needs."""
+"""Tests that the code fragments in pages compile. Each is compiled with the declarations that it needs."""
 import glob
 import json
 import os
@@ -13,7 +13,7 @@ from build import inputs, projects
 from build.places import ROOT
 
 USINGS = "using System;\nusing System.Collections.Generic;\nusing Collektive.Bridge;\nusing Collektive.Unity;\nusing swarm;\nusing UnityEngine;\n"
-# Code around members and statements.
+# Templates for the code around members and statements.
 CLASS = "public sealed class Users : MonoBehaviour\n{\n    private Node node;\n\n%s\n}"
 SCENE = "public sealed class Users : SceneBuilder\n{\n    protected override void Build(SimulationManager manager)\n    {\n    }\n\n%s\n}"
 METHOD = CLASS % ("    private void Show(ActuatorData data, ulong ageInTicks) { }\n\n"
@@ -34,7 +34,7 @@ import swarm.SensorData
 
 
 def fragments(language):
-    """Yields place and code of each code block that is not a file of a tutorial."""
+    """Yields the place and the code of each code block in a language, except files of tutorials."""
     return [(block.place, block.text) for block in of_kind("fragment") if block.language == language]
 
 
@@ -59,10 +59,10 @@ class Fragments(Folder):
         self.assertEqual(len(fragments("fbs")), 1)
 
     def write_fragments(self, kind, wrap):
-        """Writes each fragment into its own file, and returns their folder."""
+        """Writes each fragment to its own file, and returns the folder of the files."""
         os.makedirs(self.path(kind))
         for number, (place, code) in enumerate(fragments(kind)):
-            # Tests of programs are quoted from the tests of the module testing.
+            # Tests of programs are skipped, because the pages quote them from the tests of the module testing.
             if "@Test" not in code:
                 with open(self.path(kind, f"Fragment{number}.{'cs' if kind == 'csharp' else 'kt'}"), "w") as file:
                     file.write(wrap(number, place, code))

@@ -1,4 +1,4 @@
-"""Runs each lesson, and checks the claims of its text."""
+"""Runs each lesson, and checks the statements in its text."""
 import csv
 import json
 import os
@@ -13,7 +13,7 @@ from live import examples
 
 LESSONS = ROOT / "scripts/lessons"
 Row = dict[str, float]
-# The claims of each lesson about metrics at some seconds.
+# The statements of each lesson about the metrics at some seconds.
 CLAIMS: dict[str, dict[float, Callable[[Row], bool]]] = {
     "gradient": {5: lambda row: row["wrong"] == 0 and row["farthest"] == 18},
     "channel": {5: lambda row: row["members"] == 10 and row["outside"] == 0},

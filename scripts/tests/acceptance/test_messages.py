@@ -1,4 +1,4 @@
-"""Tests messages about invalid input and environments."""
+"""Tests the messages about invalid input and invalid environments."""
 import os
 import subprocess
 
@@ -46,7 +46,7 @@ class Messages(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("stopped at tick 1: all rounds failed; the errors are above. To continue anyway, use --keep-going", last_error(result))
         self.assertIn("failed: stopped at tick 1", self.manifest(self.path("out"))["outcome"])
-        # The message about a full heap contains the setting, and errors in inlined code the line of the call.
+        # The message about a full heap must name the setting, and an error in inlined code must have the line of the call.
         output = result.stderr + result.stdout
         self.assertRegex(output, r"Java heap space, with all 12\d MB in use: raise the maximum heap in the JVM settings \(jvm\.maximumHeapMb\)")
         self.assertRegex(output, r"IllegalStateException.*\n    at lamps\.BrightestKt\.brightest\(Brightest\.kt:12\)")

@@ -1,4 +1,4 @@
-"""Tests output folders: each belongs to one run, and the manifest contains the outcome."""
+"""Tests that an output folder belongs to one run, and that its manifest contains the outcome of the run."""
 import json
 import os
 import shutil
@@ -33,7 +33,7 @@ class Outputs(Project):
         _, frames = replay.read(self.path("out", "replay.html"))
         _, nodes, _ = frames[-1]
         brightest = {round(value, 3) for *_, value in nodes.values()}
-        self.assertEqual(len(brightest), 1, "in the end all lamps know the brightest")
+        self.assertEqual(len(brightest), 1, "in the end, all lamps must know the brightest one")
 
     def test_capsules_and_directions_of_links_are_in_the_replay(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
@@ -68,7 +68,7 @@ class Outputs(Project):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("has results of a run: manifest.json, metrics.csv, replay.html, run.clkrec; name another folder", last_error(refused))
         self.assertEqual(self.contents(), before)
-        # Outputs that are no longer requested are removed.
+        # The run must remove earlier outputs, even if it does not write them itself.
         self.change("lamps.json", '"replay": true, "record": true', '"replay": false')
         self.assertEqual(self.run_it("--overwrite").returncode, 0)
         self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
@@ -99,7 +99,7 @@ class Outputs(Project):
     def test_symbolic_links_in_the_output_folder_are_replaced_and_not_followed(self) -> None:
         names = ["manifest.json", "metrics.csv", "metrics.csv.part", "replay.html", "replay.tmp"]
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
-        # The scene adds the links when the tables are created.
+        # The scene creates the symbolic links while it is built, so they appear after the command has prepared the folder.
         links = " ".join(f'System.Diagnostics.Process.Start("ln", "-sf {self.path("outside")} {self.path("out", name)}").WaitForExit();' for name in names)
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", f"Build(SimulationManager manager)\n        {{\n            {links}")
         with open(self.path("outside"), "w") as file:
@@ -223,4 +223,4 @@ class FullDisks(Project):
                 if os.path.exists(manifest):
                     with open(manifest) as file:
                         self.assertNotEqual(json.load(file)["outcome"], "complete")
-        self.assertTrue(reached, "no disk was full")
+        self.assertTrue(reached, "at least one disk must have become full")

@@ -18,7 +18,7 @@ from build.places import BUILD, ROOT
 
 
 class InstalledProject:
-    """A project with the package installed from its tarball, and a player."""
+    """A project in which the package is installed from its tarball, with a player."""
 
     def __init__(self, archive) -> None:
         self.folder = tempfile.mkdtemp(prefix="collektive-project-")
@@ -34,7 +34,7 @@ class InstalledProject:
             json.dump(scenario, file)
 
     def play(self, hidden=(), **environment):
-        """Runs the scene with only these environment variables, and with empty hidden folders."""
+        """Runs the scene with only the given environment variables. The hidden folders appear empty to the process."""
         command = ["mono-sgen", "bin/Collektive.Player.exe", "run", "scenario.json", "--scripts", "bin/GradientAscent.dll",
                    "--jar", "Packages/org.collektive.unity/Samples~/GradientAscent/gradient_ascent.clkprograms", "--out", "out"]
         if hidden:
@@ -53,7 +53,7 @@ class InstalledProject:
 
 
 class Packaged(unittest.TestCase):
-    """A tarball built with OPTIONS, and a project with it."""
+    """A test case with a tarball that is built with OPTIONS, and a project in which it is installed."""
     OPTIONS = ()
 
     @classmethod
@@ -74,7 +74,7 @@ class PackageTest(Packaged):
         return {os.path.relpath(os.path.join(where, name), self.root) for where, _, names in os.walk(self.root) for name in names}
 
     def test_the_package_contains_only_the_files_that_unity_needs(self) -> None:
-        # Scenarios are for runs from the clone, the manifest in unity/ is for git URLs.
+        # Scenarios are only for runs from the clone, and the manifest in unity/ is only for git URLs.
         excluded = re.compile(r"unity/package\.json|unity/Samples~/[^/]*/scenario\.json")
         expected = {path for path in metas.assets(ROOT) if os.path.isfile(os.path.join(ROOT, path)) and not excluded.fullmatch(path)}
         built = ["Jvm~/collektive-adapter.jar", "Jvm~/collektive-host.jar", "Jvm~/collektive-library.jar",
@@ -106,7 +106,7 @@ class PackageTest(Packaged):
             with open(os.path.join(self.root, page)) as file:
                 text = file.read()
             links = [os.path.join(os.path.dirname(page), link) for link in re.findall(r"\]\((?!https:)([^)#]+)[^)]*\)", text)]
-            # A page of the package may also be named in running text, from the package's root.
+            # Text may also name a page by its path from the root of the package.
             links += re.findall(r"`((?:Documentation~|docs)/[^`:]+)`(?!\s+(?:in|of)\s+the\s+repository)", text)
             lost += [f"{page}: {link}" for link in links if os.path.normpath(link) not in self.packed()]
         self.assertEqual(lost, [])
@@ -125,12 +125,12 @@ class PackageTest(Packaged):
         self.assertEqual(digest(os.path.join(again, os.path.basename(self.archive))), first)
 
     def test_the_assembly_contains_no_build_paths(self) -> None:
-        # Symbols contain paths of sources, and the assembly contains the id of its symbols.
+        # The assembly must have no symbols. Symbols contain the paths of the sources, and the assembly would contain the id of its symbols.
         with open(os.path.join(self.root, "unity/Runtime/Plugins/Collektive.FlatBuffers.dll"), "rb") as file:
             self.assertNotIn(b".pdb", file.read())
 
     def test_a_scene_runs_from_the_package_without_the_clone(self) -> None:
-        # The project and the environment do not refer to the clone.
+        # Neither the project nor the environment refers to the clone.
         self.assertEqual(subprocess.run(["grep", "-rlF", ROOT, self.project.folder], capture_output=True, text=True).stdout, "")
         result = self.project.play(JAVA_HOME=jdk())
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)

@@ -44,7 +44,7 @@ import org.collektive.api.Program
 """
 
     def test_the_example_of_the_page_runs(self) -> None:
-        """Tests the page's schema, Kotlin and C# in the scene above."""
+        """Runs the page's schema, Kotlin and C# in `SCENE`."""
         schema, kotlin, csharp = (block.text for block in of_kind("project") if block.page == "Documentation~/getting-started.md")
         os.makedirs(self.path("programs"))
         os.makedirs(self.path("scene"))
@@ -60,7 +60,7 @@ import org.collektive.api.Program
         self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
 
     def test_the_tutorial_for_the_editor_works(self) -> None:
-        """Runs both programs of the page with its components, in a scene like the one that the reader builds."""
+        """Runs both programs of the page with its components, in a scene that equals the one that the reader builds."""
         scene = self.SCENE.replace("HopsColour>();", "SwarmMove>();\n            node.AddComponent<SwarmPosition>();")
         files = {block.title: block.text for block in of_kind("project") if block.page == "Documentation~/first-swarm-in-unity.md"}
         files["Assets/Swarm/Example.cs"] = scene.replace("RadiusNeighbourhood>()", "RadiusNeighbourhood>().Radius = 12")
@@ -78,7 +78,7 @@ import org.collektive.api.Program
             self.assertEqual(result.returncode, 0, result.stderr)
             with open(self.path(program, "metrics.csv")) as file:
                 distances[program] = [float(row["distance"]) for row in csv.DictReader(file)][-1]
-        # The nodes begin at 0, 2 ... 38 m, and the lamp is at 20 m.
+        # The nodes begin at 0 m, 2 m and so on up to 38 m, and the lamp is at 20 m.
         self.assertLess(distances["climb"], distances["gather"])
         self.assertLess(distances["climb"], 3)
 

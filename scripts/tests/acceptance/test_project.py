@@ -1,4 +1,4 @@
-"""Tests a project outside the clone with its own schema, Kotlin, C# and scenario."""
+"""Tests ./collektive run on a project outside the clone, which has its own schema, Kotlin, C# and scenario."""
 import csv
 import os
 import shutil
@@ -9,13 +9,13 @@ from command import Project, collektive, jdk, last_error
 
 
 class ProjectTest(Project):
-    """Runs the project with one command."""
+    """Tests runs of the project."""
 
     def run_it(self, *arguments):
         return collektive("run", "project/lamps.json", "--out", self.path("out"), "--overwrite", *arguments, cwd=self.folder)
 
     def refused(self, *words, arguments=()):
-        """Runs the project, and expects one error that contains all words."""
+        """Runs the project, and checks that it fails with a single error that contains all words."""
         result = self.run_it(*arguments)
         self.assertNotEqual(result.returncode, 0)
         for word in words:
@@ -27,7 +27,7 @@ class ProjectTest(Project):
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
         manifest = self.manifest(self.path("out"))
-        # Ten lamps in a row: after ten rounds, the brightness of the last one has reached all.
+        # The ten lamps are in a row, so after ten rounds, the brightness of the last one has reached all of them.
         self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
         self.assertEqual(manifest["ticks"], 10)
 
@@ -50,7 +50,7 @@ class ProjectTest(Project):
             digests |= {manifest["digest"], *manifest["inputs"].values()}
             if edit:
                 self.change(*edit)
-        # Of four runs and three versions of the edited files.
+        # The set contains the digests of the four runs, and two hashes of each of the three edited parts.
         self.assertEqual(len(digests), 4 + 3 * 2)
 
     def test_fields_can_be_set_on_the_command_line(self) -> None:
@@ -61,7 +61,7 @@ class ProjectTest(Project):
         self.assertEqual(manifest["scenario"]["seed"], 3)
 
     def messages(self):
-        """Returns the message counts of the whole run."""
+        """Returns the numbers of messages in the whole run."""
         with open(self.path("out", "metrics.csv")) as file:
             rows = list(csv.DictReader(file))
         return {name: sum(int(row[name]) for row in rows) for name in ("sent", "dropped", "delayed", "expired")}
@@ -70,9 +70,9 @@ class ProjectTest(Project):
         self.change("lamps.json", '"threads": 2', '"threads": 2, "schedule": "Asynchronous", "timing": { "period": 0.5, "phase": 0 }')
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
-        # Two rounds of each lamp in ten ticks, and 18 links.
+        # Each lamp runs two rounds in ten ticks, and the lamps have 18 links.
         self.assertEqual(self.messages()["sent"], 2 * 18)
-        # All lamps count, although none was due in the last tick.
+        # The metric must include all lamps, although none was due in the last tick.
         self.assertEqual(self.manifest(self.path("out"))["end"]["seen"], 18)
 
     def test_the_network_determines_which_messages_arrive(self) -> None:

@@ -5,7 +5,7 @@ import pytest
 from blocks import of_kind
 from command import Folder, collektive
 
-# Ten nodes in a row, of which the first six sense more than 90. In Unity, a user builds the scene in the editor.
+# A scene of ten nodes in a row, of which the first six sense more than 90. In Unity, users build this scene in the editor.
 SCENE = """
 using System.Collections.Generic;
 using Collektive.Unity;
@@ -45,14 +45,14 @@ SCENARIO = """{
 
 
 def project():
-    """Returns schema, program, sensor and actuator of the section "Example"."""
+    """Returns the schema, program, sensor and actuator in the section "Example"."""
     return [block.text for block in of_kind("project") if block.page == "README.md"]
 
 
 @pytest.mark.quick
 class ReadmeTest(Folder):
     def test_the_example_has_at_most_25_handwritten_lines(self) -> None:
-        # Empty lines do not count. Imports and braces do.
+        # The count includes imports and braces, but not empty lines.
         lines = [line for block in project() for line in block.splitlines() if line.strip()]
         self.assertLessEqual(len(lines), 25, "\n".join(lines))
 
@@ -68,5 +68,5 @@ class ReadmeTest(Folder):
                 file.write(text)
         result = collektive("run", "swarm.json", "--out", self.path("out"), cwd=self.folder)
         self.assertEqual(result.returncode, 0, result.stderr)
-        # Nodes at 4.5 m to 9.5 m sense more than 90. The last one is at 13.5 m, four links further.
+        # The nodes from 4.5 m to 9.5 m sense more than 90. The last node, at 13.5 m, is four links farther.
         self.assertEqual(self.manifest(self.path("out"))["end"], {"farthest": 4, "coloured": 1})

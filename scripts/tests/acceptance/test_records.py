@@ -1,4 +1,4 @@
-"""Tests that recorded runs are replayed and compared."""
+"""Tests replaying and comparing recorded runs."""
 import os
 import struct
 import zlib
@@ -10,10 +10,10 @@ from build.places import ROOT
 
 
 def with_another_jar(record):
-    """The record with another date on the first entry of its jar, as if it were compiled elsewhere."""
+    """Returns the record with a different date on the first entry of its jar, as if the jar were compiled on another machine."""
     at, data = record.index(b"PK\3\4"), bytearray(record)
     data[at + 10] ^= 1
-    # Magic and version, then chunks: kind, length, checksum, payload (docs/record-format.md).
+    # As docs/record-format.md describes, 8 bytes precede the chunks, and a chunk consists of kind, length, checksum and payload.
     chunk = 8
     while True:
         length, = struct.unpack_from("<I", data, chunk + 4)
@@ -25,7 +25,7 @@ def with_another_jar(record):
 
 
 class Records(Project):
-    """Tests recorded runs of the project."""
+    """Tests with recorded runs of the project."""
 
     def setUp(self) -> None:
         super().setUp()
@@ -84,7 +84,7 @@ class Records(Project):
         elsewhere = self.path("elsewhere.clkrec")
         with open(self.a, "rb") as file:
             data = file.read()
-        # The same record with another jar: its name, and so its length, stays; an entry of it has another date.
+        # The record is the same except for its jar, in which an entry has a different date. The name and the length of the jar stay the same.
         with open(elsewhere, "wb") as file:
             file.write(with_another_jar(data))
         result = collektive("replay", elsewhere)

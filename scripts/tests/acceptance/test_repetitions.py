@@ -5,7 +5,7 @@ from command import Project, collektive, last_error
 
 
 class Repetitions(Project):
-    """Tests repeating a run from its manifest."""
+    """Tests ./collektive repeat, which repeats a run from its manifest."""
 
     def setUp(self) -> None:
         super().setUp()

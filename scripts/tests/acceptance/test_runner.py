@@ -16,7 +16,7 @@ RUNNER = os.path.join(BUILD, "csharp/Collektive.TestRunner.exe")
 @unittest.skipUnless(os.path.exists(RUNNER), "this system has no package for NUnit")
 class TestRunnerTest(Folder):
     def run_fixture(self, test, *options):
-        """Runs a fixture with one test. Returns exit code and output."""
+        """Compiles and runs a fixture with a passing test and the given test. Returns the exit code, the last line and the whole output."""
         source = """
             using NUnit.Framework;
 

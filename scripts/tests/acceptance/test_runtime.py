@@ -1,6 +1,7 @@
-"""Tests programs on Collektive's own runtime, with jars and a compiler plugin from the user.
+"""Tests programs on Collektive's own runtime, with jars and a compiler plugin that the user provides.
 
-The package's library, split into DSL and standard library, replaces Collektive's jars, and its compiler plugin replaces Collektive's.
+Collektive's jars are not available to the tests. Two jars with the DSL and the standard library of the package stand in for them, and the package's
+compiler plugin stands in for Collektive's plugin.
 """
 import csv
 import glob
@@ -35,7 +36,7 @@ class Runtimes(Project):
         repack(LIBRARY, self.jar("dsl"), lambda name: not name.startswith(STDLIB))
         repack(LIBRARY, self.jar("stdlib"), lambda name: name.startswith(STDLIB) or "stdlib" in name)
         repack(PLUGIN[0], self.path("project", "plugin.jar"))
-        # Uses the standard library and links.
+        # The changed program uses the standard library and the lengths of links.
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     "val mine = sensors.brightness() + 0f * (hopDistanceTo(localId == 0) + with(device) { distances() }.local.value.toInt())")
         self.change("programs/Brightest.kt", "(sensors: SensorData)", "(sensors: SensorData, device: Device)")
@@ -65,7 +66,7 @@ class Runtimes(Project):
             self.assertIn(word, result.stderr)
 
     def collektive_jar(self):
-        """Returns the jar that a run on Collektive compiled from the current programs."""
+        """Returns the jar that a run on Collektive has compiled from the current programs."""
         project = Path(self.path("project"))
         return compiled(projects.programs_jar, inputs.schema(project / "light.fbs"), inputs.programs(project / "programs"), inputs.jars(project / "collektive"),
                         inputs.jar(project / "plugin.jar"))
@@ -131,7 +132,7 @@ class Runtimes(Project):
         self.assertIn("(Collektive runtime)", replayed.stdout)
         compared = collektive("diff", record, self.path("b.clkrec"))
         self.assertEqual(compared.returncode, 0, compared.stdout + compared.stderr)
-        # The record of the replay names its runtime, its jars and its programs.
+        # The record of the replay names the runtime and its jars, and contains the programs, so it can be replayed without further options.
         again = collektive("replay", self.path("b.clkrec"), "--trust")
         self.assertEqual(again.returncode, 0, again.stdout + again.stderr)
         stranger = collektive("replay", self.path("b.clkrec"), "--programs", self.collektive_jar())
@@ -164,7 +165,7 @@ class Runtimes(Project):
         self.use_jar(marked)
         self.refused("programs.jar was compiled with different jars than those of the Collektive runtime of " + self.path("project", "collektive"))
 
-        # A jar of another tool does not name its runtime.
+        # A jar that another tool has compiled does not name its runtime.
         repack(marked, self.path("project", "programs.jar"), lambda name: name != "META-INF/MANIFEST.MF")
         self.refused("references it.unibo.collektive.stdlib.", "which is missing in the Collektive runtime", "one of its jars is missing or of another version")
 
@@ -185,7 +186,7 @@ class Runtimes(Project):
         plugin = self.path("project", "plugin.jar")
         repack(LIBRARY, plugin)
         self.refused(f"{plugin} is not a plugin of the Kotlin compiler")
-        # Like a plugin for another version of the compiler.
+        # The changed plugin lacks a method, as a plugin for another version of the compiler does.
         repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
         self.refused("the compiler plugin may be built for another version")
 

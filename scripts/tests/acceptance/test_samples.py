@@ -10,10 +10,10 @@ from command import SAMPLE, Folder, collektive
 
 
 class SamplesTest(Folder):
-    """Runs each sample's scenario without its replay."""
+    """Runs the scenario of each sample without writing a replay."""
 
     def rows(self, sample, **changes):
-        """The metrics of each second, with these keys of the scenario changed."""
+        """Runs a sample with some keys of its scenario changed, and returns the metrics of each second."""
         shutil.copytree(os.path.dirname(SAMPLE), self.path("samples"))
         path = self.path("samples", sample, "scenario.json")
         with open(path) as file:
@@ -30,7 +30,7 @@ class SamplesTest(Folder):
             return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(file)]
 
     def under_each_schedule(self, sample, **changes):
-        """Yields each schedule with the metrics. With the asynchronous one, a quarter of the nodes is due in a tick."""
+        """Yields each schedule with the metrics. With the asynchronous schedule, a quarter of the nodes is due in each tick."""
         for schedule in ["Lockstep", "Sequential", "Asynchronous"]:
             yield schedule, self.rows(sample, schedule=schedule, timing={"period": 4 * changes.get("deltaTime", 0.1)}, **changes)
             shutil.rmtree(self.path("samples"))
@@ -46,7 +46,7 @@ class SamplesTest(Folder):
             self.assertEqual(rows[-1]["connected"], 1, schedule)
             self.assertTrue(90 <= rows[-1]["length"] <= 125, schedule)
             _, frames = replay.read(self.path("out", "replay.html"))
-            # Every frame shows the whole channel, also nodes that were not due.
+            # Every frame must show the whole channel, including nodes that were not due.
             shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes, _ in frames[-5:]}
             self.assertEqual(shown, {rows[-1]["channel_nodes"]}, schedule)
 
@@ -65,7 +65,7 @@ class SamplesTest(Folder):
 
     def test_the_drones_form_each_shape_even_if_their_leader_fails(self) -> None:
         rows = self.rows("Swarm", seconds=24, fields={"drones": 300, "shapeSeconds": 8, "failAfter": 10})
-        # Just before the next shape; the leader fails in the second one.
+        # These rows are just before each change of the shape. The leader fails during the second shape.
         for row in rows[7], rows[15], rows[23]:
             self.assertGreater(row["formed"], 0.9 * 299, row)
             self.assertEqual(row["shapes"], 1, row)
@@ -88,7 +88,7 @@ class SamplesTest(Folder):
         for row in before, after:
             self.assertEqual(row["connected"], 1)
             self.assertLess(row["channel_nodes"], 200, "of 600")
-        # The straight path is 90 m long, the path around the near ends of the walls 98 m, and around the far ends 107 m.
+        # The straight path is 90 m long. The paths around the near and the far ends of the walls are 98 m and 107 m long.
         self.assertTrue(98 <= before["length"] <= 115, before["length"])
         self.assertTrue(107 <= after["length"] <= 125, after["length"])
 
@@ -103,9 +103,9 @@ class SamplesTest(Folder):
     def test_the_crowds_pass_with_few_collisions_and_warnings_end(self) -> None:
         rows = self.rows("Crowd")
         self.assertEqual(rows[-1]["arrived"], 160)
-        # 160 walkers in 1,200 rounds.
+        # This is the number of collisions of 160 walkers in 1,200 rounds.
         self.assertLess(rows[-1]["bumps"], 100)
-        self.assertGreater(max(row["warned"] for row in rows), 20, "it was dense where they met")
+        self.assertGreater(max(row["warned"] for row in rows), 20, "many walkers must be warned where the groups meet")
         self.assertEqual(rows[-1]["warned"], 0)
 
     @pytest.mark.slow

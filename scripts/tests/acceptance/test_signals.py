@@ -1,4 +1,4 @@
-"""Tests that a signal to a command ends all its processes and sets the exit code."""
+"""Tests that a signal to a command ends all processes of the command, and determines its exit code."""
 import os
 import signal
 import subprocess

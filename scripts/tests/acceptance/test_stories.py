@@ -1,7 +1,7 @@
 """Follows the tutorials: writes their files, runs their commands, and compares the output with the page.
 
-A block with a title is a file of the reader's project. A later block with the same title replaces it. Lines of a block `sh` are commands. A block
-`text` below them shows lines of their output, in order. `...` matches any text.
+A block with a title is a file in the reader's project, which a later block with the same title replaces. The lines of a block `sh` are commands. A block
+`text` after such a block shows lines of the output in order, where `...` matches any text.
 """
 import os
 import re
@@ -16,12 +16,12 @@ from command import WORK
 
 from build.places import ROOT
 
-# These exit with 1 if two runs differ.
+# These commands exit with 1 if two runs differ, which is not an error in a tutorial.
 COMPARE = ("collektive diff ", "collektive replay ")
 
 
 def missing(shown, printed):
-    """Returns the first expected line that is missing in the output, or None."""
+    """Returns the first expected line that is missing in the output, or None if all lines are present."""
     at = 0
     for line in filter(None, map(str.strip, shown.splitlines())):
         found = re.compile(re.escape(line).replace(r"\.\.\.", ".*")).search(printed, at)
@@ -39,7 +39,7 @@ def folder():
 
 
 def run(commands, folder):
-    """Runs commands, which must succeed, and returns their output."""
+    """Runs commands, checks that they succeed, and returns their output."""
     printed = ""
     environment = {**os.environ, "PATH": f"{ROOT}:{os.environ['PATH']}"}
     for command in commands.splitlines():
@@ -69,7 +69,7 @@ def test_tutorials_work_as_written(page, folder) -> None:
 
 
 def count_neighbours(page) -> None:
-    """Counts neighbours, which colour the replay of nodes without numbers in their answers."""
+    """Checks that the value of each node on the page is its number of neighbours, which colours nodes whose answers contain no numbers."""
     _, nodes, links = replay.read(page)[1][-1]
     for node, (*_, value) in nodes.items():
         assert value == pytest.approx(len({frozenset(link) for link in links if node in link}), abs=0.01)

@@ -1,4 +1,4 @@
-"""Compiles a user's C# in projects whose other packages have the same names as ours."""
+"""Tests that a user's C# compiles in projects whose other packages contain types with the same names as types of this package."""
 import re
 import tempfile
 import unittest

@@ -1,4 +1,4 @@
-"""Runs a short ./collektive bench tick and scene, and checks the results that do not depend on the machine."""
+"""Runs ./collektive bench tick and scene for a short time, and checks the results that do not depend on the machine."""
 import json
 import os
 import subprocess

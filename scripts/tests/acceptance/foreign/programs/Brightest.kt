@@ -4,7 +4,7 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.share
 import org.collektive.api.Program
 
-/** The greatest brightness anywhere, by gossip. */
+/** Spreads the greatest brightness of all lamps by gossip. */
 @Program("brightest")
 public fun Aggregate<Int>.brightest(sensors: SensorData): ActuatorData {
     val mine = sensors.brightness()
