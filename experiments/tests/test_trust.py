@@ -74,7 +74,7 @@ def test_a_run_is_not_affected_by_scripts_of_earlier_runs(project: Project, buil
 def test_static_fields_are_initialised_in_the_run_that_needs_them(project: Project) -> None:
     change_scene(project, "lamps += (int)(First.Value * 50);", "internal static class First { public static readonly float Value = Random.value; }")
     assert project.sweep("--jobs", "1", **TWO).returncode == 0
-    assert len(set(project.table()["nodes"])) > 1, "each run must have the value of its own seed"
+    assert len(set(project.table()["nodes"])) > 1, "each run must have the value for its seed"
 
 
 def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project) -> None:

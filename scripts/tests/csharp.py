@@ -1,7 +1,7 @@
 """Runs the C# tests on one runtime and one JVM: `csharp.py RESULTS JDK RUNTIME [OPTION OF THE TEST RUNNER]...`.
 
-With COLLEKTIVE_TEST_PLACEMENT=OwnProcess the JVM runs in a separate process. Tests of the category OwnProcess need that. Tests of
-the category Debugger need it too, or a process of their own: `--only Debugger`.
+With COLLEKTIVE_TEST_PLACEMENT=OwnProcess, the JVM runs in a separate process. Tests of the category OwnProcess need this placement. Tests of the category
+Debugger also need it, or must run without other tests (`--only Debugger`).
 """
 import os
 import re
@@ -18,7 +18,7 @@ PROBE = ROOT / "unity/Headless~/Tests/Simulation/Probe"
 
 
 def run(results: Path, jdk: str, runtime: str, options: list[str]) -> int:
-    """Returns the exit code of the test runner."""
+    """Runs the tests, and returns the exit code of the test runner."""
     schema = inputs.schema(PROBE / "probe.fbs")
     jar, other = (projects.programs_jar(schema, inputs.programs(PROBE / folder)) for folder in ("programs", "other"))
     environment = {**managed.environment(runtime), "COLLEKTIVE_ROOT": str(ROOT), "COLLEKTIVE_HOST_JAR": str(HOST_JAR),

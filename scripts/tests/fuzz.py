@@ -1,8 +1,10 @@
 """Fuzzes all code that reads untrusted input.
 
-`fuzz.py SECONDS RESULTS.xml` fuzzes scenario files, for the suite fuzz; `fuzz.py --each [NAME]... [MINUTES [SEED]]` runs all fuzzers, or those named,
-each for MINUTES. The corpora in the repository contain each input that showed a bug, and the suites replay them. New
-inputs that fuzzing finds stay in build/fuzz for the next run.
+`fuzz.py SECONDS RESULTS.xml` fuzzes scenario files. The suite fuzz runs this command.
+`fuzz.py --each [NAME]... [MINUTES [SEED]]` runs the named fuzzers, or all of them, each for the given number of minutes.
+
+The corpora in the repository contain all inputs that have revealed a bug, and the test suites run these inputs again. Other inputs that fuzzing finds stay
+in build/fuzz for the next run.
 """
 import os
 import re
@@ -29,14 +31,14 @@ def fuzz_scenario(seconds: int, seed: int, *results: str) -> list[str | Path]:
 
 
 def fuzz_schemas(seconds: int, seed: int) -> list[str | Path]:
-    """Returns the command line that fuzzes batches of random schemas."""
+    """Returns the command line that tests the generator with batches of random schemas."""
     return [TEST_PYTHON, "-I", "-B", ROOT / "schema/test/fuzz.py", str(seconds), str(seed)]
 
 
 def jazzer(name: str, target: str, module: str) -> Callable[[int, int], list[str | Path]]:
-    """Returns a function that returns the command line of a fuzzer of the JVM side, to be run in its module's folder."""
+    """Returns a function that returns the command line of a fuzzer of the JVM side. The fuzzer must run in the folder of its module."""
     def command(seconds: int, seed: int) -> list[str | Path]:
-        # First on the class path, because another jar contains older versions of some classes.
+        # This jar must be first on the class path, because another jar contains older versions of some of its classes.
         compiler = next((HOST / "fuzz").glob("kotlin-compiler-embeddable-*.jar"))
         classes = f"target/test-classes:target/classes:{HOST}/test-classes:{HOST}/classes:{compiler}:{HOST}/fuzz/*"
         return [jdk.find_jdk() / "bin/java", "-Xmx768m", "-XX:+EnableDynamicAgentLoading", f"-Dcollektive.root={ROOT}", f"-Dcollektive.flatc={FLATC}",
@@ -62,7 +64,7 @@ FUZZERS: dict[str, Callable[[int, int], list[str | Path]]] = {
 
 
 def environment(name: str, seconds: int, seed: int) -> dict[str, str]:
-    """Returns the environment of a fuzzer."""
+    """Returns the environment variables for a fuzzer."""
     if name == "experiments":
         return dict(experiments.environment())
     if name != "shim":
@@ -93,7 +95,7 @@ def run_each(words: list[str]) -> None:
 
 
 def prepare(names: list[str]) -> None:
-    """Builds Jazzer's class path and the shim under sanitizers, and fetches packages from PyPI."""
+    """Builds the class path for Jazzer and the shim with sanitizers, and fetches packages from PyPI."""
     if "shim" in names:
         graph.build("sanitized")
     if "experiments" in names:
@@ -106,7 +108,7 @@ def prepare(names: list[str]) -> None:
 
 
 def run(name: str, seconds: int, seed: int) -> bool:
-    """Runs a fuzzer, with its output in a log. Returns whether it ended without a finding."""
+    """Runs a fuzzer, and writes its output to a log. Returns whether it ended without a finding."""
     findings, log = FUZZ / name / "findings", LOGS / f"fuzz-{name}.log"
     findings.mkdir(parents=True, exist_ok=True)
     (FUZZ / name / "corpus").mkdir(exist_ok=True)
@@ -116,7 +118,7 @@ def run(name: str, seconds: int, seed: int) -> bool:
         code = subprocess.run(FUZZERS[name](seconds, seed), cwd=module, env=environment(name, seconds, seed), stdout=file, stderr=file).returncode
     text = log.read_text(errors="replace").replace("\r", "\n")
     if name == "shim" and code != 0:
-        # Its output contains the seed. Add it to the corpus in native-shim/test/fuzz.c.
+        # The finding of this fuzzer is its output, which contains the seed to add to the corpus in native-shim/test/fuzz.c.
         (findings / f"seed-{seed}.log").write_text(text)
     done = re.search(r"(?m)^Done \d+ runs.*", text)
     print_progress(f"fuzz {name}: {done[0] if done else 'ended early'}, {len(list(findings.iterdir()))} findings in {findings}")
@@ -124,7 +126,7 @@ def run(name: str, seconds: int, seed: int) -> bool:
 
 
 def main(words: list[str]) -> int:
-    """Returns the exit code."""
+    """Runs the fuzzers that the command line names. Returns the exit code."""
     if words[0] != "--each":
         seed = int(time.strftime("%j"))
         return processes.call(fuzz_scenario(int(words[0]), seed, words[1]), env=managed.environment("mono-sgen"))

@@ -11,7 +11,7 @@ from junitparser import Attr, Failure, JUnitXml, JUnitXmlError, Skipped, TestCas
 
 @dataclass(frozen=True)
 class Case:
-    """One test that ran. An empty failure means that it passed."""
+    """A test that ran. It passed if its failure is empty."""
     name: str
     failure: str = ""
     seconds: float = 0
@@ -19,7 +19,7 @@ class Case:
 
 class _Case(TestCase):
     status = Attr()
-    """CTest's status of a test: `run`, or the kind of failure."""
+    """The status that CTest writes for a test: `run`, or the kind of failure."""
 
 
 class _Suite(TestSuite):
@@ -31,10 +31,10 @@ class _Results(JUnitXml):
 
 
 def read(path: str) -> list[Case]:
-    """Returns the tests of a file without the skipped ones. Raises ValueError when the file contains no results."""
+    """Returns the tests in a file, except the skipped ones. Raises ValueError if the file contains no results."""
     try:
         results = _Results.fromfile(path)
-        # Node's reporter writes tests without a suite too.
+        # Tests may also be outside a suite, because Node's reporter writes such tests.
         tests: Iterable[_Case] = itertools.chain(results.iterchildren(_Case), *results)  # type: ignore[no-untyped-call]
         return [_case(test) for test in tests if not _skipped(test)]
     except (OSError, ParseError, JUnitXmlError, ValueError) as error:
@@ -42,7 +42,7 @@ def read(path: str) -> list[Case]:
 
 
 def read_skipped(path: str) -> dict[str, str]:
-    """Returns the tests of CTest that were skipped, each with the reason that its output gives."""
+    """Returns the skipped tests in a file that CTest has written, each with the reason in its output."""
     reasons = {}
     for test in itertools.chain(*_Results.fromfile(path)):
         if _skipped(test):
@@ -52,14 +52,14 @@ def read_skipped(path: str) -> dict[str, str]:
 
 
 def _skipped(test: _Case) -> bool:
-    """CTest also reports a test as skipped when its program is missing."""
+    """Returns whether a test was skipped. A missing program is a failure, although CTest reports it as skipped, too."""
     return any(isinstance(result, Skipped) and not (result.message or "").startswith("Unable to find executable") for result in test.result)
 
 
 def _case(test: _Case) -> Case:
     name = ".".join(part for part in (test.classname, test.name) if part)
     failures = [result for result in test.result if not isinstance(result, Skipped)]
-    # CTest marks a test without a program by its status alone.
+    # If the program of a test is missing, only the status of the test shows that it failed.
     if not failures and test.status in (None, "run"):
         return Case(name, "", test.time or 0)
     text = failures[0].message or failures[0].text or "" if failures else ""

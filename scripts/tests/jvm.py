@@ -10,7 +10,7 @@ from build.places import JVM
 
 
 def run(results: Path, options: list[str]) -> int:
-    """Collects the reports of all modules and returns Maven's exit code."""
+    """Runs the tests, collects the reports of all modules, and returns Maven's exit code."""
     for report in JVM.glob("*/target/surefire-reports/TEST-*.xml"):
         report.unlink()
     modules = list(maven.read_modules().values())

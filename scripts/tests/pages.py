@@ -1,4 +1,4 @@
-"""Tests pages in a browser: `pages.py page RESULTS` tests replay pages, `pages.py live RESULTS` the live page, `pages.py site RESULTS` the
+"""Tests pages in a browser: `pages.py page RESULTS` tests replay pages, `pages.py live RESULTS` tests the live page, and `pages.py site RESULTS` tests the
 documentation site."""
 import os
 import subprocess
@@ -18,7 +18,7 @@ def run_node(test: Path, results: Path, *words: Path) -> int:
 
 
 def page(results: Path) -> int:
-    """Tests the page of a demo, and pages of synthetic runs whose content is known."""
+    """Tests the replay page of a demo, and pages of synthetic runs with known content."""
     test = ROOT / "unity/Headless~/Replay/test.mjs"
     demo, sample = BUILD / "page-demo", BUILD / "page-sample"
     subprocess.run([COLLEKTIVE, "demo", "--nodes", "60", "--seconds", "10", "--out", demo, "--overwrite"], check=True)
@@ -32,12 +32,12 @@ def page(results: Path) -> int:
 
 
 def live(results: Path) -> int:
-    """Tests the page of a running simulation. Keeps pictures and logs in build/live-page."""
+    """Tests the page of a live run. Keeps pictures and logs in build/live-page."""
     return run_node(ROOT / "unity/Headless~/Replay/live-test.mjs", results / "live.xml", COLLEKTIVE, BUILD / "live-page")
 
 
 def site(results: Path) -> int:
-    """Tests the site at three widths, light and dark. Keeps pictures in build/site-pictures."""
+    """Tests the site at three widths, in the light and the dark theme. Keeps pictures in build/site-pictures."""
     subprocess.run([COLLEKTIVE, "site", "--out", BUILD / "site"], check=True)
     return run_node(ROOT / "scripts/tests/site.mjs", results / "site.xml", BUILD / "site", BUILD / "site-pictures")
 

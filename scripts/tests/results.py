@@ -1,4 +1,4 @@
-"""Adds up the JUnit XML results of suites."""
+"""Reads and summarises the JUnit XML results of suites."""
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -8,10 +8,10 @@ from tests import junit
 
 
 def read(folder: Path, failure: str) -> list[junit.Case]:
-    """Returns the tests that a suite has run, by the files in its folder.
+    """Returns the tests that a suite has run, according to the files in its folder. `failure` is the reason why the suite failed, or empty.
 
-    A suite that wrote no whole results is a failure, and so is one that failed, by `failure`, although no test did. With notes it may have run no
-    test.
+    A failed test is added if the results are missing or damaged, or if the suite failed although all tests passed. Results may be missing if the suite
+    passed and wrote notes.
     """
     cases, broken = [], []
     for path in sorted(folder.glob("*.xml")):
@@ -27,7 +27,7 @@ def read(folder: Path, failure: str) -> list[junit.Case]:
 
 
 def notes(folder: Path) -> str:
-    """Returns the suite's notes, such as what it could not run and why."""
+    """Returns the suite's notes, for example about tests that it could not run."""
     file = folder / "notes"
     return file.read_text() if file.exists() else ""
 

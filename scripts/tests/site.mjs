@@ -1,5 +1,5 @@
-// Checks the site in headless Chromium: node [TEST OPTIONS] site.mjs SITE PICTURES
-// Checks every page at three widths, some also in the dark theme. Writes screenshots of a few to PICTURES.
+// Tests the site in headless Chromium: node [TEST OPTIONS] site.mjs SITE PICTURES
+// Tests every page at three widths, and some pages also in the dark theme. Writes screenshots of a few pages to PICTURES.
 import assert from 'node:assert/strict';
 import { mkdirSync, readdirSync, readFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
@@ -28,7 +28,7 @@ async function open(page, options = {}) {
   return { tab, complaints, close: () => context.close() };
 }
 
-/** Returns elements that are wider than the window or cannot be scrolled into view, after the theme's animations. */
+/** Waits for the theme's animations, and returns the elements that are wider than the window or cannot be scrolled into view. */
 async function overflowing(tab) {
   let found = [];
   for (let tries = 0; tries < 20 && (tries === 0 || found.length > 0); tries++) {
@@ -79,7 +79,7 @@ for (const page of PICTURED) {
 for (const page of pages.filter((name) => readFileSync(join(site, name), 'utf8').includes('<pre class="mermaid">'))) {
   suite.test(`${page} has its diagrams drawn`, async () => {
     const { tab, close } = await open(page);
-    // Material replaces the source by a closed shadow tree. An error would be drawn small.
+    // Material replaces the source of a diagram with a closed shadow tree. If a diagram has an error, its drawing is small.
     await tab.waitForFunction(() => [...document.querySelectorAll('.mermaid')]
       .every((diagram) => diagram.tagName === 'DIV' && diagram.getBoundingClientRect().height > 100));
     await close();

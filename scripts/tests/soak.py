@@ -1,4 +1,4 @@
-"""Checks whether memory, threads or descriptors grow while nodes join, fail and leave: `soak.py MINUTES [results=FILE.xml]`."""
+"""Tests that memory, threads and file descriptors do not grow while nodes join, fail and leave: `soak.py MINUTES [results=FILE.xml]`."""
 import sys
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Tests races between threads of the JVM side with jcstress: `stress.py RESULTS.xml OPTION...`."""
+"""Tests the JVM side for race conditions with jcstress: `stress.py RESULTS.xml OPTION...`."""
 import sys
 from pathlib import Path
 
@@ -9,8 +9,8 @@ from build.places import BUILD, JVM
 
 
 def run(results: Path, options: list[str]) -> int:
-    """Returns the exit code of jcstress."""
-    # It writes its own results into the working folder.
+    """Runs jcstress and returns its exit code."""
+    # jcstress writes its own results to the working directory.
     work = BUILD / "stress"
     work.mkdir(exist_ok=True)
     results.parent.mkdir(parents=True, exist_ok=True)

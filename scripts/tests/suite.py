@@ -1,7 +1,7 @@
 """Runs a suite: `suite.py RESULTS [--lock] -- COMMAND...`.
 
-Creates the folder RESULTS. With --lock, locks the build outputs for use until the suite ends. The command runs in its own process group,
-so the whole suite ends when CTest kills this process after the time limit.
+Creates the folder RESULTS. With --lock, locks the build outputs for use until the suite ends. The command runs in a separate process group, which ends when
+CTest kills this process after the time limit.
 """
 import sys
 from pathlib import Path
@@ -12,7 +12,7 @@ from build import lock, processes
 
 
 def main(words: list[str]) -> int:
-    """Returns the exit code of the command."""
+    """Runs the command of the suite and returns its exit code."""
     options, command = words[1:words.index("--")], words[words.index("--") + 1:]
     Path(words[0]).mkdir(parents=True, exist_ok=True)
     if "--lock" in options:

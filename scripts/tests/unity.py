@@ -1,4 +1,4 @@
-"""Runs the package's own tests, which Unity's test framework runs in the editor: `unity.py RESULTS`."""
+"""Runs the tests in the package, which Unity's test framework can also run in the editor: `unity.py RESULTS`."""
 import shutil
 import sys
 from pathlib import Path
@@ -12,8 +12,8 @@ ASSEMBLIES = ("Collektive.Unity.Tests", "Collektive.Unity.PublicApi.Tests", "Col
 
 
 def run(results: Path) -> int:
-    """Returns the exit code of the last assembly that failed."""
-    # As in a project with the package: its jars, a sample, and a JVM.
+    """Runs the tests of all assemblies. Returns the exit code of the last assembly that failed, or 0."""
+    # The tests need a project in which the package is installed, with its jars, a sample and a JVM.
     project = results / "project"
     jars = project / "Packages/org.collektive.unity/unity/Jvm~"
     shutil.rmtree(project, ignore_errors=True)

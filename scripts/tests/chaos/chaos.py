@@ -1,12 +1,18 @@
 #!/usr/bin/env python3
-"""Disturbs runs of a small scenario with signals, full disks, clock changes and little memory. Prints a table of trials and outcomes, then
-"N passed, N failed".
+"""Disturbs runs of a small scenario with signals, full disks, clock changes and little memory.
 
-chaos.py KILLS DISKS SIGNALS OTHERS FAULTS [--seed N] [--results FILE.xml]: the number of trials of each kind. OTHERS are clock and memory trials.
-In each of FAULTS, one system call fails in a run that replaces earlier results.
+`chaos.py KILLS DISKS SIGNALS OTHERS FAULTS [--seed N] [--results FILE.xml]` runs the given number of trials of each kind. OTHERS is the number of trials
+with clock changes and of trials with little memory. In each of the FAULTS trials, one call fails in a run that replaces earlier results. The script prints
+a table of trials and outcomes, and "N passed, N failed".
 
-After each trial, exit code 0 requires all ticks, a manifest with the outcome "complete" requires complete results, no process may be left, earlier
-results in another folder must be unchanged, and replaced results must exist until the new run began. At the end, another run must succeed.
+After each trial, these conditions must hold:
+- If the exit code is 0, all ticks are done.
+- If the outcome in the manifest is "complete", the results are complete.
+- No process is left.
+- Earlier results in another folder are unchanged.
+- Earlier results that the run replaces exist until the run has begun.
+
+At the end, an undisturbed run must succeed.
 """
 import argparse
 import collections
@@ -33,7 +39,7 @@ from tests import junit  # noqa: E402
 PROJECT = os.path.join(ROOT, "scripts/tests/acceptance/foreign")
 SECONDS, TICKS = 20, 200
 LIMIT_S = 240
-# Time limit in seconds until all processes have ended after a signal.
+# The time limit in seconds until all processes must have ended after a signal.
 EXIT_LIMIT_S = 20
 MARK = "COLLEKTIVE_CHAOS"
 MOUNTED = 'mount -t tmpfs -o size="$SIZE" none "$DISK" || exit 99; eval "$FAULT"; "$@"; code=$?; cp -r "$DISK/out" "$KEEP" 2>/dev/null; exit $code'
@@ -42,12 +48,12 @@ MOUNTED = 'mount -t tmpfs -o size="$SIZE" none "$DISK" || exit 99; eval "$FAULT"
 @dataclass(frozen=True)
 class Outcome:
     end: str
-    """The outcome of a run, for the table."""
+    """A description of how the run ended, for the table."""
     problems: list[str]
 
 
 class Trial:
-    """A disturbed run in a separate folder."""
+    """A trial, which disturbs a run in a separate folder."""
 
     def __init__(self, kind: str, number: int, count: int, seed: int, reference: dict[str, Any], took: float) -> None:
         self.kind, self.number, self.count, self.reference, self.took = kind, number, count, reference, took
@@ -66,7 +72,7 @@ class Trial:
             shutil.copytree(PROJECT, self.path("project"))
             write_scenario(self.path("project", "lamps.json"))
             if self.is_edited:
-                # The run begins with compilation, which is also disturbed.
+                # Because of this change, the run begins with a compilation, which the trial can disturb, too.
                 with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
                     file.write(f"// {self.mark}\n")
             shutil.copytree(self.reference["folder"], self.path("earlier"))
@@ -107,7 +113,7 @@ class Trial:
             for pid in marked(self.mark, "Collektive.Player.exe"):
                 kill(pid, signal.SIGKILL)
         else:
-            # As when a container ends. Repeats, because a process may have started another one just before it was killed.
+            # Kills all processes, as the end of a container does. The loop is needed because a process may start another one just before it is killed.
             while pids := marked(self.mark):
                 for pid in pids:
                     kill(pid, signal.SIGKILL)
@@ -122,7 +128,7 @@ class Trial:
         return (*self.end(process), self.path("out"))
 
     def disk(self) -> tuple[int, str, str]:
-        """Uses a disk that is small, read-only, or becomes read-only during the run."""
+        """Writes the results to a disk that is small, that is read-only, or that becomes read-only during the run."""
         fault = self.random.choice(["small", "small", "read-only", "becomes read-only"])
         size = self.random.choice([4, 8, 16, 64, 200, 400, 600, 800, 1000, 1500]) if fault == "small" else 20000
         moment = self.random.uniform(0.5, 1) * self.took
@@ -141,7 +147,7 @@ class Trial:
         self.detail = f"the clock jumps by {jump} s after {moment:.2f} s"
         offset = self.path("offset")
         write_text(offset, "+0")
-        # Without the last two settings, libfaketime changes the monotonic clock, and waits end too early.
+        # Without the last two settings, libfaketime would also change the monotonic clock, and waits would end too early.
         process = self.start(LD_PRELOAD=clock_library(), FAKETIME_TIMESTAMP_FILE=offset, FAKETIME_NO_CACHE="1", FAKETIME_DONT_FAKE_MONOTONIC="1",
                              FAKETIME_FORCE_MONOTONIC_FIX="0")
         time.sleep(moment)
@@ -150,13 +156,13 @@ class Trial:
         return (*self.end(process), self.path("out"))
 
     def memory(self) -> tuple[int, str, str]:
-        """Limits the address space, from too little for Mono to enough for the run."""
+        """Limits the address space to a random size, between too little for Mono and enough for the run."""
         kilobytes = self.random.choice([100, 300, 600, 1000, 1500, 2000, 3000, 5000]) * 1000
         self.detail = f"{kilobytes} KB of address space"
         return (*self.end(self.start(("bash", "-c", f'ulimit -v {kilobytes}; "$@"', "bash"))), self.path("out"))
 
     def fault(self) -> tuple[int, str, str]:
-        """One write, rename, deletion, sync or start of a process fails in a run that replaces earlier results."""
+        """Lets one write, rename, deletion, sync or start of a process fail in a run that replaces earlier results."""
         at = self.random.randint(1, 1000) if self.is_edited else 1 + self.number * self.reference["calls"] // self.count
         self.detail = f"call {at} fails"
         shutil.copytree(self.reference["folder"], self.path("out"))
@@ -205,7 +211,7 @@ def kill(pid: int, number: int) -> None:
 
 
 def marked(mark: str, words: str = "") -> dict[int, str]:
-    """Returns command lines of a trial's processes that contain the words, by process id."""
+    """Returns the command lines of a trial's processes that contain the words, by process id."""
     found = {}
     for pid in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -235,7 +241,7 @@ def content(path: str) -> bytes:
 
 
 def broken(out: str, code: int, reference: dict[str, Any]) -> list[str]:
-    """Returns the errors in the outputs of a run that ended with a code."""
+    """Returns the errors in the outputs of a run that has ended with an exit code."""
     path = os.path.join(out, "manifest.json")
     if not os.path.exists(path):
         return ["exit code 0 without a manifest"] if code == 0 else []
@@ -266,7 +272,7 @@ def ending(code: int) -> str:
 
 
 def make_reference(work: str) -> tuple[dict[str, Any], float]:
-    """Makes an undisturbed run, and returns it with its duration without compilation."""
+    """Runs the scenario without a disturbance. Returns the results, and the duration without compilation."""
     shutil.copytree(PROJECT, os.path.join(work, "project"))
     scenario, out = os.path.join(work, "project", "lamps.json"), os.path.join(work, "out")
     write_scenario(scenario)
@@ -283,7 +289,7 @@ def make_reference(work: str) -> tuple[dict[str, Any], float]:
 
 
 def failing(at: int, folder: str) -> dict[str, str]:
-    """The environment of a command in which the call with that number fails."""
+    """Returns the environment variables for a command in which the call with the given number fails."""
     calls = os.path.join(folder, "calls")
     with open(calls, "wb") as file:
         file.write(bytes(8))
@@ -306,7 +312,7 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=int(time.strftime("%j")), help="(default: another one each day of the year)")
     parser.add_argument("--results")
     given = parser.parse_args()
-    # Background jobs of shells ignore SIGINT, and children inherit that.
+    # A background job of a shell ignores SIGINT. Without this handler, child processes would inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     counts = {"kill": given.kills, "disk": given.disks, "signal": given.signals, "clock": given.others, "memory": given.others, "fault": given.faults}
     if not can_mount():

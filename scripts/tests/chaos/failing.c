@@ -1,9 +1,9 @@
 /*
- * Lets one call fail that creates, writes, renames, deletes or syncs a file, or starts a program. Preload this library (LD_PRELOAD) into a command
- * and all of its processes.
+ * Lets one call fail that creates, writes, renames, deletes or syncs a file, or that starts a program. LD_PRELOAD loads this library into a command and all
+ * of its processes.
  *
- * FAILING_CALLS names a file of 8 bytes that counts these calls in all processes. The call with the number FAILING_AT fails with EIO, or with EAGAIN
- * if it is a fork. Calls on files count only below FAILING_BELOW, a list of absolute paths separated by ':'.
+ * The environment variable FAILING_CALLS names a file of 8 bytes, which counts these calls in all processes. The call with the number FAILING_AT fails with
+ * EIO, or with EAGAIN if it is a fork. Calls on files count only below FAILING_BELOW, which is a list of absolute paths with ':' between them.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -41,7 +41,7 @@ __attribute__((constructor)) static void start(void)
     count = memory;
 }
 
-/* Returns whether this call fails. If so, sets errno. */
+/* Counts this call, and returns whether it fails. If so, sets errno. */
 static bool fails(int error)
 {
     if (count == NULL || atomic_fetch_add(count, 1) + 1 != failing)
@@ -89,7 +89,7 @@ static bool fails_at(int folder, const char *name)
     return is_below(path) && fails(EIO);
 }
 
-/* The function of libc, which is called unless the call fails. */
+/* The function of libc that is called if the call does not fail. */
 #define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
 #define FILE_CALL(type, name, parameters, arguments, condition)                                                                                        \
     type name parameters                                                                                                                               \
@@ -147,7 +147,7 @@ pid_t fork(void)
     return fails(EAGAIN) ? -1 : NEXT(fork)();
 }
 
-/* Python tries each folder of PATH. Only the folder that contains the program counts. */
+/* Python calls this for each folder of PATH. Only the call for the folder that contains the program counts. */
 int execve(const char *path, char *const *words, char *const *environment)
 {
     return access(path, X_OK) == 0 && fails(EIO) ? -1 : NEXT(execve)(path, words, environment);

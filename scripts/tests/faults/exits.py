@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Ends runs in different ways, repeatedly, and checks exit code, order and flight recording. The last line is "N passed, N failed".
+"""Ends runs repeatedly in different ways. Checks the exit code, that the JVM shuts down cleanly, and the flight recording.
 
-exits.py RUNS [KIND]... [--results FILE.xml]; without a KIND all of them, in both placements, on every runtime and JVM; FILE gets the results as JUnit XML.
+`exits.py RUNS [KIND]... [--results FILE.xml]` tests the given kinds, or all of them, in both placements on every runtime and JVM. With --results, it writes
+the results as JUnit XML. The last line of its output is "N passed, N failed".
 """
 import argparse
 import collections
@@ -24,9 +25,9 @@ from build import managed
 from tests import junit
 from tests.faults import places as files
 
-# How a run ends, and its exit code.
+# The ways in which a run ends, and the exit code of each.
 KINDS = {"leave": 0, "quit": 3, "ctrl-c": 130, "termination": 143, "exception": 1, "thread-exception": 1}
-# Different codes on CoreCLR, which aborts.
+# Exit codes that are different on CoreCLR, which aborts the process.
 CORECLR_CODES = {"thread-exception": -signal.SIGABRT}
 SIGNALS = {"ctrl-c": signal.SIGINT, "termination": signal.SIGTERM}
 LIMIT_S = 180
@@ -34,7 +35,7 @@ PLACEMENTS = ["InProcess", "OwnProcess"]
 
 
 def command(places: dict[str, Any], kind: str, runtime: str, jdk: str, placement: str, folder: str) -> list[str]:
-    """Returns the command line of the player, or on CoreCLR of a program that runs the same scene."""
+    """Returns the command line of the player. On CoreCLR, returns that of a program which runs the same scene."""
     flag = "-XX:StartFlightRecording=filename=" + os.path.join(folder, "record.jfr")
     if runtime == "coreclr":
         return [runtime, "--debug", places["program"], "act=exit", "how=" + kind, "placement=" + placement, "home=" + jdk,
@@ -55,7 +56,7 @@ def scenario(places: dict[str, Any], folder: str, seconds: int, placement: str, 
 
 
 def recording_problem(path: str) -> str:
-    """Returns the error in a flight recording, or an empty string. Unfinished chunks have no length in their header."""
+    """Returns the error in a flight recording, or an empty string. A chunk without a length in its header is unfinished."""
     if not os.path.exists(path):
         return "the flight recording is missing"
     with open(path, "rb") as file:
@@ -72,7 +73,7 @@ def recording_problem(path: str) -> str:
 
 
 def run(places: dict[str, Any], kind: str, index: int) -> str:
-    """Returns the error, or an empty string."""
+    """Runs a scene until it ends in the given way. Returns the error, or an empty string."""
     placement = PLACEMENTS[index % 2]
     index //= 2
     runtime = places["runtimes"][index % len(places["runtimes"])]
@@ -122,7 +123,7 @@ def main() -> None:
     arguments = parser.parse_args()
     runs, kinds = arguments.runs, arguments.kinds
     places = files.all_runtimes()
-    # Background jobs of shells ignore SIGINT, and children inherit that unless this process has a handler.
+    # A background job of a shell ignores SIGINT. Without this handler, child processes would inherit that.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     cases = []
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Causes each fault of faults.json in a separate process, and prints a table and "N passed, N failed".
 
-faults.py [--all] [WORDS]... [--results FILE.xml]; --all: on every runtime and JVM, else on Mono and the newest JVM alone. With WORDS only faults with
-these words in their name; each has a column for each placement of the JVM. FILE gets the results as JUnit XML.
+`faults.py [--all] [WORDS]... [--results FILE.xml]` runs the faults whose names contain WORDS, or all of them. With --all, it runs them on every runtime and
+JVM, and otherwise only on Mono with the newest JVM. The table has a column for each of these combinations and each placement of the JVM. With --results, the
+script also writes the results as JUnit XML.
 """
 import argparse
 import concurrent.futures
@@ -31,13 +32,13 @@ ORDER = ["next tick", "next session", "next start", "restart"]
 
 
 class Trial:
-    """The files of one fault in a separate folder."""
+    """A trial of a fault, whose files are in a separate folder."""
 
     def __init__(self, fault: dict[str, Any], places: dict[str, Any], runtime: str, jdk: str, placement: str, folder: str) -> None:
         self.fault, self.places, self.runtime, self.jdk, self.folder = fault, places, runtime, jdk, folder
         self.own = placement == "OwnProcess"
         if self.own:
-            # A new process replaces a lost JVM.
+            # In this placement, a new process replaces a JVM that was lost, so a restart is not needed.
             self.fault = {**fault, "works": "next start" if fault["works"] == "restart" else fault["works"], **fault.get("own", {})}
 
     def path(self, *parts: str) -> str:
@@ -51,13 +52,13 @@ class Trial:
         return self.path(name)
 
     def home(self, kind: str) -> str:
-        """Returns a JVM with one invalid file and links to the other files."""
+        """Creates a JVM in which one file is missing or invalid, and returns its folder. The other files are links or copies."""
         if kind == "missing":
             return "/nowhere/jvm"
         home = self.path("home")
         wrong = {"no-libjvm": "lib/server/libjvm.so", "cut-libjvm": "lib/server/libjvm.so", "no-modules": "lib/modules",
                  "cut-modules": "lib/modules", "old": "release"}[kind]
-        # Copies these files, because programs find their JVM by the resolved path.
+        # The files java, libjli.so and libjvm.so are copied, because programs find their JVM by the resolved path of these files.
         for where, folders, names in os.walk(self.jdk):
             inside = os.path.relpath(where, self.jdk)
             if inside.split(os.sep)[0] in ("jmods", "include", "man", "demo", "legal", "docs"):
@@ -105,7 +106,7 @@ class Trial:
         fault = self.fault
         words = [self.runtime, "--debug", self.places["program"], "home=" + self.jdk, "host=" + self.places["host"], "jar=" + self.places["jar"]]
         words += [f"bad-{what}=" + getattr(self, what)(fault[what]) for what in ("home", "host", "jar") if what in fault]
-        # Faults that end a session are ticks that do not end, so they take the step limit.
+        # Faults that end a session are endless ticks, which last until the step limit. The limit is therefore short for them.
         words += ["limit=" + str(fault.get("limit", 1500 if fault["works"] == "next session" else 30000))]
         words += ["placement=OwnProcess"] if self.own else []
         words += ["fault=" + fault.get("program", "none"), "act=" + fault.get("act", "none")]
@@ -115,7 +116,7 @@ class Trial:
         resource.setrlimit(resource.RLIMIT_FSIZE, (self.fault["file_limit"],) * 2)
 
     def run(self) -> tuple[str, str, str]:
-        """Returns the failure or an empty string, the line that the user sees, and the parts that still work."""
+        """Runs the trial. Returns the failure or an empty string, the line that the user reads, and the whole output."""
         environment = {**managed.environment(self.runtime), **self.fault.get("environment", {})}
         try:
             result = subprocess.run(self.command(), cwd=self.folder, env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

@@ -1,4 +1,4 @@
-"""Files of the build that the trials of faults and exits use."""
+"""Finds the built files that the trials of faults and exits need."""
 from pathlib import Path
 from typing import Any
 
@@ -19,10 +19,10 @@ def places(runtimes: list[str], jdks: list[Path]) -> dict[str, Any]:
 
 
 def newest_jdk() -> dict[str, Any]:
-    """Returns the places for trials on Mono with the JDK that runs simulations."""
+    """Returns the settings of trials on Mono with the JDK that runs simulations."""
     return places(RUNTIMES[:1], [jdk.find_jdk()])
 
 
 def all_runtimes() -> dict[str, Any]:
-    """Returns the places for trials on every runtime and JDK."""
+    """Returns the settings of trials on every runtime and JDK."""
     return places(RUNTIMES, jdk.test_jdks())

@@ -1,4 +1,4 @@
-"""Tests that Gradle builds and tests the modules incrementally, with the same jars as Maven."""
+"""Tests that Gradle builds and tests the modules incrementally, and that its jars equal Maven's."""
 import os
 import re
 import shutil
@@ -12,13 +12,13 @@ from build.places import JVM, ROOT
 
 GRADLE = os.environ.get("COLLEKTIVE_GRADLE", "gradle")
 MODULES = [pom.parent for pom in JVM.glob("*/pom.xml")]
-# Folders, and entries that describe the build tool.
+# Entries that are not compared: folders, and files that describe the build tool.
 IGNORED = re.compile(r"META-INF/(MANIFEST\.MF|maven/.*)$|.*/$")
 
 
 @pytest.fixture(scope="module")
 def runs() -> list[subprocess.CompletedProcess[str]]:
-    """Two builds, of which the second reuses the first one's results and configuration."""
+    """Two builds. The second one must reuse the results and the configuration of the first one."""
     if shutil.which(GRADLE) is None:
         reason = "Gradle is not on the PATH, and COLLEKTIVE_GRADLE does not name one"
         Path(os.environ["COLLEKTIVE_RESULTS"], "notes").write_text(f"gradle: skipped, {reason}\n")
@@ -32,7 +32,7 @@ def runs() -> list[subprocess.CompletedProcess[str]]:
 def entries(path: Path) -> dict[str, bytes | list[bytes]]:
     with zipfile.ZipFile(path) as jar:
         found = {name: jar.read(name) for name in jar.namelist() if not IGNORED.match(name)}
-    # jcstress lists tests in the order in which the compiler reads the sources.
+    # The lines of this file are sorted, because jcstress lists tests in the order in which the compiler reads the sources.
     return {name: sorted(content.splitlines()) if name == "META-INF/TestList" else content for name, content in found.items()}
 
 
@@ -47,7 +47,7 @@ def test_a_second_run_uses_the_configuration_cache_and_executes_nothing(runs: li
 
 @pytest.mark.parametrize("module", MODULES, ids=lambda module: module.name)
 def test_jars_have_the_same_entries_as_mavens(module: Path, runs: list[subprocess.CompletedProcess[str]]) -> None:
-    # Tests write other jars there.
+    # Only the module's own jars are compared, because tests write other jars to the same folder.
     jars = [jar for jar in module.glob("target/*.jar") if re.search(r"^collektive-|-\d", jar.name)]
     assert jars
     for jar in jars:

@@ -1,4 +1,4 @@
-"""Tests the shim of other platforms: `run.py RESULTS PLATFORM...` builds it for each, checks the files, and runs the tests where that is possible."""
+"""Tests the shim for other platforms: `run.py RESULTS PLATFORM...` builds it for each platform, checks the files, and runs the tests if possible."""
 import json
 import subprocess
 import sys
@@ -10,10 +10,10 @@ from build import jdk, lock, platforms, processes
 from build.places import ROOT
 from tests import junit
 
-# Omits slow and repeating tests, because an emulated JVM takes seconds to start.
+# The labels of tests that are omitted. These tests are slow or repeat steps, and an emulated JVM takes seconds to start.
 EXCLUDED = "slow|repeats"
-# Of the tests in both placements, runs those in this process. qemu cannot start an emulated program from another one, does not report why a
-# program cannot be executed, and does not limit its memory.
+# The names of tests that cannot be emulated. Of the tests that exist for both placements, only those in this process run, because qemu cannot start an
+# emulated program from another one. It also does not report why a program cannot be executed, and does not limit the memory of a program.
 NOT_EMULATED = "^own_([^o]|o[^w]|own_(ends_with_its_parent|with_a_bad_launcher|out_of_memory))"
 
 
@@ -31,7 +31,7 @@ def run(results: Path, names: list[str]) -> int:
                 file.writelines(describe(name, results / f"{name}.xml"))
             else:
                 file.write(f"{name}: not run: {reason}\n")
-    # The tests run scenes, which lock the outputs by themselves.
+    # The tests run scenes, which lock the outputs themselves.
     lock.release()
     environment = {**platforms.emulator_environment(), "COLLEKTIVE_CROSS": str(platforms.CROSS), "COLLEKTIVE_PLATFORMS": " ".join(names),
                    "COLLEKTIVE_JAVA_COMMANDS": json.dumps(java), "COLLEKTIVE_JDK": str(jdk.find_jdk())}
@@ -41,7 +41,7 @@ def run(results: Path, names: list[str]) -> int:
 
 
 def run_shim(name: str, results: Path) -> int:
-    """Runs the tests of a platform's shim with its JRE; returns CTest's exit code."""
+    """Runs the tests of a platform's shim with the platform's JRE. Returns CTest's exit code."""
     jre = platforms.runnable_jre(name)
     environment = {**platforms.emulator_environment(), "CLK_TEST_JAVA_HOME": str(jre)}
     if name == "win-x64":
@@ -51,7 +51,7 @@ def run_shim(name: str, results: Path) -> int:
 
 
 def describe(name: str, report: Path) -> list[str]:
-    """Returns the number of executed tests, and the reasons for skipped ones."""
+    """Returns lines with the number of executed tests, and with the reason for each skipped test."""
     skipped = junit.read_skipped(str(report))
     ran = len(junit.read(str(report)))
     return [f"{name}: {ran} tests ran, {len(skipped)} were skipped\n", *(f"  {test}: {reason}\n" for test, reason in skipped.items())]

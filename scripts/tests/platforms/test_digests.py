@@ -1,4 +1,4 @@
-"""Replays the case study's record on the JVM of each platform that can run here."""
+"""Replays the record of the case study on the JVM of each platform that can run on this machine."""
 import json
 import os
 import subprocess
@@ -11,7 +11,7 @@ from build.places import BUILD, COLLEKTIVE, ROOT
 
 TOOLS = os.path.join(ROOT, "jvm-host/tools/target/collektive-tools.jar")
 HOST = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
-# The command that runs java, by platform.
+# The command that runs java, for each platform.
 JAVA = json.loads(os.environ["COLLEKTIVE_JAVA_COMMANDS"])
 
 

@@ -1,4 +1,4 @@
-"""Tests exports, dependencies and headers of the native libraries. Libraries for macOS cannot be loaded here."""
+"""Tests the exports, dependencies and headers of the native libraries. It reads the files, because libraries for macOS cannot be loaded here."""
 import os
 import re
 import struct
@@ -9,7 +9,7 @@ import pytest
 from build.places import ROOT
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
-# The built libraries.
+# The platforms whose libraries are built.
 PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()
 MAC = {"mac-x64": (0x01000007, (10, 13)), "mac-arm64": (0x0100000C, (11, 0))}
 LINUX = {"linux-x64": "X86-64", "linux-arm64": "AArch64"}
@@ -21,7 +21,7 @@ def library(platform: str) -> str:
 
 
 def functions() -> set[str]:
-    """Returns the functions of the public headers, and the one that Java calls."""
+    """Returns the functions in the public headers, and the function that Java calls."""
     found = {"Java_org_collektive_host_Main_serve"}
     for header in ("collektive_shim.h", "collektive_neighbours.h"):
         with open(os.path.join(ROOT, "native-shim/include", header)) as file:
@@ -49,7 +49,7 @@ class MachO:
             at += size
 
     def command(self, sought: int) -> bytes:
-        """Returns the first load command of this kind, or nothing."""
+        """Returns the first load command of a kind, or empty bytes if the file has none."""
         return next((body for kind, body in self.commands if kind == sought), b"")
 
     def install_name(self) -> str:
@@ -79,9 +79,9 @@ def test_the_library_of_macos_has_an_install_name_and_a_minimum_version(platform
     assert file.processor == processor
     assert file.oldest_system() == system
     assert file.install_name() == "@rpath/libcollektive_shim.dylib"
-    # The linker adds names with an underscore.
+    # Names with an underscore are ignored, because the linker adds them.
     assert {name for name in file.exports() if not name.startswith("_")} == functions()
-    # On Apple silicon, macOS loads only signed code.
+    # The library for Apple silicon must be signed, because macOS loads only signed code there.
     assert bool(file.command(0x1D)) == (platform == "mac-arm64")
 
 

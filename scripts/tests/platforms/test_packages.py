@@ -1,4 +1,4 @@
-"""Tests the size and reproducibility of ./collektive package --all. Needs the native libraries of all platforms."""
+"""Tests the size and the reproducibility of the packages that ./collektive package --all builds. It needs the native libraries of all platforms."""
 import hashlib
 import os
 import tarfile
@@ -10,7 +10,7 @@ from build import package
 from build.jdk import feature_version, find_jdk
 from build.places import BUILD
 
-# The built libraries.
+# The platforms whose libraries are built.
 PLATFORMS = os.environ["COLLEKTIVE_PLATFORMS"].split()
 MEGABYTE = 1_000_000
 
@@ -34,7 +34,7 @@ def test_the_package_for_all_platforms_is_smaller_than_15_mb(core: Path) -> None
 def test_the_package_contains_all_native_libraries_and_code_generators(core: Path) -> None:
     with tarfile.open(core) as archive:
         names = {name.removeprefix("package/unity/") for name in archive.getnames()}
-    assert not any(name.startswith("Runtime/Plugins/linux-arm64") for name in names), "Linux players before 6000.5 can have one library only"
+    assert not any(name.startswith("Runtime/Plugins/linux-arm64") for name in names), "Linux players before 6000.5 can contain only one library"
     for platform in set(PLATFORMS) - {"linux-arm64"}:
         library = {"win": "collektive_shim.dll", "mac": "libcollektive_shim.dylib"}.get(platform[:3], "libcollektive_shim.so")
         assert {f"Runtime/Plugins/{platform}/{library}", f"Runtime/Plugins/{platform}/{library}.meta"} <= names

@@ -1,4 +1,4 @@
-"""Tests errors about JVMs of another platform or at an unsupported path, with real JVMs."""
+"""Tests the errors about JVMs of another platform and about JVMs at an unsupported path, with real JVMs."""
 import json
 import os
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 from build.places import BUILD
 
 CROSS = os.environ["COLLEKTIVE_CROSS"]
-# The command that runs java, by platform that can run here.
+# The command that runs java, for each platform that can run on this machine.
 JAVA = json.loads(os.environ["COLLEKTIVE_JAVA_COMMANDS"])
 NAMES = {"win-x64": "Windows on x86_64", "linux-x64": "Linux on x86_64", "linux-arm64": "Linux on aarch64"}
 HERE = os.environ["COLLEKTIVE_JDK"]
@@ -18,7 +18,7 @@ FOREIGN = "Programmgröße 場"
 
 
 def start(platform: str, home: str, case: str = "options_that_make_the_jvm_print", **variables: str) -> tuple[int, str]:
-    """Starts a JVM with the platform's native library. Returns the exit code, 0 for success, and the output."""
+    """Starts a JVM with the platform's native library. Returns the exit code, which is 0 if the JVM has started, and the output."""
     program = os.path.join(CROSS, platform, "shim_test.exe" if platform == "win-x64" else "test/shim_test")
     environment = {**os.environ, "WINEPREFIX": os.path.join(BUILD, "wine"), "WINEDEBUG": "-all", "CLK_TEST_JAVA_HOME": home, **variables}
     result = subprocess.run([*JAVA[platform][:-1], program, case], env=environment, cwd=os.path.dirname(program), stdout=subprocess.PIPE,
@@ -27,13 +27,13 @@ def start(platform: str, home: str, case: str = "options_that_make_the_jvm_print
 
 
 def home_of(platform: str) -> str:
-    """Returns the JRE that the library's own tests use."""
+    """Returns the JRE that the tests of the library use."""
     made = os.path.join(CROSS, "jre-" + platform)
     return made if os.path.exists(made) else os.path.dirname(os.path.dirname(JAVA[platform][-1]))
 
 
 def without_release(home: str, folder: Path) -> str:
-    """Copies the JVM without its file release, which names the platform."""
+    """Copies the JVM without the file `release`, which names the platform."""
     made = os.path.join(folder, "home")
     os.mkdir(made)
     for name in os.listdir(home):
@@ -43,7 +43,7 @@ def without_release(home: str, folder: Path) -> str:
 
 
 def others(platform: str) -> list[str]:
-    """The available JVMs of other platforms."""
+    """Returns the available JVMs of other platforms."""
     return ([] if platform == "linux-x64" else [HERE]) + [home_of(other) for other in JAVA if other != platform]
 
 

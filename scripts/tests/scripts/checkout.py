@@ -1,4 +1,4 @@
-"""A copy of the scripts whose outputs tests can lock, build and remove."""
+"""Provides a copy of the scripts, whose outputs tests can lock, build and remove."""
 import os
 import shutil
 import signal
@@ -41,7 +41,7 @@ class Checkout:
         self.open_gate()
 
     def open_gate(self) -> None:
-        """Lets `wait_at_gate` return at once."""
+        """Lets `wait_at_gate` return immediately."""
         (self.root / "gate").unlink(missing_ok=True)
         (self.root / "gate").touch()
 
@@ -51,7 +51,7 @@ class Checkout:
         os.mkfifo(self.root / "gate")
 
     def start(self, code: str) -> subprocess.Popen[str]:
-        """Starts a program that uses the library, in a process group that can be killed as a whole."""
+        """Starts a program that uses the scripts, in a separate process group that can be killed as a whole."""
         return self._popen([sys.executable, "-I", "-c", SETUP + code, str(self.root)])
 
     def start_command(self, *words: str) -> subprocess.Popen[str]:

@@ -7,7 +7,7 @@ from build.places import ROOT
 
 
 def declaration_pattern(path: str, test: str) -> str:
-    """Returns a pattern of the declaration of a test in a file. Manual checks on pages are numbered."""
+    """Returns a pattern that matches the declaration of a test in a file. On a page, a test is a manual check with a number."""
     name = re.escape(test)
     return {
         ".cs": rf"\[(?:Test|TestCase|UnityTest)\b[^;{{]*\s{name}\(",
@@ -85,7 +85,7 @@ class ArchitectureTest(unittest.TestCase):
                     if name.endswith((".cs", ".c", ".h", ".kt")):
                         with open(os.path.join(where, name)) as file:
                             sources += file.read()
-        # A text can consist of literals on several lines.
+        # A message may consist of several literals, which are joined here.
         sources = re.sub(r'"\s*\+?\s*"', "", sources)
         with open(os.path.join(ROOT, "Documentation~/troubleshooting.md")) as file:
             messages = re.findall(r"^\| `([^`]+)`", file.read(), re.M)

@@ -1,4 +1,4 @@
-"""Tests that every public member of Kotlin modules and the C headers has documentation. The build checks C#."""
+"""Tests that every public member of the Kotlin modules and the C headers has documentation. The build itself checks C#."""
 import glob
 import os
 import re
@@ -9,18 +9,18 @@ import pytest
 from build.places import ROOT
 
 MODULES = sorted({path.split(os.sep)[-2] for path in glob.glob(os.path.join(ROOT, "jvm-host/*/api"))} | {"dsl", "stdlib"})
-# Public declarations have a modifier (explicit API mode). Overrides and companions inherit documentation.
+# All public declarations have a modifier because of Kotlin's explicit API mode. Overrides and companions inherit their documentation.
 PUBLIC = re.compile(r"^\s*(?:@\w+(?:\([^)]*\))?\s+)*(?:public|protected)\s(?!(?:final |open )?override\b|companion object)")
 NAME = re.compile(r"\b(?:val|var|fun|class|interface|object|typealias)\s+(?:<[^>]*>\s*)?(?:[\w<>?, *]+\.)?(\w+)")
 HEADERS = ["collektive_shim.h", "collektive_neighbours.h"]
 
 
 def undocumented_kotlin(text: str) -> Iterator[str]:
-    """Yields the lines of public declarations without KDoc. The KDoc of a class may describe constructor properties with @property."""
+    """Yields the lines of public declarations without KDoc. Properties of a constructor may have a @property in the KDoc of the class instead."""
     lines, last = text.splitlines(), ""
     for number, line in enumerate(lines):
         above = number - 1
-        # Annotations may have several lines, which end with a bracket.
+        # Skips annotations, which may have several lines and then end with a bracket.
         while above >= 0 and re.match(r"\s*(?:@|//|\)$|context\()|\s+\w+\.\w+,$", lines[above]):
             above -= 1
         documented = above >= 0 and lines[above].rstrip().endswith("*/")
@@ -36,7 +36,7 @@ def undocumented_kotlin(text: str) -> Iterator[str]:
 
 
 def undocumented_c(text: str) -> Iterator[str]:
-    """Yields declarations without a comment above them or on their line. The introduction of the header describes `size`."""
+    """Yields declarations without a comment above them or on their line, except `size`, which the introduction of the header describes."""
     lines = text.splitlines()
     inside = False
     for number, line in enumerate(lines):
@@ -63,7 +63,7 @@ def test_every_declaration_of_a_c_header_has_a_comment(header: str) -> None:
 
 
 def test_the_editor_part_has_no_public_type() -> None:
-    """Checks that the editor assembly is internal, because the build does not check its documentation."""
+    """Tests that the editor assembly has only internal types, because the build does not check its documentation."""
     types = []
     for path in sorted(glob.glob(os.path.join(ROOT, "unity/Editor/**/*.cs"), recursive=True)):
         with open(path) as file:

@@ -1,4 +1,4 @@
-"""Tests errors about the environment of a command. The checkout has no build."""
+"""Tests the errors about the environment of a command, in a checkout without build outputs."""
 import os
 import signal
 import subprocess

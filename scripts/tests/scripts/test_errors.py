@@ -1,4 +1,4 @@
-"""Tests that the site's page of errors lists all errors with their causes and solutions."""
+"""Tests that the site's page of errors lists all errors with their meanings and solutions."""
 import re
 
 from build.site import errors
@@ -24,7 +24,7 @@ def test_each_check_of_the_compiler_plugin_documents_condition_and_solution() ->
 
 def test_each_exit_code_has_a_meaning() -> None:
     found = dict(errors.exit_codes())
-    # Commands with more exit codes than 0 and 1.
+    # These commands have more exit codes than 0 and 1.
     assert {"", "run", "repeat", "sweep", "replay", "diff"} <= found.keys()
     assert [meaning for meanings in found.values() for meaning in meanings if not re.match(r"(\d+|any) \S", meaning)] == []
 

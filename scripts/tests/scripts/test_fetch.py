@@ -1,4 +1,4 @@
-"""Tests fetched folders, which are filled once per key, and again after an interruption or error."""
+"""Tests that a fetched folder is filled once for each key, and filled again after an interruption or an error."""
 import hashlib
 import re
 from pathlib import Path
@@ -34,11 +34,11 @@ def test_a_killed_step_starts_over(checkout: Checkout) -> None:
     assert checkout.run(once("1")).returncode == 0
     checkout.close_gate()
     process = checkout.start(once("2"))
-    with open(checkout.root / "gate", "w"):  # returns when it waits at the gate
+    with open(checkout.root / "gate", "w"):  # opening the gate for writing waits until the process reads it
         checkout.kill(process)
     assert (checkout.root / "build/thing/half").exists()
     checkout.open_gate()
-    # The folder now contains half of "2" and nothing of "1".
+    # The folder now contains half of the content for "2", and nothing of the content for "1".
     assert checkout.run(once("1")).returncode == 0
     assert checkout.run(once("1")).returncode == 0
     assert checkout.log_lines() == ["made, 0 files there"] * 3
@@ -48,7 +48,7 @@ def test_a_new_environment_of_experiments_gets_its_additions_again(checkout: Che
     requirements = checkout.root / "experiments/requirements.txt"
     (checkout.root / "experiments/requirements-test.txt").touch()
     pip = "fetch._install = lambda requirements, folder: (folder / requirements.name).touch(); fetch.run_logged = lambda *words: None; lock.shared(); "
-    # The second environment has no additions. The third one has the key of the first one.
+    # The second environment has no additions. The third environment has the same key as the first one, but must get its additions again.
     for tool, content in [("experiments-tests", "1"), ("experiments", "2"), ("experiments-tests", "1")]:
         requirements.write_text(content)
         result = checkout.run(f"{pip}fetch.fetch('{tool}')")

@@ -1,4 +1,4 @@
-"""Tests that the build graph builds only changes and recovers from interruptions."""
+"""Tests that the build graph builds only changed targets, and that it recovers from interruptions."""
 import time
 
 import pytest

@@ -104,7 +104,7 @@ def test_a_file_that_changes_during_compilation_is_detected(tmp_path: Path) -> N
 
 
 class Project:
-    """A project that is edited at random. Files outside it are the targets of its links."""
+    """A project that random edits change. The targets of its links are outside the project."""
 
     FOLDERS = ("", "target", "node_modules", ".git", "Generated", "obj", "part")
 
@@ -122,11 +122,11 @@ class Project:
         return self.folder / "schemas" / self.root
 
     def digest(self) -> tuple[str, str, str]:
-        """The hashes that caches are named after."""
+        """Returns the hashes that are part of the names of caches."""
         return (inputs.scripts(self.folder / "scripts").digest, inputs.programs(self.folder / "programs").digest, inputs.schema(self.schema).digest)
 
     def compiled(self, fresh: Path) -> tuple[dict[str, str], dict[str, str], bytes]:
-        """Returns the files that compilers would read in a fresh checkout without links, and flatc's output for the schema."""
+        """Returns the files that the compilers would read in a fresh checkout without links, and flatc's output for the schema."""
         shutil.rmtree(fresh, ignore_errors=True)
         shutil.copytree(self.folder, fresh, ignore_dangling_symlinks=True)
 
@@ -154,7 +154,7 @@ class Project:
         return write(self.place(self.random.choice(["scripts", "programs", "schemas"])), self.text())
 
     def text(self) -> str:
-        """Returns content for any file, which is also a valid schema."""
+        """Returns random content for a file. It is also a valid schema."""
         return f"/// {self.random.random()}\nstruct S{self.random.randrange(10**9)} {{ x: int; }}\n"
 
     def add_include(self) -> Path:
@@ -184,7 +184,10 @@ class Project:
         return [Path(place, name) for place, _, found in os.walk(self.folder / part) for name in sorted(found) if Path(place, name).is_file()]
 
     def replaceable(self) -> list[Path]:
-        """Returns files that can be renamed or removed. Rarely includes schemas and targets of links, without which few projects compile."""
+        """Returns the files that an edit may rename or remove.
+
+        Schemas and targets of links are rarely among them, because few projects compile without these files.
+        """
         return self.files() if self.random.random() < 0.03 else [*self.files("scripts"), *self.files("programs")]
 
     def change(self) -> Path:

@@ -1,4 +1,4 @@
-"""Records and sources of live runs."""
+"""Tests the records and the sources of live runs."""
 import os
 import struct
 from pathlib import Path
@@ -25,7 +25,7 @@ def test_a_saved_record_ends_with_the_last_finished_tick(tmp_path: Path) -> None
     source = tmp_path / "run.clkrec"
     source.write_bytes(HEAD + TICK + TICK + chunk(b"STEP") + chunk(b"DONE")[:-1])
     Record(source).save(tmp_path / "saved.clkrec")
-    # The CRC-32 of an empty END chunk.
+    # The last four bytes are the CRC-32 of an empty END chunk.
     assert (tmp_path / "saved.clkrec").read_bytes() == HEAD + TICK + TICK + b"END \0\0\0\0" + bytes.fromhex("ba7a6345")
 
 

@@ -1,4 +1,4 @@
-"""Tests the lock on build outputs: commands that change them wait for others, with a message."""
+"""Tests the lock on build outputs. Commands that change the outputs must wait for other commands, and print a message."""
 import os
 import select
 import subprocess
@@ -19,7 +19,7 @@ def read_error(process: subprocess.Popen[str]) -> str:
 def test_a_command_reports_that_it_waits_for_one_that_changes_outputs(checkout: Checkout) -> None:
     checkout.close_gate()
     first = checkout.start(CHANGE)
-    with open(checkout.root / "gate", "w"):  # returns when the first waits at the gate
+    with open(checkout.root / "gate", "w"):  # opening the gate for writing waits until the first process reads it
         second = checkout.start("lock.exclusive(); print('done')")
         assert WAITING in read_error(second)
         assert second.poll() is None
@@ -50,10 +50,10 @@ def test_the_second_of_two_simultaneous_commands_waits_only_for_the_build(checko
             for _ in range(2)]
     try:
         with open(checkout.root / "start", "w"):
-            time.sleep(1)  # until the other one has opened it, too
+            time.sleep(1)  # gives the other process time to open the file, too
         for run in runs:
             assert run.stdout is not None
-            assert select.select([run.stdout], [], [], 20)[0], "it waits for the other run"
+            assert select.select([run.stdout], [], [], 20)[0], "the run must not wait for the other run"
             assert run.stdout.readline() == "runs\n"
         assert len(checkout.log_lines()) == 1
     finally:

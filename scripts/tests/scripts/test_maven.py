@@ -1,4 +1,4 @@
-"""Tests that the JVM build compiles changed modules and those that see the change."""
+"""Tests that the JVM build compiles only modules that changed, and modules to which the change is visible."""
 import os
 import re
 import subprocess
@@ -42,7 +42,7 @@ class Modules:
         (self.jvm / path).write_text(text)
 
     def edit(self, path: str, old: str, new: str) -> None:
-        """Replaces a part of a file, which must occur in it."""
+        """Replaces a part of a file. The file must contain this part."""
         text = (self.jvm / path).read_text()
         assert old in text
         self.write(path, text.replace(old, new))
@@ -69,11 +69,11 @@ def test_modules_are_compiled_when_they_or_their_dependencies_changed(modules: M
     assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, modules.output
     assert modules.build() == set(), "nothing changed"
     modules.edit(LOWER, "ordinary(): Int = 1", "ordinary(): Int = 2")
-    assert modules.build() == {"LowerKt"}, "no other module sees the body of a function"
+    assert modules.build() == {"LowerKt"}, "the body of a function is not visible to other modules"
     modules.edit(LOWER, "value() + 1", "value() + 2")
     assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, "callers contain the body of an inline function"
     modules.edit("lower/src/test/kotlin/LowerTest.kt", "below", "lowest")
-    assert modules.build() == {"LowerTestKt"}, "no other module sees tests"
+    assert modules.build() == {"LowerTestKt"}, "tests are not visible to other modules"
 
 
 def test_an_error_is_reported_until_it_is_fixed(modules: Modules) -> None:

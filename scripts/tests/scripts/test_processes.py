@@ -1,4 +1,4 @@
-"""Tests that signals reach all processes of a command, and that none is left when it ends."""
+"""Tests that signals reach all processes of a command, and that no process is left when the command ends."""
 import signal
 import time
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from checkout import SETUP, Checkout
 
-# A child of the group's first process, which writes its process id.
+# Code that starts a child of the group's first process. The child writes its process id to a file.
 CHILD = "processes.call([sys.executable, '-c', 'import os, sys, time; open(sys.argv[1], \"w\").write(str(os.getpid())); {}', str(root / 'pid')])"
 SLEEP = CHILD.format("time.sleep(600)")
 
@@ -16,7 +16,7 @@ def run_in_group(body: str) -> str:
 
 
 def child_of(checkout: Checkout) -> int:
-    """Returns the process id of the child when it runs."""
+    """Waits until the child runs, and returns its process id."""
     end = time.monotonic() + 60
     file = checkout.root / "pid"
     while not (file.exists() and file.read_text()):
@@ -26,7 +26,7 @@ def child_of(checkout: Checkout) -> int:
 
 
 def ends(pid: int) -> bool:
-    """Waits until a process has ended, even if its parent does not wait for it."""
+    """Returns whether a process ends within a time limit, even if its parent does not wait for it."""
     end = time.monotonic() + 20
     while time.monotonic() < end:
         status = Path(f"/proc/{pid}/stat")
@@ -58,7 +58,7 @@ def test_a_signal_that_ended_a_process_is_the_exit_code(checkout: Checkout) -> N
 
 
 def test_a_command_ends_without_an_init_process_that_reaps_orphans(checkout: Checkout) -> None:
-    # As in a container, whose first process often does not reap orphans.
+    # This parent does not reap orphans. In a container, the first process often does not reap them either.
     parent_without_reaping = ("import ctypes; ctypes.CDLL(None).prctl(36, 1, 0, 0, 0); "
                               "sys.exit(__import__('subprocess').run([sys.executable, '-c', {!r}, root]).returncode)")
     orphan = run_in_group("__import__('subprocess').Popen(['sleep', '0.5']) and 0")

@@ -1,4 +1,4 @@
-"""Tests that build and IDE projects contain every C# source, with the same references as in Unity."""
+"""Tests that the build and the IDE projects contain every C# source, with the same references as in Unity."""
 import json
 import subprocess
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-"""Tests that only a run that has begun replaces earlier results."""
+"""Tests that a run replaces earlier results only if it has begun."""
 from pathlib import Path
 
 import pytest

@@ -123,7 +123,7 @@ def test_the_results_of_ctest_are_read(tmp_path: Path) -> None:
 
 @pytest.fixture
 def project(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> Callable[..., dict[str, tuple[int, int]]]:
-    """Runs suites of a small project. Returns the numbers of passed and failed tests of each."""
+    """A function that runs suites of a small project. It returns the numbers of passed and failed tests of each suite."""
     root = checkout.root
     (root / "CMakeLists.txt").write_text(PROJECT % sys.executable)
     (root / "cmake").mkdir()
@@ -144,7 +144,7 @@ def project(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> Callable[...
 def test_suites_run_with_their_fixtures_and_within_their_time(project: Callable[..., dict[str, tuple[int, int]]]) -> None:
     assert project("good", "bad", "without-fixture") == {"good": (2, 0), "bad": (1, 1), "without-fixture": (0, 1)}
     assert project("endless", "crash", "missing") == {"endless": (0, 1), "crash": (2, 1), "missing": (0, 1)}
-    # The time limit ends all processes of a suite.
+    # After the time limit, no process of the suite may be left.
     assert subprocess.run(["pgrep", "-fx", "sleep 613"], stdout=subprocess.PIPE, text=True).stdout == ""
 
 
@@ -187,7 +187,7 @@ def test_suites_without_nunit_are_skipped_or_an_error_if_all_are(capsys: pytest.
 
 @pytest.fixture(scope="module")
 def declared() -> list[Suite]:
-    """The suites of this checkout, whose graph the suite `scripts` has configured."""
+    """Returns the suites of this checkout. The build graph is configured, because the suite `scripts` needs it."""
     return command.read_suites()
 
 

@@ -1,4 +1,4 @@
-"""Tests reports about missing and outdated tools, with fakes on the PATH."""
+"""Tests the reports about missing and outdated tools, with fake tools on the PATH."""
 import os
 import subprocess
 from collections.abc import Sequence
@@ -12,7 +12,7 @@ from build.places import ROOT
 
 
 class Tools:
-    """Fakes of tools, before the real ones on the PATH."""
+    """A folder of fake tools that is on the PATH before the real tools."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -21,14 +21,14 @@ class Tools:
         return str(self.folder / name)
 
     def fake(self, name: str, text: str) -> None:
-        """Adds a command as a shell script, and hides its alternative."""
+        """Adds a fake command as a shell script, and hides the alternative command of the same tool."""
         (self.folder / name).write_text(f"#!/bin/sh\n{text or 'exit 1'}\n")
         (self.folder / name).chmod(0o755)
         if name == "cargo":
             self.fake("cargo-1.85", "")
 
     def missing(self, tool: str, version: str, packages: Sequence[tuple[str, str]] = ()) -> str:
-        """Returns the report on a tool that prints this version, or nothing, where apt has packages of these names and versions."""
+        """Returns the report about a tool that prints the given version, or nothing if it is empty. apt offers the given packages and versions."""
         self.fake("apt-cache", "".join(f"[ $2 != {name} ] || echo '  Candidate: {version}'\n" for name, version in packages))
         self.fake(tool, version and f"echo '{version}'")
         return self.report()

@@ -38,7 +38,7 @@ def test_the_shim_has_the_products_version() -> None:
 def test_no_other_file_contains_the_version() -> None:
     listed = subprocess.run(["git", "-C", ROOT, "grep", "-lF", version.product()], capture_output=True, text=True).stdout.split("\n")
     known = {path for path, _ in version.files()}
-    # The changelog names all versions, and other software may have the same one.
+    # These files are not searched, because the changelog names all versions, and other software may have the same version.
     others = re.compile(r"CHANGELOG\.md|THIRD-PARTY\.md|.*package-lock\.json|.*Cargo\.lock|.*requirements\.txt|")
     assert [path for path in listed if path not in known and not others.fullmatch(path)] == []
 
@@ -49,14 +49,14 @@ def test_the_players_manifest_names_the_flatbuffers_that_it_is_built_with() -> N
 
 
 def found(pattern: str, text: str) -> str:
-    """Returns the first group of a pattern, which must occur."""
+    """Returns the first group of a pattern in a text. The pattern must match."""
     match = re.search(pattern, text)
     assert match, pattern
     return match[1]
 
 
 def third_party(name: str) -> str:
-    """The version in the row of THIRD-PARTY.md about a name."""
+    """Returns the version in the row of THIRD-PARTY.md for a name."""
     return found(rf"(?m)^\|[^|]*(?<![\w@/-]){re.escape(name)}(?![\w-])[^|]*\| ([^|]*[^| ]) *\|", text("THIRD-PARTY.md"))
 
 
