@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Effects of the ready-made actuators. The program doubles the sensed value.</summary>
+    /// <summary>Tests the effects of the ready-made actuators. The program doubles the sensed value.</summary>
     [TestFixture]
     public sealed class ActuatorTests : SimulationFixture
     {
@@ -19,7 +19,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Assert.That(node.transform.position.x, Is.EqualTo(0.2f).Within(1e-6f));
             Play(60);
-            Assert.That(node.transform.position.x, Is.EqualTo(10).Within(1e-4f), "it stops at its target");
+            Assert.That(node.transform.position.x, Is.EqualTo(10).Within(1e-4f), "the node must stop at its target");
         }
 
         [Test]
@@ -111,7 +111,7 @@ namespace Collektive.Headless.Tests.Simulation
             var body = node.GetComponent<Rigidbody>();
             Play(2);
             Assert.That(body.linearVelocity.x, Is.EqualTo(6));
-            Assert.That(body.linearVelocity.y, Is.EqualTo(-0.05f * 9.81f).Within(1e-3f), "of one tick only");
+            Assert.That(body.linearVelocity.y, Is.EqualTo(-0.05f * 9.81f).Within(1e-3f), "the velocity must be the gravity of one tick");
             fly.KeepVertical = true;
             Play(1);
             Assert.That(body.linearVelocity.y, Is.EqualTo(-0.1f * 9.81f).Within(1e-3f));

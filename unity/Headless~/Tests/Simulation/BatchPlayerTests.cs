@@ -5,7 +5,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>A built player started with -batchmode, which the stand-in's player always is.</summary>
+    /// <summary>Tests a built player that runs with -batchmode. The player of the stand-in for Unity always does.</summary>
     [TestFixture]
     public sealed class BatchPlayerTests : SimulationFixture
     {

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Console messages name their source and are rate-limited.</summary>
+    /// <summary>Tests that console messages name their source, and that their number is limited.</summary>
     [TestFixture]
     public sealed class ConsoleTests : SimulationFixture
     {
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Simulation
             foreach (var node in nodes) Assert.That(node.Node.LastError, Is.StringContaining("thirteen"));
             nodes[0].Sensor.Value = 19;
             Play(1);
-            Assert.That(Errors[Errors.Count - 1], Is.StringContaining("view"), "a different error is logged separately");
+            Assert.That(Errors[Errors.Count - 1], Is.StringContaining("view"), "a different error must be logged separately");
             Manager.enabled = false;
             Assert.That(Errors[Errors.Count - 1], Is.StringContaining("29 rounds of program 'trouble'").And.StringContaining("node 4"));
         }

@@ -15,7 +15,8 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>
-    /// A debugger (jdb) stops the JVM at a breakpoint, and the editor continues. These tests run in a separate process, because the JVM needs a debug port.
+    /// Tests that the editor continues while a debugger (jdb) has stopped the JVM at a breakpoint. These tests run in a separate process, because the JVM
+    /// needs a debug port.
     /// </summary>
     [TestFixture, Category("Debugger")]
     public sealed class DebuggerTests : SimulationFixture
@@ -33,7 +34,7 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 settings.jvm.settings.debugPort = Port;
                 settings.stepLimitMs = StepLimitMs;
-                settings.threads = 1; // one breakpoint at a time
+                settings.threads = 1; // so that only one round at a time is at the breakpoint
             });
         }
 
@@ -241,7 +242,7 @@ namespace Collektive.Headless.Tests.Simulation
             while (Jvm.TryGetStatus() == null && clock.ElapsedMilliseconds < LimitMs) Thread.Sleep(20);
         }
 
-        /// <summary>Plays until the JVM is at the breakpoint.</summary>
+        /// <summary>Plays until the JVM has stopped at the breakpoint.</summary>
         private void Stop(Jdb debugger, string command)
         {
             debugger.Break(command);
@@ -270,7 +271,7 @@ namespace Collektive.Headless.Tests.Simulation
             return port;
         }
 
-        /// <summary>The JDK's debugger, with a breakpoint in the probe program `sum` or another method.</summary>
+        /// <summary>The debugger of the JDK, with a breakpoint in the probe program `sum` or in another method.</summary>
         private sealed class Jdb : IDisposable
         {
             private readonly Process process;
@@ -295,7 +296,7 @@ namespace Collektive.Headless.Tests.Simulation
                 process.BeginOutputReadLine();
             }
 
-            /// <summary>Sets the breakpoint, which the JVM soon reaches.</summary>
+            /// <summary>Sets the breakpoint. The JVM reaches it soon afterwards.</summary>
             internal void Break(string command)
             {
                 stop = command;
@@ -306,7 +307,7 @@ namespace Collektive.Headless.Tests.Simulation
             internal void Continue()
             {
                 AwaitLine("Breakpoint hit");
-                // If classes of earlier sessions are still loaded, it clears only one of the breakpoints.
+                // This flag is needed because jdb clears only one of the breakpoints if classes of earlier sessions are still loaded.
                 isContinued = true;
                 Send("clear " + place);
                 Resume();

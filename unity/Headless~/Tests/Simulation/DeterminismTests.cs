@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>The same scene, seed and inputs give bit-identical rounds. The chained digests are compared.</summary>
+    /// <summary>Tests that the same scene, seed and inputs give bit-identical rounds, by comparing the chained digests.</summary>
     [TestFixture]
     public sealed class DeterminismTests : SimulationFixture
     {
@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Returns the digest after each tick of a small swarm that moves at random. At one tick, the last bit of one sensor flips.</summary>
+        /// <summary>Returns the digest after each tick of a small swarm that moves at random. In the tick `flipAt`, the last bit of a sensor flips.</summary>
         private List<ulong> Digests(Action<SimulationSettings> change, int flipAt, Predicate<int> isReloaded = null)
         {
             StopPlaying();
@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests.Simulation
             return digests;
         }
 
-        /// <summary>Lets the nodes join again, because programs are read at that time.</summary>
+        /// <summary>Lets the nodes join again, because nodes read their programs when they join.</summary>
         private static void Rejoin(List<ProbeNode> nodes)
         {
             foreach (var node in nodes)

@@ -12,7 +12,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Each invalid input or failing program causes one clear error and no other damage.</summary>
+    /// <summary>Tests that each invalid input and each failing program causes one clear error and has no other effect.</summary>
     [TestFixture]
     public sealed class FaultTests : SimulationFixture
     {
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(bad.Node.LastError, Is.StringContaining(expected));
             bad.Sensor.Value = 0;
             Play(1);
-            Assert.That(bad.Answer, Is.EqualTo(3), "the failed round did not change the state");
+            Assert.That(bad.Answer, Is.EqualTo(3), "the failed round must not change the state");
             Assert.That(good.Answer, Is.EqualTo(4));
             Assert.That(Manager.Failure, Is.Empty);
         }
@@ -381,7 +381,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That((first.Answer, second.Answer), Is.EqualTo((2f, 20f)));
             second.Node.transform.GetChild(0).SetParent(first.Node.transform);
             Play(1);
-            Assert.That((first.Answer, second.Answer), Is.EqualTo((20f, 4f)), "with its parent");
+            Assert.That((first.Answer, second.Answer), Is.EqualTo((20f, 4f)), "the sensor must follow its parent to the other node");
             arm.transform.SetParent(null);
             Assert.That(sensor.enabled, Is.False);
             Assert.That(Errors[0], Is.StringContaining("has no Node on its GameObject or its parents"));
@@ -429,7 +429,7 @@ namespace Collektive.Headless.Tests.Simulation
             Configure("sum");
             var node = MakeNode(3);
             var other = MakeNode(4, Vector3.right);
-            // Components of the same kind come before and after it.
+            // The failing component has components of the same kind before and after it.
             node.Node.gameObject.AddComponent(type);
             var second = node.Node.gameObject.AddComponent<ProbeSensor>();
             second.Value = 5;
@@ -437,8 +437,8 @@ namespace Collektive.Headless.Tests.Simulation
             node.Node.gameObject.AddComponent<RadiusNeighbourhood>();
             Play(2);
             Assert.That(node.Node.GetComponent(type) == null, Is.True);
-            Assert.That(other.Answer, Is.EqualTo(5), "the sensor after it was called");
-            Assert.That(last.Calls, Is.EqualTo(2), "the actuator after it was called");
+            Assert.That(other.Answer, Is.EqualTo(5), "the sensor after the failing one must be called");
+            Assert.That(last.Calls, Is.EqualTo(2), "the actuator after the failing one must be called");
             Assert.That(Manager.LinkCount, Is.EqualTo(2));
             Assert.That(Errors, Is.Empty);
         }
@@ -695,7 +695,7 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(1);
             Play(3);
             Assert.That(Manager.Failure, Is.StringContaining("the start failed"));
-            Assert.That(Errors.Count, Is.EqualTo(2), "the exception and the stop");
+            Assert.That(Errors.Count, Is.EqualTo(2), "only the exception and the stop may be logged");
         }
 
         [Test]
@@ -735,7 +735,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(new Selection(() => Play(1)).By("nonesuch"), Is.SameAs(Manager));
         }
 
-        /// <summary>Records the object that a click on each logged message would select.</summary>
+        /// <summary>A log handler that records which object a click on each message would select.</summary>
         private sealed class Selection : ILogHandler
         {
             private readonly List<KeyValuePair<string, Object>> messages = new List<KeyValuePair<string, Object>>();

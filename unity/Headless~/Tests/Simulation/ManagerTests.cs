@@ -14,7 +14,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void Node_positions_are_sampled_at_the_start_of_the_tick()
         {
             var node = MakeNode(1, Vector3.right).Node;
-            Assert.That(node.Position, Is.EqualTo(Vector3.right), "before the first tick");
+            Assert.That(node.Position, Is.EqualTo(Vector3.right), "the position must be readable before the first tick");
             Play(1);
             node.transform.position = Vector3.up;
             Assert.That(node.Position, Is.EqualTo(Vector3.right));
@@ -115,7 +115,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             Assert.That(node.Answer, Is.EqualTo(14));
             Assert.That(later.Answer, Is.EqualTo(21));
-            Assert.That(actuator.Last.Value, Is.EqualTo(20), "nodes keep their own values");
+            Assert.That(actuator.Last.Value, Is.EqualTo(20), "a node must keep its own value");
         }
 
         [Test]

@@ -6,21 +6,21 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Links of each built-in rule.</summary>
+    /// <summary>Tests the links of each built-in rule.</summary>
     [TestFixture]
     public sealed class NeighbourhoodTests : SimulationFixture
     {
         [Test]
         public void The_nearest_nodes_are_neighbours_and_exchange_messages()
         {
-            // The nodes are at 0, 1, 3 and 7 metres. The nearest node is always the one to the left, except for the first node.
+            // The nodes are at 0 m, 1 m, 3 m and 7 m. Except for the first node, the nearest node is always the one to the left.
             var line = MakeLine(0, 1, 3, 7);
             foreach (var node in line) node.Node.gameObject.AddComponent<KNearestNeighbourhood>().Count = 1;
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0 1>2 2>1 2>3 3>2"));
             line[3].Node.transform.position = new Vector3(-1, 0, 0);
             Play(1);
-            // Nodes 1 and 3 are now both one metre from node 0. The smaller id wins.
+            // Nodes 1 and 3 are now both 1 m from node 0, so the smaller id wins.
             Assert.That(Links(), Is.EqualTo("0>1 0>3 1>0 1>2 2>1 3>0"));
         }
 
@@ -141,7 +141,7 @@ namespace Collektive.Headless.Tests.Simulation
             MakeWall(6).layer = 4;
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
-            // The body of another node blocks the line.
+            // The body of another node now blocks the line of sight.
             MakeNode(0, new Vector3(5, 0, 0)).Node.gameObject.AddComponent<SphereCollider>();
             Play(1);
             Assert.That(Links(), Is.EqualTo("0>2 1>2 2>0 2>1"));
@@ -300,7 +300,10 @@ namespace Collektive.Headless.Tests.Simulation
             return rule.enabled && (other.transform.position - node.transform.position).sqrMagnitude <= rule.Radius * rule.Radius;
         }
 
-        /// <summary>Lengths may differ by the tolerance of the rules, or by twice as much after a link has passed from one rule to another.</summary>
+        /// <summary>
+        /// Checks the lengths of the links. They may differ from the distances by the tolerance of the rules, or by twice as much after a link has passed from
+        /// one rule to another.
+        /// </summary>
         private void AssertLengths()
         {
             var links = new List<LinkRecord>();
@@ -329,7 +332,7 @@ namespace Collektive.Headless.Tests.Simulation
             return links[0].Attenuation;
         }
 
-        /// <summary>All directed links as text, sorted.</summary>
+        /// <summary>Returns all directed links as sorted text.</summary>
         private string Links()
         {
             var links = new List<LinkRecord>();
@@ -338,14 +341,14 @@ namespace Collektive.Headless.Tests.Simulation
             return string.Join(" ", links.ConvertAll(link => link.From + ">" + link.To));
         }
 
-        /// <summary>Returns the configured neighbours.</summary>
+        /// <summary>A rule that links the node to a configured list of neighbours.</summary>
         public sealed class ListRule : NeighbourhoodRule
         {
             public float Length { get; set; } = 1;
 
             public float Attenuation { get; set; }
 
-            /// <summary>Id of a node that the next call creates, or -1.</summary>
+            /// <summary>The id of a node that the next call of the rule creates, or -1.</summary>
             public int MakeAt { get; set; } = -1;
 
             public List<Node> Others { get; } = new List<Node>();

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>The network model in a scene with ticks of 0.05 s.</summary>
+    /// <summary>Tests the network model in a scene with ticks of 0.05 s.</summary>
     [TestFixture]
     public sealed class NetworkTests : SimulationFixture
     {
@@ -71,7 +71,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Tick, Is.EqualTo(0));
         }
 
-        /// <summary>Creates three nodes in a row, each linked with its neighbours.</summary>
+        /// <summary>Creates three nodes in a row, each linked to the next.</summary>
         private void Line(NetworkModel network, out ProbeNode left, out ProbeNode middle, out ProbeNode right)
         {
             Configure("sum", settings => settings.network = network);

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Orders that Unity does not specify do not change a digest.</summary>
+    /// <summary>Tests that digests do not depend on orders that Unity does not specify.</summary>
     public sealed class OrderTests : SimulationFixture
     {
         private const int Few = 5;
@@ -107,7 +107,7 @@ namespace Collektive.Headless.Tests.Simulation
             return Manager.Digest;
         }
 
-        /// <summary>Creates nodes that fall onto each other in zones, with several parts that draw random numbers.</summary>
+        /// <summary>Plays nodes that fall onto each other inside zones, and returns the digest. Several parts of the scene draw random numbers.</summary>
         private ulong PlayTouches()
         {
             Configure("sum");

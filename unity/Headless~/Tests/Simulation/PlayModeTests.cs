@@ -12,13 +12,13 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Leaving play mode releases all resources in any situation.</summary>
+    /// <summary>Tests that leaving play mode releases all resources in any situation.</summary>
     [TestFixture]
     public sealed class PlayModeTests : SimulationFixture
     {
         private const int Times = 50;
 
-        // After the first query, status answers of the JVM keep one slot.
+        // After the first query of the JVM's status, one slot stays in use for the answers.
         private int slotsBefore;
 
         [SetUp]
@@ -41,7 +41,7 @@ namespace Collektive.Headless.Tests.Simulation
             GC.WaitForPendingFinalizers();
             GC.Collect();
             var alive = managers.FindAll(manager => manager.IsAlive).Count;
-            // The garbage collectors scan stacks conservatively.
+            // A few objects may survive, because the garbage collectors scan stacks conservatively.
             Assert.That(alive, Is.LessThan(5));
         }
 
@@ -130,7 +130,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
             var left = ShimCounts.Sessions;
             foreach (var session in forgotten) (session.Target as Session)?.Dispose();
-            // The garbage collectors scan stacks conservatively.
+            // A few objects may survive, because the garbage collectors scan stacks conservatively.
             Assert.That(left, Is.LessThanOrEqualTo(1));
         }
 
@@ -165,7 +165,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Counts threads after a delay, because threads of rounds end shortly after their session.</summary>
+        /// <summary>Counts the threads after a delay, because threads that run rounds end shortly after their session.</summary>
         private static int CountThreadsAfterDelay()
         {
             Thread.Sleep(200);
@@ -184,7 +184,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Returns the values of the package's static fields, except those that users set.</summary>
+        /// <summary>Returns the values of the package's static fields, except the fields that users set.</summary>
         private static Dictionary<string, string> Statics()
         {
             var values = new Dictionary<string, string>();

@@ -4,7 +4,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Command-line options of a built player.</summary>
+    /// <summary>Tests the command-line options of a built player.</summary>
     [TestFixture]
     public sealed class PlayerArgumentsTests
     {

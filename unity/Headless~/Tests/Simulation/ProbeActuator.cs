@@ -3,7 +3,7 @@ using probe;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Keeps the program's last answer.</summary>
+    /// <summary>Stores the program's last answer.</summary>
     public sealed class ProbeActuator : Actuator<ActuatorData>
     {
         public ActuatorData Last;

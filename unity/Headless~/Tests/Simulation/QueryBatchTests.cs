@@ -7,7 +7,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Sensors and line-of-sight rules query physics in batches. The results equal those of single queries.</summary>
+    /// <summary>Tests that sensors and line-of-sight rules query physics in batches, with the same results as single queries.</summary>
     public sealed class QueryBatchTests : SimulationFixture
     {
         private readonly List<Node> nodes = new List<Node>();
@@ -23,7 +23,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             var before = QueryLog.Batches;
             Manager.Step();
-            Assert.That(QueryLog.Batches - before, Is.EqualTo(3), "rays, spheres, lines of sight");
+            Assert.That(QueryLog.Batches - before, Is.EqualTo(3), "one batch each for rays, spheres and lines of sight");
             Assert.That(Errors, Is.Empty);
         }
 
@@ -34,7 +34,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             var before = QueryLog.BatchesStartedEarly;
             Manager.Step();
-            Assert.That(QueryLog.BatchesStartedEarly - before, Is.EqualTo(2), "rays, spheres");
+            Assert.That(QueryLog.BatchesStartedEarly - before, Is.EqualTo(2), "one batch each for rays and spheres");
         }
 
         [Test]
@@ -158,7 +158,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(rule.Calls, Is.EqualTo(3));
             Assert.That(rule.SawQueries, Is.False);
             var seen = nodes[1].GetComponent<SensorTests.Obstacles>().Values;
-            Assert.That(seen.Exists(obstacle => ReferenceEquals(obstacle.Collider, rule.Ball)), Is.True, "the position before the rules ran");
+            Assert.That(seen.Exists(obstacle => ReferenceEquals(obstacle.Collider, rule.Ball)), Is.True, "the position before the rules ran counts");
             Assert.That(Errors, Is.Empty);
         }
 
@@ -193,7 +193,7 @@ namespace Collektive.Headless.Tests.Simulation
             var node = MakeNode(0).Node;
             node.transform.position = place;
             node.gameObject.AddComponent<SphereCollider>().radius = 0.3f;
-            // A child collider that the node's own rays must ignore.
+            // The node's own rays must ignore the collider of this child.
             var wing = new GameObject("Wing");
             wing.transform.SetParent(node.transform, false);
             wing.transform.localPosition = new Vector3(1, 0, 0);
@@ -213,7 +213,7 @@ namespace Collektive.Headless.Tests.Simulation
             ball.AddComponent<SphereCollider>().radius = 0.1f;
         }
 
-        /// <summary>Compares a node's sensor data with single queries. Nothing has moved since.</summary>
+        /// <summary>Compares a node's sensor data with the results of single queries. No object may have moved since the node's round.</summary>
         private static void AssertEqualsSingleQueries(Node node)
         {
             var rays = node.GetComponent<SensorTests.Rays>();

@@ -13,8 +13,8 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>
-    /// Main-thread processor time of individual parts of the package, in a dense scene of 1,000 nodes on a plane. The limits are for Mono and fit into one
-    /// frame.
+    /// Tests how much processor time parts of the package need on the main thread, in a dense scene of 1,000 nodes on a plane. The limits are for Mono, and
+    /// each of them fits into one frame.
     /// </summary>
     [TestFixture]
     [Category("Slow")]
@@ -33,7 +33,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void Trigger_rules_of_95_neighbours_take_less_than_10_milliseconds_a_tick()
         {
-            // On a plane of 10 m by 10 m, each node has about 95 others within 1.8 m.
+            // On this plane of 10 m by 10 m, each node has about 95 others within 1.8 m.
             Scatter(Count, 10, node =>
             {
                 node.AddComponent<SphereCollider>().radius = 0.05f;
@@ -56,7 +56,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void Rules_of_10_000_moving_nodes_take_less_than_8_milliseconds_a_tick()
         {
-            // Two metres apart, with seven neighbours each, at 2 metres a second.
+            // The nodes are about 2 m apart, have seven neighbours each, and move at 2 m/s.
             ScatterInRadius(10 * Count, 200, 3);
             Play(1);
             var random = new RandomStream(5, 0, RandomPurpose.Scene);
@@ -68,7 +68,7 @@ namespace Collektive.Headless.Tests.Simulation
             });
             Print("rules of 10,000 moving nodes, " + Manager.LinkCount + " links", milliseconds);
             Assert.That(Manager.LinkCount, Is.InRange(60 * Count, 80 * Count));
-            // An idle machine takes far less. Before the search was in C, a busy machine took 20 ms.
+            // An idle machine takes far less than this limit.
             Assert.That(milliseconds, Is.LessThan(8));
         }
 
@@ -159,7 +159,7 @@ namespace Collektive.Headless.Tests.Simulation
             });
             Print("diagnostics window, the first event after a tenth of a second", first);
             Assert.That(milliseconds, Is.LessThan(0.5));
-            // The first event reads the list again.
+            // The first event takes longer, because it reads the list of nodes again.
             Assert.That(first, Is.LessThan(1));
         }
 
@@ -211,7 +211,7 @@ namespace Collektive.Headless.Tests.Simulation
             return pairs;
         }
 
-        /// <summary>Returns the milliseconds of the rules in the fastest of several ticks, each after an action.</summary>
+        /// <summary>Returns the milliseconds that the rules take in the fastest of several ticks. Runs an action before each tick.</summary>
         private double ShortestRuleUpdate(Action before)
         {
             var best = double.MaxValue;
@@ -224,7 +224,7 @@ namespace Collektive.Headless.Tests.Simulation
             return best;
         }
 
-        /// <summary>Returns the milliseconds of the view's LateUpdate after a tick, in which all links are new.</summary>
+        /// <summary>Returns the milliseconds that the view's LateUpdate takes after a tick in which all links are new.</summary>
         private double LeastOfView(LinkView view)
         {
             var frame = (Action)typeof(LinkView).GetMethod("LateUpdate", BindingFlags.Instance | BindingFlags.NonPublic).CreateDelegate(typeof(Action), view);

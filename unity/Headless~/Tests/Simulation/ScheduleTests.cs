@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Schedules, sleeping nodes, previous answers and global data. Ticks are 0.05 s apart.</summary>
+    /// <summary>Tests schedules, sleeping nodes, previous answers and global data. Ticks are 0.05 s apart.</summary>
     [TestFixture]
     public sealed class ScheduleTests : SimulationFixture
     {
@@ -27,7 +27,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(18);
             Assert.That(usual.Answer, Is.EqualTo(10));
             Assert.That(own.Answer, Is.EqualTo(4));
-            Assert.That(usual.Actuator.Calls, Is.EqualTo(10), "actuators run only after rounds of their node");
+            Assert.That(usual.Actuator.Calls, Is.EqualTo(10), "actuators must run only after a round of their node");
             Assert.That(Errors, Is.Empty);
         }
 
@@ -38,7 +38,7 @@ namespace Collektive.Headless.Tests.Simulation
             var node = MakeNode(0);
             Play(4);
             Assert.That(node.Answer, Is.EqualTo(0.15f).Within(1e-6f));
-            Assert.That(node.Actuator.Last.Heard, Is.InRange(149, 150), "milliseconds");
+            Assert.That(node.Actuator.Last.Heard, Is.InRange(149, 150), "milliseconds since the last round");
         }
 
         [TestCase(0f)]
@@ -107,7 +107,7 @@ namespace Collektive.Headless.Tests.Simulation
             var node = MakeNode(0);
             node.Node.gameObject.AddComponent<SleepingRule>();
             Play(3);
-            Assert.That(node.Answer, Is.EqualTo(1), "a rule let it sleep from the next tick on");
+            Assert.That(node.Answer, Is.EqualTo(1), "a rule made the node sleep, which must take effect in the next tick");
             Assert.That(Manager.Times.Queries, Is.GreaterThan(0));
         }
 
@@ -146,11 +146,11 @@ namespace Collektive.Headless.Tests.Simulation
             for (var tick = 1; tick <= 60; tick++)
             {
                 Play(1);
-                // TryGetAnswer returns the last data of the actuator.
+                // TryGetAnswer must return the last data that the actuator received.
                 foreach (var node in nodes.FindAll(node => node.Actuator.Calls > 0)) Expect(node, node.Actuator.Last.Value, node.Node.AnswerTick);
                 if (tick >= 10) Assert.That(nodes.FindAll(node => node.Actuator.Calls == 0), Is.Empty);
             }
-            Assert.That(nodes.FindAll(node => node.Node.AnswerTick == Manager.Tick).Count, Is.InRange(0, 15), "only few nodes were due");
+            Assert.That(nodes.FindAll(node => node.Node.AnswerTick == Manager.Tick).Count, Is.InRange(0, 15), "only a few nodes may be due");
         }
 
         [TestCase(Schedule.Lockstep)]
@@ -190,7 +190,7 @@ namespace Collektive.Headless.Tests.Simulation
             var rejoiner = node.Node.gameObject.AddComponent<Rejoiner>();
             rejoiner.Of = other;
             Play(1);
-            Assert.That(other.Node.TryGetAnswer(out ActuatorData _), Is.False, "the answer belonged to the departed node");
+            Assert.That(other.Node.TryGetAnswer(out ActuatorData _), Is.False, "the answer of a departed node must not be returned for a new one");
             Assert.That(other.Actuator.Calls, Is.EqualTo(2));
             rejoiner.Of = null;
             Play(1);
@@ -300,7 +300,7 @@ namespace Collektive.Headless.Tests.Simulation
             Configure("windy");
             var node = MakeNode(0);
             Play(1);
-            Assert.That(node.Answer, Is.EqualTo(-1), "global data of an earlier simulation was discarded");
+            Assert.That(node.Answer, Is.EqualTo(-1), "global data of an earlier simulation must be discarded");
             Manager.SetGlobals<probe.GlobalData>(data => data.Wind = 3);
             Manager.SetGlobals<probe.GlobalData>(data => data.Wind = data.Wind + 1);
             Play(1);
@@ -312,7 +312,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.Answer, Is.EqualTo(8));
             Manager.ReloadPrograms();
             Play(1);
-            Assert.That(node.Answer, Is.EqualTo(8), "programs that are loaded again receive the last data");
+            Assert.That(node.Answer, Is.EqualTo(8), "programs that are loaded again must receive the last data");
         }
 
         [Test]
@@ -365,7 +365,7 @@ namespace Collektive.Headless.Tests.Simulation
             return timed;
         }
 
-        /// <summary>Lets a node join again, because its settings are read at that time.</summary>
+        /// <summary>Lets a node join again, because a node's settings are read when it joins.</summary>
         private static void Rejoin(ProbeNode node)
         {
             node.Node.RequestedId = node.Node.Id;
@@ -373,7 +373,7 @@ namespace Collektive.Headless.Tests.Simulation
             node.Node.enabled = true;
         }
 
-        /// <summary>Lets another node rejoin during the actuator phase.</summary>
+        /// <summary>An actuator that lets another node rejoin.</summary>
         public sealed class Rejoiner : Actuator<ActuatorData>
         {
             public ProbeNode Of;
@@ -384,7 +384,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Reads the answer of another node.</summary>
+        /// <summary>An actuator that reads the answer of another node.</summary>
         public sealed class AnswerReader : Actuator<ActuatorData>
         {
             public Node Of;

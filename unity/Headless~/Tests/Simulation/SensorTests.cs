@@ -8,7 +8,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Values of each built-in sensor in scenes with known results.</summary>
+    /// <summary>Tests the values of each built-in sensor in scenes with known results.</summary>
     [TestFixture]
     public sealed class SensorTests : SimulationFixture
     {
@@ -86,7 +86,7 @@ namespace Collektive.Headless.Tests.Simulation
         {
             var sensor = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
             sensor.Reach = 3;
-            // The near side and the top of a cube.
+            // The mesh consists of the near side and the top of a cube.
             var mesh = new Mesh();
             mesh.vertices = new[]
             {
@@ -161,16 +161,16 @@ namespace Collektive.Headless.Tests.Simulation
         {
             MakeBox(new Vector3(0, -0.5f, 0));
             var ball = MakeBall(new Vector3(0, 0.49f, 0));
-            ball.sleepThreshold = 0; // contacts of a sleeping body have no impulse
+            ball.sleepThreshold = 0; // prevents sleeping, because contacts of a sleeping body have no impulse
             var sensor = ball.gameObject.AddComponent<Contacts>();
             Play(1);
-            Assert.That(sensor.Values, Is.Empty, "nothing touched before the first physics step");
+            Assert.That(sensor.Values, Is.Empty, "before the first physics step, there must be no contacts");
             Play(40);
             Assert.That(sensor.Values.Count, Is.EqualTo(1));
             Assert.That(sensor.Values[0].Body == null, Is.True);
             Assert.That(sensor.Values[0].Point.y, Is.EqualTo(0).Within(0.05f));
             Assert.That(sensor.Values[0].Normal.y, Is.EqualTo(1).Within(1e-3f));
-            // A body of 2 kg rests on the box for 0.05 s between two rounds.
+            // A body of 2 kg rests on the box during the 0.05 s between two rounds.
             Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * 9.81f * 0.05f).Within(0.2f));
             ball.linearVelocity = 10 * Vector3.up;
             Play(3);
@@ -188,7 +188,7 @@ namespace Collektive.Headless.Tests.Simulation
             var sensor = ball.gameObject.AddComponent<Contacts>();
             ball.linearVelocity = 8 * Vector3.down;
             Play(1);
-            Assert.That(ball.linearVelocity.y, Is.GreaterThan(0), "it bounced");
+            Assert.That(ball.linearVelocity.y, Is.GreaterThan(0), "the ball must have bounced");
             Play(1);
             Assert.That(sensor.Values.Count, Is.EqualTo(1));
             Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * (8 + ball.linearVelocity.y)).Within(1));
@@ -262,7 +262,7 @@ namespace Collektive.Headless.Tests.Simulation
             sensor.Source = second;
             second.Falloff = 10;
             Play(1);
-            Assert.That(sensor.Value, Is.EqualTo(0), "never negative");
+            Assert.That(sensor.Value, Is.EqualTo(0), "the value must never be negative");
         }
 
         private static string Distances(Rays sensor) =>

@@ -7,17 +7,17 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>A new scene of probe nodes for each test, on a real JVM.</summary>
+    /// <summary>A fixture with a new scene of probe nodes for each test, and with a real JVM.</summary>
     public abstract class SimulationFixture
     {
         private readonly List<string> errors = new List<string>();
 
         protected SimulationManager Manager { get; private set; }
 
-        /// <summary>Messages logged as errors since the test began.</summary>
+        /// <summary>The messages that were logged as errors since the test began.</summary>
         protected IReadOnlyList<string> Errors => errors;
 
-        /// <summary>Messages of any kind.</summary>
+        /// <summary>The logged messages of any kind.</summary>
         protected List<string> Log { get; } = new List<string>();
 
         [SetUp]
@@ -60,7 +60,7 @@ namespace Collektive.Headless.Tests.Simulation
             settings.jvm = ScriptableObject.CreateInstance<JvmSettingsAsset>();
             settings.jvm.settings = TestJvm.Settings;
             change?.Invoke(settings);
-            // A changed seed takes effect when the manager is enabled.
+            // The manager is disabled during the change, because a new seed takes effect when the manager is enabled.
             manager.enabled = false;
             manager.enabled = true;
         }
@@ -79,7 +79,7 @@ namespace Collektive.Headless.Tests.Simulation
             return new ProbeNode(node, sensor, actuator);
         }
 
-        /// <summary>Plays frames of one tick each.</summary>
+        /// <summary>Plays a number of frames, each of which runs one tick.</summary>
         protected void Play(int ticks)
         {
             for (var i = 0; i < ticks; i++) Loop.Frame(Manager.Settings.deltaTime);

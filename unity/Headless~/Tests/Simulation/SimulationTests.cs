@@ -10,7 +10,7 @@ using Core = Collektive.Unity.Simulation;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>A simulation without a manager, play mode or frames.</summary>
+    /// <summary>Tests a simulation without a manager, play mode or frames.</summary>
     [TestFixture]
     public sealed class SimulationTests
     {
@@ -19,7 +19,7 @@ namespace Collektive.Headless.Tests.Simulation
         private static Action call;
         private Core simulation;
 
-        /// <summary>Calls of the nodes' components, in order.</summary>
+        /// <summary>The calls of the nodes' components in order.</summary>
         private static List<string> Steps { get; } = new List<string>();
 
         [SetUp]

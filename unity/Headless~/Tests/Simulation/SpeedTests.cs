@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Cost of a tick in Unity's process with the ready-made components.</summary>
+    /// <summary>Tests the cost of a tick in Unity's process with the ready-made components.</summary>
     [TestFixture]
     [Category("Slow")]
     public sealed class SpeedTests : SimulationFixture
@@ -16,10 +16,10 @@ namespace Collektive.Headless.Tests.Simulation
         private const int Warm = 100;
         private const int Ticks = 200;
 
-        /// <summary>Side of the plane in metres.</summary>
+        /// <summary>The length of the plane's sides in metres.</summary>
         private const float Side = 100;
 
-        /// <summary>Prevents the compiler from removing the control's allocation.</summary>
+        /// <summary>Keeps an array, so that the compiler cannot remove the allocation of the control.</summary>
         public static byte[] Kept { get; private set; }
 
         [TestCase(Schedule.Lockstep)]
@@ -39,15 +39,17 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.LinkCount, Is.GreaterThan(0));
             var bytes = AllocatedBy(() => Play(Ticks));
             var control = AllocatedBy(() => { for (var i = 0; i < Ticks; i++) { Play(1); Kept = new byte[100]; } });
-            Assert.That(control, Is.GreaterThan(Ticks * 100), "the measurement sees allocations");
+            Assert.That(control, Is.GreaterThan(Ticks * 100), "the measurement must detect the allocations of the control");
             Assert.That(bytes, Is.EqualTo(0));
         }
 
         /// <summary>
-        /// 10,000 nodes move on a plane at 2 m/s, with about 12 others within 2 m of each. They circle around its centre or move independently. The test
-        /// compares the processor time of the main thread, without rounds on the JVM's threads, with that of <see cref="Yardstick"/>, which also takes longer
-        /// on slow and busy machines. Measurements of both alternate, and the best of each counts. Nodes that move independently add, remove or change every
-        /// fourth link in each tick. CoreCLR runs the plain loop five times as fast as Mono, but the tick no faster.
+        /// Compares the processor time of a tick on the main thread with that of <see cref="Yardstick"/>, a plain loop that also takes longer on slow and busy
+        /// machines. Measurements of the two alternate, and the best of each counts. Rounds are not included, because they run on threads of the JVM.
+        ///
+        /// 10,000 nodes move on a plane at 2 m/s. Each has about 12 others within 2 m. They either circle around the centre of the plane or move independently.
+        /// In the latter case, every fourth link is added, removed or changed in each tick. The test runs only on Mono, because CoreCLR runs the plain loop
+        /// five times as fast as Mono, but the tick no faster.
         /// </summary>
         [Category("Mono")]
         [TestCase(typeof(Orbit), 5)]
@@ -86,7 +88,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(tick / loop, Is.LessThan(loops));
         }
 
-        /// <summary>Returns the processor time of an action on this thread.</summary>
+        /// <summary>Returns the processor time in milliseconds that an action takes on this thread.</summary>
         private static double Milliseconds(Action act)
         {
             var start = ThreadClock.Milliseconds;
@@ -94,7 +96,7 @@ namespace Collektive.Headless.Tests.Simulation
             return ThreadClock.Milliseconds - start;
         }
 
-        /// <summary>Computes distances between random points, with memory accesses like those of a tick.</summary>
+        /// <summary>A loop that computes distances between random points. It accesses memory in a similar way to a tick.</summary>
         private sealed class Yardstick
         {
             private readonly Vector3[] points;
@@ -199,7 +201,7 @@ namespace Collektive.Headless.Tests.Simulation
             protected override void Write(ref SensorData data, float intensity) => data.Value += intensity;
         }
 
-        /// <summary>Moves back and forth around its initial position, so that the number of nearby objects changes but does not grow.</summary>
+        /// <summary>An actuator that moves the node back and forth, so that the number of nearby objects changes but does not grow.</summary>
         public sealed class Sway : MoveActuator<ActuatorData>
         {
             private Vector3 home;
@@ -213,7 +215,7 @@ namespace Collektive.Headless.Tests.Simulation
             protected override Vector3 Read(ActuatorData data) => home + new Vector3(SimulationManager.Current.Tick % 2 == 0 ? 0.2f : -0.2f, 0, 0);
         }
 
-        /// <summary>Circles around the centre of the plane.</summary>
+        /// <summary>An actuator that moves the node in a circle around the centre of the plane.</summary>
         public sealed class Orbit : MoveActuator<ActuatorData>
         {
             protected override Vector3 Read(ActuatorData data)
@@ -223,7 +225,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Moves straight in a random direction and turns back at the edge of the plane.</summary>
+        /// <summary>An actuator that moves the node straight in a random direction, and turns it back at the edge of the plane.</summary>
         public sealed class Wander : MoveActuator<ActuatorData>
         {
             private Vector3 way;

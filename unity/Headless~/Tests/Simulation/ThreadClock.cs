@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Processor time of the calling thread, which depends little on other load on the machine.</summary>
+    /// <summary>Measures the processor time of the calling thread, which depends only little on the load of the machine.</summary>
     internal static class ThreadClock
     {
         private const int ThisThread = 3;
@@ -17,7 +17,7 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        /// <summary>Returns the minimum duration of an action in milliseconds over several runs, after a warm-up.</summary>
+        /// <summary>Warms up an action and returns the minimum of its durations in several runs, in milliseconds.</summary>
         internal static double Least(int tries, Action action)
         {
             action();

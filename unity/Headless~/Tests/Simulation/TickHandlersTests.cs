@@ -4,7 +4,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Exceptions of handlers affect neither the tick nor the simulation.</summary>
+    /// <summary>Tests that exceptions in handlers affect neither the tick nor the simulation.</summary>
     public sealed class TickHandlersTests : SimulationFixture
     {
         [Test]
@@ -31,7 +31,7 @@ namespace Collektive.Headless.Tests.Simulation
                 if (manager.Tick != 2) throw new InvalidOperationException("broken on purpose");
             };
             Play(11);
-            Assert.That(Errors, Has.None.Contains("in a row"), "tick 2 succeeded");
+            Assert.That(Errors, Has.None.Contains("in a row"), "the failures are not in a row, because tick 2 succeeded");
             Play(5);
             Assert.That(Errors[Errors.Count - 1], Is.EqualTo(
                 "TickHandlersTests.A_handler_that_keeps_throwing_is_removed (lambda) failed 10 times in a row and was removed from Ticked: "

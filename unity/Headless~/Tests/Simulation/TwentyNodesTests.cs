@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Twenty nodes on a line, one metre apart, linked within 1.5 m. Expected values are calculated by hand.</summary>
+    /// <summary>Tests twenty nodes on a line with values that are calculated by hand. The nodes are 1 m apart and linked within 1.5 m.</summary>
     [TestFixture]
     public sealed class TwentyNodesTests : SimulationFixture
     {
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Simulation
         {
             Configure("arms");
             MakeLine();
-            // The first ten nodes take one branch and the others take the other. Only the two nodes at the border lose a neighbour.
+            // The first ten nodes take one branch, and the other nodes take the other branch. Only the two nodes at the border lose a neighbour.
             for (var i = 0; i < 10; i++) line[i].Sensor.Value = -1;
             Play(2);
             for (var i = 0; i < Count; i++)

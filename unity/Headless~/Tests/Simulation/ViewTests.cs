@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Simulation
 {
-    /// <summary>Data that the views pass to Unity's Graphics and renderers.</summary>
+    /// <summary>Tests the data that the views pass to Unity's Graphics and renderers.</summary>
     [TestFixture]
     public sealed class ViewTests : SimulationFixture
     {
@@ -28,7 +28,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(bars[0].To, Is.EqualTo(new Vector3(1, 2, 7)));
             var draw = DrawLog.Draws[0];
             Assert.That(draw.Properties.GetFloat("_LinkWidth"), Is.EqualTo(0.1f));
-            Assert.That((draw.Bounds.min - new Vector3(0.95f, 1.95f, 2.95f)).magnitude, Is.LessThan(1e-5f), "the bounds contain the bars");
+            Assert.That((draw.Bounds.min - new Vector3(0.95f, 1.95f, 2.95f)).magnitude, Is.LessThan(1e-5f), "the bounds must contain the bars");
             Assert.That((draw.Bounds.max - new Vector3(1.05f, 2.05f, 7.05f)).magnitude, Is.LessThan(1e-5f));
             Manager.AddLink(1, 0, directed: true);
             Play(1);
@@ -64,7 +64,7 @@ namespace Collektive.Headless.Tests.Simulation
             MakeNode(0, Vector3.zero);
             for (var i = 1; i <= 3; i++) Manager.AddLink(0, MakeNode(0, i * i * Vector3.right).Node.Id, true);
             Play(1);
-            // The values are 1, 4 and 9. The middle one is at 3/8 of the range, in the seventh of sixteen steps.
+            // The values are 1, 4 and 9. The middle value is at 3/8 of the range, which is in the seventh of sixteen steps.
             var shades = Bars().ConvertAll(bar => (float)Math.Round(bar.Color.r, 3));
             shades.Sort();
             Assert.That(shades, Is.EqualTo(new[] { 0, 0.4f, 1 }));
@@ -146,7 +146,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(1);
             var own = DrawLog.Draws[0].Material;
             Assert.That(own.shader.name, Is.EqualTo("Collektive/Link"));
-            Assert.That(view.Material == null, Is.True, "the package's material is not a setting");
+            Assert.That(view.Material == null, Is.True, "the setting must stay empty when the view uses the package's material");
             Assert.That(DrawLog.Buffers, Is.EqualTo(before + 2));
             view.enabled = false;
             Play(1);
@@ -196,14 +196,14 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 Loop.Frame(0.025f);
                 drawn.Add(visual.position);
-                Assert.That(node.transform.position.x, Is.EqualTo(4 * (float)Manager.Tick), "the node is at the pose of the tick");
+                Assert.That(node.transform.position.x, Is.EqualTo(4 * (float)Manager.Tick), "the node must stay at its pose of the last tick");
             }
             Assert.That(drawn.ConvertAll(place => Mathf.Round(place.x)), Is.EqualTo(new float[] { 4, 4, 4, 4, 5, 6, 7, 8 }));
             Assert.That(drawn.TrueForAll(place => Mathf.Abs(place.y - 1) < 1e-5f), Is.True);
-            Assert.That(seen, Is.EqualTo(new float[] { 0, 4, 8 }), "rules and sensors see it there too");
+            Assert.That(seen, Is.EqualTo(new float[] { 0, 4, 8 }), "rules and sensors must see the same positions");
             Manager.Paused = true;
             Loop.Frame(0.025f);
-            Assert.That(visual.localPosition, Is.EqualTo(Vector3.up), "while paused, the state after the last tick");
+            Assert.That(visual.localPosition, Is.EqualTo(Vector3.up), "while paused, the view must show the last tick");
             view.enabled = false;
             Manager.Paused = false;
             Loop.Frame(0.025f);
@@ -237,7 +237,7 @@ namespace Collektive.Headless.Tests.Simulation
             views[0].enabled = false;
             Gui.Placed.Clear();
             UnityEditor.Headless.Menus.Send(views[1], "OnGUI");
-            Assert.That(Gui.Placed[0].Place.y, Is.EqualTo(10), "in the first place");
+            Assert.That(Gui.Placed[0].Place.y, Is.EqualTo(10), "the legend must move up to the first place");
         }
 
         [Test]
@@ -332,7 +332,7 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 13;
             Play(1);
-            Assert.That(node.Node.TryGetAnswer(out ActuatorData last), Is.True, "the last good answer");
+            Assert.That(node.Node.TryGetAnswer(out ActuatorData last), Is.True, "the last answer must still be readable");
             Assert.That(last.Value, Is.EqualTo(3));
             Assert.That(ColorOf(node).r, Is.EqualTo(3 / 15f).Within(1e-3f));
             node.Sensor.Value = 0;
@@ -396,7 +396,9 @@ namespace Collektive.Headless.Tests.Simulation
             return block.GetColor("_BaseColor");
         }
 
-        /// <summary>Returns the bars of this frame's draws as the shader computes them. It draws each bar from its start to the middle.</summary>
+        /// <summary>
+        /// Returns the bars that are drawn in this frame, as the shader computes them. The shader draws each bar from its start to the middle.
+        /// </summary>
         private static List<(Vector3 From, Vector3 To, Color Color)> Bars()
         {
             var bars = new List<(Vector3, Vector3, Color)>();

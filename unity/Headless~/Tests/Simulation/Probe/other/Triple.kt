@@ -3,6 +3,6 @@ package probe
 import it.unibo.collektive.aggregate.api.Aggregate
 import org.collektive.api.Program
 
-/** In its own jar. */
+/** Returns three times the value. This program is in a separate jar. */
 @Program("triple")
 public fun Aggregate<Int>.triple(sensors: SensorData): ActuatorData = ActuatorData(sensors.value() * 3)

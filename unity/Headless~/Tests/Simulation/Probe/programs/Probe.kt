@@ -13,7 +13,7 @@ import org.collektive.api.Program
 @Program("double")
 public fun Aggregate<Int>.double(sensors: SensorData): ActuatorData = ActuatorData(sensors.value() * 2)
 
-/** 1 for 2, infinity for 0.5, NaN for 0. */
+/** Returns 1 for 2, infinity for 0.5 and NaN for 0. */
 @Program("ratio")
 public fun Aggregate<Int>.ratio(sensors: SensorData): ActuatorData = ActuatorData(sensors.value() / sensors.value().toInt())
 
@@ -23,7 +23,7 @@ public fun Aggregate<Int>.sum(sensors: SensorData): ActuatorData {
     return ActuatorData(heard.sum(), heard.size)
 }
 
-/** Hops to the nearest node whose value is 0; -1 while none is known. */
+/** Returns the number of hops to the nearest node whose value is 0, or -1 while none is known. */
 @Program("hops")
 public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
     val unknown = Int.MAX_VALUE
@@ -41,11 +41,11 @@ public fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
     return ActuatorData(if (hops == unknown) -1f else hops.toFloat())
 }
 
-/** The same as "hops", with the standard library. */
+/** Computes the same as "hops" with the standard library. */
 @Program("far")
 public fun Aggregate<Int>.far(sensors: SensorData): ActuatorData = ActuatorData(hopDistanceTo(sensors.value() == 0f).toFloat())
 
-/** Counts neighbours in the same branch, which the sign of the value selects. */
+/** Counts the neighbours in the same branch. The sign of the value selects the branch. */
 @Program("arms")
 public fun Aggregate<Int>.arms(sensors: SensorData): ActuatorData =
     if (sensors.value() < 0) ActuatorData(-1f, neighboring(0).neighbors.size) else ActuatorData(1f, neighboring(0).neighbors.size)
@@ -56,7 +56,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData = ActuatorDat
 @Program("random")
 public fun Aggregate<Int>.random(sensors: SensorData, device: Device): ActuatorData = ActuatorData(device.random.nextDouble().toFloat())
 
-/** Returns the wind of the global data; -1 before it is set. */
+/** Returns the wind of the global data, or -1 before it is set. */
 @Program("windy")
 public fun Aggregate<Int>.windy(sensors: SensorData, device: Device): ActuatorData =
     ActuatorData((device.globals as GlobalData?)?.wind() ?: -1f)
@@ -75,10 +75,10 @@ private fun Aggregate<Int>.clash(): Int = share(0) { it.local.value }
 
 private fun Aggregate<Int>.deeper(depth: Int): Int = if (depth < 0) neighboring(depth).local.value else deeper(depth + 1) + 1
 
-/** Combines a field of all neighbours, which a list hides from projection, with a field of the current branch. */
+/** Combines a field of the current branch with a field of all neighbours, which is in a list and therefore not projected to the branch. */
 private fun Aggregate<Int>.misaligned(all: List<Field<Int, *>>): Int = all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
 
-/** Values from 13 select an error. Other values count rounds, like "count". */
+/** Fails in the way that a value of 13 or more selects. With other values, counts rounds like "count". */
 @Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
 @Program("trouble")
 public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorData {
