@@ -7,13 +7,13 @@ using System.Text;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    /// <summary>The public and protected members of an assembly as text, one per line, sorted.</summary>
+    /// <summary>Lists the public and protected members of an assembly as sorted text, one per line.</summary>
     internal static class PublicApi
     {
         private const BindingFlags Declared =
             BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
 
-        /// <summary>Lists the public types in Collektive's namespaces, except those that only generated code needs.</summary>
+        /// <summary>Returns the list for the public types in Collektive's namespaces, except types that only generated code needs.</summary>
         internal static string Of(Assembly assembly)
         {
             var lines = new List<string>();
@@ -41,7 +41,7 @@ namespace Collektive.Unity.PublicApi.Tests
             return type.BaseType == null || type.IsValueType || type.BaseType == typeof(object) ? kind : kind + ", " + Name(type.BaseType);
         }
 
-        /// <summary>Returns the member as text, or null if it is not visible to users.</summary>
+        /// <summary>Returns a member as text, or null if it is not visible to users.</summary>
         private static string Text(MemberInfo member)
         {
             switch (member)
@@ -59,7 +59,7 @@ namespace Collektive.Unity.PublicApi.Tests
                 case ConstructorInfo constructor:
                     return IsVisible(constructor) ? "new" + Parameters(constructor.GetParameters(), "(", ")") : null;
                 case MethodInfo method:
-                    // Accessors are listed with their property or event. Operators are listed as methods.
+                    // Accessors are skipped, because they are listed with their property or event. Operators are listed as methods.
                     if (!IsVisible(method) || method.IsSpecialName && !method.Name.StartsWith("op_", StringComparison.Ordinal)) return null;
                     var style = method.IsStatic ? "static " : method.IsAbstract ? "abstract " : method.IsVirtual && !method.IsFinal ? "virtual " : "";
                     return method.Name + Generics(method) + Parameters(method.GetParameters(), "(", ")") + " : " + style + Name(method.ReturnType);

@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    /// <summary>Compares the public API with the checked-in list.</summary>
+    /// <summary>Compares the public API with the lists in the repository.</summary>
     public sealed class PublicApiTests
     {
         private const string Update = "COLLEKTIVE_API_UPDATE";

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    // Typical user code. This assembly sees only public members of the package, so removing or changing one of them breaks its compilation.
+    // Typical user code. Only public members of the package are visible to this assembly, so it no longer compiles if one of them is removed or changed.
 
     internal sealed class UsersSensor : Sensor<float>
     {

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.PublicApi.Tests
 {
-    // User code for the ready-made components, one line per component.
+    // User code for the ready-made components, with one line for each component.
 
     internal sealed class UsersPosition : PositionSensor<float>
     {

@@ -6,7 +6,7 @@ using org.collektive.schema;
 
 namespace Collektive.Unity.Tests
 {
-    /// <summary>Runs rounds of a sample's program with the installed package and JVM.</summary>
+    /// <summary>Tests rounds of a sample's program with the installed package and JVM.</summary>
     public sealed class SessionTests
     {
         private const int Nodes = 4;
@@ -14,7 +14,7 @@ namespace Collektive.Unity.Tests
         [Test]
         public void Nodes_in_a_row_elect_the_greatest_id_on_a_real_JVM()
         {
-            // The JVM already runs if the editor has played a scene.
+            // If the editor has played a scene before, the JVM is already running.
             if (Jvm.State != JvmState.Running) Jvm.Start(Installation.ToLaunch(new JvmSettings()));
             var settings = new SessionSettings
             {
@@ -38,7 +38,7 @@ namespace Collektive.Unity.Tests
             }
         }
 
-        /// <summary>Adds nodes in a row, one metre apart, each linked with the next.</summary>
+        /// <summary>Adds nodes in a row, 1 m apart, each linked to the next.</summary>
         private static void AddRow(StepRequest request)
         {
             for (var node = 0; node < Nodes; node++)
@@ -63,8 +63,8 @@ namespace Collektive.Unity.Tests
         }
 
         /// <summary>
-        /// The part of the code generated from the sample's leader_election.fbs that the test needs. It is private, because a project with the sample
-        /// contains another schema of that name.
+        /// The part of the generated code for the sample's leader_election.fbs that the test needs. The class is private, because a project that contains the
+        /// sample has another schema of the same name.
         /// </summary>
         private sealed class ElectionSchema : DataSchema
         {

@@ -6,7 +6,7 @@ using UnityEngine.TestTools;
 
 namespace Collektive.Unity.Tests
 {
-    /// <summary>Managers and nodes in a scene without programs. No JVM is needed.</summary>
+    /// <summary>Tests managers and nodes in a scene without programs, which needs no JVM.</summary>
     public sealed class SimulationManagerTests
     {
         private GameObject root;

@@ -3,10 +3,10 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Friction and bounce of PhysicsMaterial.
+    /// Tests the friction and the bounce of PhysicsMaterial.
     public sealed class MaterialTests : PhysicsFixture
     {
-        /// Returns the distance in metres that a resting box slides in two seconds, while gravity tilts during the first one.
+        /// Returns the distance in metres that a resting box slides in two seconds. Gravity tilts during the first second.
         static float SlideDistance(float degrees, PhysicsMaterial floor, PhysicsMaterial box)
         {
             Floor(floor);
@@ -30,7 +30,7 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(36f, true)] // tan 36 = 0.73
         public void A_box_slides_on_a_slope_above_its_friction_angle_and_rests_below(float degrees, bool slides)
         {
-            var way = SlideDistance(degrees, null, null); // 0.6 both
+            var way = SlideDistance(degrees, null, null); // both have the default friction, 0.6
             if (slides) Assert.That(way, Is.GreaterThan(0.5f));
             else Assert.That(way, Is.LessThan(0.01f));
         }

@@ -19,7 +19,7 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void Euler_rotates_about_z_then_x_then_y()
         {
-            // (1, 0, 0) by 90 about z is up, by 90 about x is forward, by 90 about y is right.
+            // Unity rotates about z, x and y in this order. The vector (1, 0, 0) becomes up, then forward, and then right.
             Near(Quaternion.Euler(90f, 90f, 90f) * Vector3.right, Vector3.right);
             var half = Mathf.Sqrt(0.5f);
             var q = Quaternion.Euler(0f, 90f, 0f);

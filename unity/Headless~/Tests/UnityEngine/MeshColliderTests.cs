@@ -5,7 +5,7 @@ namespace Collektive.Headless.Tests.Engine
 {
     public sealed class MeshColliderTests : PhysicsFixture
     {
-        /// A ramp that rises by 1 m per metre along x, 10 m wide.
+        /// Returns a ramp that is 10 m wide and rises by 1 m per metre along x.
         static Mesh Ramp()
         {
             var mesh = new Mesh { name = "ramp" };
@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Engine
             var ball = Ball(new Vector3(5f, 5.8f, 0f));
             Run(1f);
             Assert.That(ball.position.x, Is.LessThan(3.5f));
-            Assert.That(ball.position.y - ball.position.x, Is.EqualTo(0.5f * Mathf.Sqrt(2f)).Within(0.1f), "on the ramp");
+            Assert.That(ball.position.y - ball.position.x, Is.EqualTo(0.5f * Mathf.Sqrt(2f)).Within(0.1f), "the ball must be on the ramp");
         }
 
         [TestCase(2f, 2f, 2f)]
@@ -75,7 +75,7 @@ namespace Collektive.Headless.Tests.Engine
             pyramid.transform.localScale = new Vector3(mirror, 1f, 1f);
             pyramid.transform.position = new Vector3(0f, 0.5f, 0f);
             var body = pyramid.gameObject.AddComponent<Rigidbody>();
-            Assert.That(body.worldCenterOfMass.y, Is.EqualTo(1f).Within(0.02f), "a quarter of its height above its base");
+            Assert.That(body.worldCenterOfMass.y, Is.EqualTo(1f).Within(0.02f), "the centre of mass must be at a quarter of the height");
             Run(2f);
             Assert.That(body.position.y, Is.EqualTo(0f).Within(0.02f));
             Assert.That(Quaternion.Angle(body.rotation, Quaternion.identity), Is.LessThan(1f));
@@ -101,7 +101,7 @@ namespace Collektive.Headless.Tests.Engine
         public void A_mesh_without_a_convex_hull_is_reported_by_name()
         {
             AddMeshCollider(Ramp(), true);
-            Assert.That(Errors.Count, Is.LessThanOrEqualTo(1)); // a flat mesh: PhysX can build a thin hull
+            Assert.That(Errors.Count, Is.LessThanOrEqualTo(1)); // PhysX can build a thin hull of a flat mesh, so an error is optional
             var point = new Mesh { name = "point" };
             point.vertices = new[] { Vector3.zero };
             point.triangles = new[] { 0, 0, 0 };

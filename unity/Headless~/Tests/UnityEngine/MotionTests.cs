@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Behaviour of PhysX itself: free fall, rest, sleep and fast bodies.
+    /// Tests the behaviour of PhysX: free fall, rest, sleep and fast bodies.
     public sealed class MotionTests : PhysicsFixture
     {
         public class CollisionCounter : MonoBehaviour
@@ -42,7 +42,7 @@ namespace Collektive.Headless.Tests.Engine
             Run(2f);
             Assert.That(counter.Impulse, Is.EqualTo(mass * 9.81f * Step).Within(1f).Percent);
             Assert.That(counter.Enters, Is.EqualTo(1));
-            Assert.That(counter.Stays, Is.EqualTo(99), "one per step after Enter");
+            Assert.That(counter.Stays, Is.EqualTo(99), "there must be a Stay message in each step after Enter");
         }
 
         [Test]
@@ -85,7 +85,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(still.linearVelocity.x, Is.GreaterThan(1.9f));
         }
 
-        /// Returns a bullet of 300 m/s after 0.2 s. Without a hit it is then 49 m past the origin.
+        /// Shoots a bullet at 300 m/s and returns it after 0.2 s. If it hits no body, it is then 49 m past the origin.
         static Rigidbody Shoot(CollisionDetectionMode mode)
         {
             var bullet = Ball(new Vector3(-11f, 0f, 0f), 0.05f);

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Physics in script mode. `Run(seconds)` simulates in steps of 0.02 s.
+    /// A fixture with physics in script mode. `Run(seconds)` simulates in steps of 0.02 s.
     public abstract class PhysicsFixture : PlayerFixture
     {
         protected const float Step = 0.02f;

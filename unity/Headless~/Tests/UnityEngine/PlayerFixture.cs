@@ -5,7 +5,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// A new player for each test. Scripts record the messages that they receive in `Notes`.
+    /// A fixture with a new player for each test. Scripts record the messages that they receive in `Notes`.
     public abstract class PlayerFixture
     {
         public static readonly List<string> Notes = new List<string>();

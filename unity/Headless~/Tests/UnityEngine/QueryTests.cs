@@ -132,10 +132,10 @@ namespace Collektive.Headless.Tests.Engine
 
             Assert.That(Physics.Raycast(Vector3.zero, Vector3.right, 8.9f), Is.False);
             Assert.That(Physics.Raycast(Vector3.zero, Vector3.up), Is.False);
-            Assert.That(Physics.Raycast(new Vector3(10f, 0f, 0f), Vector3.right), Is.False, "from inside");
+            Assert.That(Physics.Raycast(new Vector3(10f, 0f, 0f), Vector3.right), Is.False, "a ray that starts inside a collider must not hit it");
             Assert.That(Physics.Linecast(Vector3.zero, new Vector3(9.5f, 0f, 0f), out hit) && hit.collider == box, Is.True);
             box.gameObject.layer = 2;
-            Assert.That(Physics.Raycast(Vector3.zero, Vector3.right), Is.False, "Ignore Raycast");
+            Assert.That(Physics.Raycast(Vector3.zero, Vector3.right), Is.False, "a ray must not hit the layer Ignore Raycast");
         }
 
         [Test]
@@ -199,7 +199,7 @@ namespace Collektive.Headless.Tests.Engine
             for (var way = 0; way < 2; way++)
             {
                 var handle = OverlapSphereCommand.ScheduleBatch(commands, hits, 1, 2);
-                Assert.That(QueryLog.IsRunning, Is.False, "scheduled, not started");
+                Assert.That(QueryLog.IsRunning, Is.False, "the batch must be scheduled but not started");
                 JobHandle.ScheduleBatchedJobs();
                 Assert.That(QueryLog.IsRunning, Is.True);
                 Assert.That(handle.IsCompleted, Is.False);

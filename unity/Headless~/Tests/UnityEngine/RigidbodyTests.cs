@@ -51,11 +51,11 @@ namespace Collektive.Headless.Tests.Engine
             ball.mass = 2f;
             ball.useGravity = false;
             ball.AddForce(Vector3.right, mode);
-            Assert.That(ball.linearVelocity.x, Is.EqualTo(0f), "before the step");
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(0f), "the force must have no effect before the step");
             Run(Step);
             Assert.That(ball.linearVelocity.x, Is.EqualTo(speedAfterOneStep).Within(1e-6f));
             Run(Step);
-            Assert.That(ball.linearVelocity.x, Is.EqualTo(speedAfterOneStep).Within(1e-6f), "a force lasts one step");
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(speedAfterOneStep).Within(1e-6f), "the force must last only one step");
         }
 
         [Test]
@@ -115,7 +115,7 @@ namespace Collektive.Headless.Tests.Engine
             box.linearVelocity = new Vector3(3f, 0f, 0f);
             Run(2f);
             Assert.That(box.linearVelocity.magnitude, Is.LessThan(0.01f));
-            // v^2 / (2 mu g)
+            // The sliding distance is v^2 / (2 mu g).
             Assert.That(box.transform.position.x, Is.EqualTo(9f / (2f * 0.6f * 9.81f)).Within(0.1f));
         }
 
@@ -126,7 +126,7 @@ namespace Collektive.Headless.Tests.Engine
             var material = new PhysicsMaterial { bounciness = bounciness, bounceCombine = PhysicsMaterialCombine.Maximum };
             Floor(material);
             var ball = Ball(new Vector3(0f, 4.5f, 0f), material: material);
-            Run(0.95f); // after the impact
+            Run(0.95f); // until after the impact
             var highest = 0f;
             for (var step = 0; step < 100; step++)
             {

@@ -6,7 +6,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Physics tolerates scripts that destroy or change bodies at any time.
+    /// Tests that physics tolerates scripts that destroy or change bodies at any time.
     public sealed class RobustnessTests : PhysicsFixture
     {
         public class Destroyer : MonoBehaviour
@@ -150,7 +150,7 @@ namespace Collektive.Headless.Tests.Engine
             Run(0.5f);
             foreach (var body in bodies) body.transform.localScale = new Vector3(z, x, -y);
             Run(0.5f);
-            foreach (var body in bodies) Assert.That(body.position.magnitude, Is.LessThan(1e4f), "finite and not far away");
+            foreach (var body in bodies) Assert.That(body.position.magnitude, Is.LessThan(1e4f), "the position must be finite and not far away");
             Physics.OverlapSphere(Vector3.zero, 100f);
             Assert.That(Errors, Is.Empty);
         }

@@ -8,7 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Many bodies at once: repeatability, allocations and cost.
+    /// Tests the repeatability, allocations and cost of physics with many bodies.
     [Category("Slow")]
     public sealed class SwarmTests : PhysicsFixture
     {
@@ -24,7 +24,7 @@ namespace Collektive.Headless.Tests.Engine
 
         static readonly Collider[] Results = new Collider[1024];
 
-        /// Creates frictionless balls on a floor with four obstacles. Each tick pulls them to one point.
+        /// Creates frictionless balls on a floor with four obstacles. In each tick, a force pulls them to the same point.
         static List<Rigidbody> Swarm(int count, bool listeners)
         {
             var frictionless = Frictionless();
@@ -77,14 +77,14 @@ namespace Collektive.Headless.Tests.Engine
             Loop.Start(1);
             Physics.simulationMode = SimulationMode.Script;
             Assert.That(PositionsAfter(250), Is.EqualTo(first));
-            Console.WriteLine($"positions {first:x16}"); // the same in every process
+            Console.WriteLine($"positions {first:x16}"); // equal in all processes
         }
 
         [Test]
         public void A_physics_tick_allocates_no_managed_memory()
         {
             var bodies = Swarm(300, true);
-            foreach (var body in bodies) body.transform.position += new Vector3(48f, 0f, 0f); // around the goal, because the jam is densest while it forms
+            foreach (var body in bodies) body.transform.position += new Vector3(48f, 0f, 0f); // to the goal, because the jam is densest while it forms
             for (var tick = 0; tick < 400; tick++) Tick(bodies);
             foreach (var body in bodies) body.linearDamping = 1f;
             for (var tick = 0; tick < 100; tick++) Tick(bodies);
@@ -98,7 +98,7 @@ namespace Collektive.Headless.Tests.Engine
                 for (var tick = 0; tick < 200; tick++) GC.KeepAlive(new byte[64]);
             });
             Assert.That(Counter.Calls, Is.GreaterThan(calls + 200 * 300));
-            Assert.That(control, Is.GreaterThanOrEqualTo(200 * 64), "the measurement detects allocations");
+            Assert.That(control, Is.GreaterThanOrEqualTo(200 * 64), "the measurement must detect the allocations of the control");
             Assert.That(ticks, Is.EqualTo(0), "bytes in 200 ticks");
         }
 
@@ -185,7 +185,7 @@ namespace Collektive.Headless.Tests.Engine
                 {
                     var count = Math.Min(places, Physics.OverlapSphereNonAlloc(spheres[index].point, spheres[index].radius, Results));
                     for (var place = 0; place < count; place++) Assert.That(near[index * places + place].collider, Is.SameAs(Results[place]));
-                    if (count < places) Assert.That(near[index * places + count].collider == null, Is.True, "the end of sphere " + index);
+                    if (count < places) Assert.That(near[index * places + count].collider == null, Is.True, "the end of the results of sphere " + index);
                     Physics.Raycast(rays[index].from, rays[index].direction, out var hit, 5f);
                     Assert.That((hits[index].collider, hits[index].distance), Is.EqualTo((hit.collider, hit.distance)));
                 }

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
-    /// Queries with shapes: sweeps, overlaps and penetration.
+    /// Tests queries with shapes: sweeps, overlaps and penetration.
     public sealed class SweepTests : PhysicsFixture
     {
         const float Gap = 0.01f; // PhysX stops boxes and capsules a little before they touch
@@ -95,7 +95,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(hit.collider, Is.SameAs(wall));
             Assert.That(hit.distance, Is.EqualTo(6.5f).Within(Gap));
             Assert.That(body.SweepTest(Vector3.right, out _, 6f), Is.False);
-            Assert.That(body.SweepTestAll(Vector3.right).Length, Is.EqualTo(2), "one for each collider");
+            Assert.That(body.SweepTestAll(Vector3.right).Length, Is.EqualTo(2), "there must be a hit for each collider");
         }
 
         [TestCase(-1f, 1f, 1f)]

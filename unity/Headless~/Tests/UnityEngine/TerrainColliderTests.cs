@@ -5,7 +5,7 @@ namespace Collektive.Headless.Tests.Engine
 {
     public sealed class TerrainColliderTests : PhysicsFixture
     {
-        /// A terrain of 64 m by 64 m whose height is half of x.
+        /// Returns a terrain of 64 m by 64 m whose height is half of x.
         static TerrainData Slope()
         {
             var data = new TerrainData { heightmapResolution = 65, size = new Vector3(64f, 100f, 64f) };
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Engine
             Terrain(Slope(), new Vector3(10f, 1f, 20f));
             Assert.That(HeightAt(14f, 30f), Is.EqualTo(3f).Within(1e-3f));
             Assert.That(HeightAt(50.5f, 83.9f), Is.EqualTo(1f + 20.25f).Within(1e-3f));
-            Assert.That(Physics.Raycast(new Vector3(9f, 500f, 30f), Vector3.down), Is.False, "beside it");
+            Assert.That(Physics.Raycast(new Vector3(9f, 500f, 30f), Vector3.down), Is.False, "a ray beside the terrain must not hit it");
         }
 
         [Test]
