@@ -5,7 +5,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>The C# side of the neighbour search. The C tests compare searches and links with models.</summary>
+    /// <summary>Tests the C# side of the neighbour search. The C tests compare searches and links with models.</summary>
     [TestFixture]
     public sealed class NeighbourSearchTests
     {

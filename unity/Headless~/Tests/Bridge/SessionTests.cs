@@ -6,7 +6,7 @@ using probe;
 
 namespace Collektive.Headless.Tests.Bridge
 {
-    /// <summary>Sessions without Unity: frames of 500 nodes pass through the shim to programs and back.</summary>
+    /// <summary>Tests sessions without Unity. Frames of 500 nodes pass through the shim to programs and back.</summary>
     [TestFixture]
     public sealed class SessionTests
     {
@@ -58,7 +58,7 @@ namespace Collektive.Headless.Tests.Bridge
             for (var i = 0; i < 50; i++) Tick();
             var bytes = AllocatedBy(() => { for (var i = 0; i < 2000; i++) Tick(); });
             var control = AllocatedBy(() => { for (var i = 0; i < 2000; i++) { Tick(); Keep = new byte[100]; } });
-            Assert.That(control, Is.GreaterThan(2000 * 100), "the measurement sees allocations");
+            Assert.That(control, Is.GreaterThan(2000 * 100), "the measurement must detect the allocations of the control");
             Assert.That(bytes, Is.EqualTo(0));
         }
 
@@ -68,7 +68,7 @@ namespace Collektive.Headless.Tests.Bridge
             var undisturbed = DigestOfRing(() => { });
             var disturbed = DigestOfRing(() =>
             {
-                // Only the last change is invalid.
+                // Of the changes in this request, only the last one is invalid.
                 session.Request.RemoveNode(0);
                 session.Request.AddNode(Nodes, "", null);
                 session.Request.RemoveLink(new LinkEnds { From = 1, To = 2 });
@@ -122,7 +122,7 @@ namespace Collektive.Headless.Tests.Bridge
             }
         }
 
-        /// <summary>Prevents the compiler from removing the control's allocation.</summary>
+        /// <summary>Keeps an array, so that the compiler cannot remove the allocation of the control.</summary>
         public static byte[] Keep { get; private set; }
 
         private static long AllocatedBy(Action action)
@@ -152,7 +152,7 @@ namespace Collektive.Headless.Tests.Bridge
             }
         }
 
-        /// <summary>Returns the digest and the size of a ring after six ticks, with an action after the third.</summary>
+        /// <summary>Returns the digest and the size of a ring after six ticks. Runs an action after the third tick.</summary>
         private (ulong Digest, int Nodes, int Links) DigestOfRing(Action act)
         {
             using (session = Open("sum"))
@@ -184,7 +184,7 @@ namespace Collektive.Headless.Tests.Bridge
             }
         }
 
-        /// <summary>The probe schema with another fingerprint of its actuator data.</summary>
+        /// <summary>The probe schema, but with a different fingerprint of the actuator data.</summary>
         private sealed class ChangedSchema : DataSchema
         {
             private readonly ProbeSchema probe = new ProbeSchema();

@@ -6,13 +6,13 @@ namespace Collektive.Headless.Tests
     /// <summary>Counts the resources that a simulation must release when it ends.</summary>
     public static unsafe class ShimCounts
     {
-        /// <summary>Open sessions.</summary>
+        /// <summary>The number of open sessions.</summary>
         public static int Sessions => Read().Sessions;
 
-        /// <summary>Slots in use.</summary>
+        /// <summary>The number of slots in use.</summary>
         public static int Slots => Read().Slots;
 
-        /// <summary>Threads of this process, including the JVM's.</summary>
+        /// <summary>The number of threads in this process, including those of the JVM.</summary>
         public static int Threads => Directory.GetDirectories("/proc/self/task").Length;
 
         private static Shim.Stats Read()

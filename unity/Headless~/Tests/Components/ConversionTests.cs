@@ -9,7 +9,7 @@ using Vector3 = UnityEngine.Vector3;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>Unity's values and those of schemas are assigned to each other without calls.</summary>
+    /// <summary>Tests that values of Unity and of schemas can be assigned to each other without explicit conversions.</summary>
     public sealed class ConversionTests
     {
         [Test]

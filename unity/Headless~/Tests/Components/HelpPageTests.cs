@@ -9,7 +9,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>The help buttons of components and assets.</summary>
+    /// <summary>Tests the pages that the help buttons of components and assets open.</summary>
     public sealed class HelpPageTests
     {
         private static string Manual => Path.Combine(Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT"), "Documentation~");

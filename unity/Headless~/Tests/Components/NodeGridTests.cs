@@ -8,7 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>Compares searches for nodes with a linear scan. The tests of the C code compare many more cases.</summary>
+    /// <summary>Compares searches for nodes with a linear scan. The C tests compare many more cases.</summary>
     [TestFixture]
     public sealed class NodeGridTests
     {
@@ -108,13 +108,13 @@ namespace Collektive.Headless.Tests.Components
         [Test]
         public void Without_points_nothing_is_found()
         {
-            Assert.That(grid.Find(Vector3.zero, 1).Length + grid.FindNearest(Vector3.zero, 1, 1).Length, Is.EqualTo(0), "before the first points");
+            Assert.That(grid.Find(Vector3.zero, 1).Length + grid.FindNearest(Vector3.zero, 1, 1).Length, Is.EqualTo(0), "before the first points are set");
             Make(Vector3.zero);
             grid.Build(nodes.ToArray(), 1);
             Assert.That(grid.Find(Vector3.zero, 1).Length, Is.EqualTo(1));
             search.Dispose();
             search.Dispose();
-            Assert.That(grid.Find(Vector3.zero, 1).Length + grid.FindNearest(Vector3.zero, 1, 1).Length, Is.EqualTo(0), "after the end");
+            Assert.That(grid.Find(Vector3.zero, 1).Length + grid.FindNearest(Vector3.zero, 1, 1).Length, Is.EqualTo(0), "after the simulation has ended");
         }
 
         private static float DistanceTo(Vector3 centre, Node node) => (node.transform.position - centre).magnitude;

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Components
 {
-    /// <summary>Menu entries, tooltips and gizmos of the ready-made components.</summary>
+    /// <summary>Tests the menu entries, tooltips and gizmos of the ready-made components.</summary>
     [TestFixture]
     public sealed class ReadyPartsTests
     {
@@ -85,7 +85,7 @@ namespace Collektive.Headless.Tests.Components
             Assert.That(DrawLog.Gizmos, Is.EqualTo(new[] { "line (1.00, 2.00, 3.00) (0.00, 0.00, 0.00)" }));
         }
 
-        /// <summary>Sends a component the message that the editor sends to selected objects.</summary>
+        /// <summary>Sends a component the message that the editor sends to a selected object.</summary>
         private static void Select(Type type, Action<Component> prepare = null)
         {
             var holder = new GameObject("Selected");

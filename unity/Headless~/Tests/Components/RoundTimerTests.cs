@@ -48,7 +48,7 @@ namespace Collektive.Headless.Tests.Components
                 Assert.That(ticks[k] - 10 * k, Is.InRange(0, 8), "round " + k);
                 later.Add(ticks[k] - 10 * k);
             }
-            Assert.That(later.Count, Is.EqualTo(8), "0.05 to 0.4 s later");
+            Assert.That(later.Count, Is.EqualTo(8), "from 0.05 s to 0.4 s later");
         }
 
         [Test]

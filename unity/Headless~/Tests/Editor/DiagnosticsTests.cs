@@ -14,7 +14,7 @@ using UnityEngine.UIElements;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>The manager's inspector and the diagnostics window during a simulation.</summary>
+    /// <summary>Tests the inspector of the Simulation Manager, and the diagnostics window, during a simulation.</summary>
     public sealed class DiagnosticsTests : SimulationFixture
     {
         [SetUp]
@@ -95,9 +95,9 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Manager.ErrorCount, Is.EqualTo(7));
             nodes[0].Node.enabled = true;
             Play(1);
-            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "after rejoining it is another node");
+            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "a node that has rejoined must have a separate entry");
             Manager.enabled = false;
-            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "the end of the simulation keeps them");
+            Assert.That(Manager.Errors.Count, Is.EqualTo(3), "the errors must stay after the end of the simulation");
         }
 
         [Test]
@@ -116,7 +116,7 @@ namespace Collektive.Headless.Tests.Editor
             var kept = diagnostics.Log.Count;
             diagnostics.Dispose();
             Play(2);
-            Assert.That(Log.FindAll(message => line.EndsWith(message)).Count, Is.GreaterThan(kept), "more lines came");
+            Assert.That(Log.FindAll(message => line.EndsWith(message)).Count, Is.GreaterThan(kept), "more lines must have arrived");
             Assert.That((diagnostics.Times.Count, diagnostics.Log.Count), Is.EqualTo((3, kept)));
         }
 
@@ -210,7 +210,7 @@ namespace Collektive.Headless.Tests.Editor
             var file = Path.Combine(Path.GetTempPath(), "collektive-" + System.Guid.NewGuid().ToString("N") + ".jfr");
             try
             {
-                // The recorder polls the JVM twice a second.
+                // The recorder queries the state of the JVM only twice a second.
                 System.Threading.Thread.Sleep(600);
                 Gui.Passes(inspector.OnInspectorGUI, () =>
                 {
@@ -393,7 +393,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Manager.Settings.jvm.settings.maximumHeapMb, Is.EqualTo(512));
         }
 
-        /// <summary>Draws the settings of a JVM, waits for their check on another thread, and draws again.</summary>
+        /// <summary>Draws the settings of a JVM, waits until another thread has checked them, and draws them again.</summary>
         private static void InspectChecked(UnityEditor.Editor inspector)
         {
             Gui.Passes(inspector.OnInspectorGUI);
@@ -407,7 +407,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Passes(inspector.OnInspectorGUI);
         }
 
-        /// <summary>Redraws until a control appears, because starting and writing a recording takes a moment.</summary>
+        /// <summary>Draws the inspector until a control appears. The loop is needed because starting or writing a recording takes time.</summary>
         private static void Inspect(UnityEditor.Editor inspector, string awaited)
         {
             var clock = System.Diagnostics.Stopwatch.StartNew();
@@ -425,7 +425,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.Fail("'" + awaited + "' did not appear: " + string.Join("\n", Gui.Lines));
         }
 
-        /// <summary>Nodes 0 and 1 exchange messages, and 2 receives from 0. One tick has run.</summary>
+        /// <summary>Creates three nodes and runs a tick. Nodes 0 and 1 exchange messages, and node 2 receives messages from node 0.</summary>
         private List<ProbeNode> MakeThree()
         {
             var nodes = new List<ProbeNode> { MakeNode(1), MakeNode(2, Vector3.right), MakeNode(3, 2 * Vector3.right) };
@@ -445,7 +445,7 @@ namespace Collektive.Headless.Tests.Editor
 
         private static MultiColumnListView Table => DiagnosticsWindow.Open().rootVisualElement.Children().OfType<MultiColumnListView>().Single();
 
-        /// <summary>Redraws the window until a control appears, because the JVM is queried in the background.</summary>
+        /// <summary>Draws the window until a control appears. The loop is needed because another thread queries the JVM.</summary>
         private static void AwaitInWindow(string start)
         {
             var clock = System.Diagnostics.Stopwatch.StartNew();

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>A scene that refers to libraries plays on a real JVM in a project without a JDK, a compiler and sources.</summary>
+    /// <summary>Tests that a scene that refers to libraries plays on a real JVM, in a project without a JDK, a compiler or sources.</summary>
     [Category("Mono")]
     public sealed class LibraryPlayTests : ProjectFixture
     {
@@ -89,7 +89,7 @@ namespace Collektive.Headless.Tests.Editor
             settings.defaultProgram = Import("swarm", "COLLEKTIVE_PROBE_JAR").Find("double");
             var node = MakeNode(2);
             node.Node.name = "Drone";
-            // Without the check, the listed program of the same name would run.
+            // Without this error, the program of the same name in the manager's libraries would run instead.
             node.Node.OwnProgram = Import("copy", "COLLEKTIVE_PROBE_JAR").Find("double");
             Play();
             Logged("node 0 ('Drone'): program 'double' is in Assets/copy.clkprograms, which is not among the libraries of the Simulation Manager");
@@ -101,7 +101,7 @@ namespace Collektive.Headless.Tests.Editor
             var library = Import("swarm", "COLLEKTIVE_PROBE_JAR");
             Assert.That(settings.FindLibraryProblem(), Is.StringContaining("no program library is selected"));
             settings.libraries.Add(null);
-            Assert.That(settings.JarPaths, Is.Empty, "builds before Play read it");
+            Assert.That(settings.JarPaths, Is.Empty, "this property must not throw, because builds before Play read it");
             Assert.That(settings.FindLibraryProblem(), Is.StringContaining("is empty, or its file was deleted"));
             settings.libraries[0] = library;
             Assert.That(settings.FindLibraryProblem(), Is.Null);

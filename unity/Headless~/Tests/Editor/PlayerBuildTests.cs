@@ -14,7 +14,9 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>A player build packages the files of its simulations, and the player finds them. The scenes are written in Unity's format.</summary>
+    /// <summary>
+    /// Tests that a build of a player packages the files of its simulations, and that the player finds them. The tests write scenes in Unity's format.
+    /// </summary>
     [Category("Mono")]
     public sealed class PlayerBuildTests : ProjectFixture
     {
@@ -76,7 +78,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(File.ReadAllBytes(Installation.HostJar), Is.EqualTo(File.ReadAllBytes(Path.Combine(Root, "jvm-host/host/target/collektive-host.jar"))));
             Assert.That(File.Exists(Installation.LibraryJar), Is.True);
             Assert.That(File.ReadAllText(Installation.Bundled + "/lib/modules"), Is.EqualTo(Installation.Platform));
-            Assert.That(Installation.PathOf("mine.jar"), Is.EqualTo(Path.GetFullPath("mine.jar")), "a file that was not packaged keeps its path");
+            Assert.That(Installation.PathOf("mine.jar"), Is.EqualTo(Path.GetFullPath("mine.jar")), "a file that was not packaged must keep its path");
         }
 
         [Test]
@@ -156,7 +158,7 @@ namespace Collektive.Headless.Tests.Editor
             var error = Assert.Throws<BuildFailedException>(() => Players.Build(BuildTarget.StandaloneWindows64, Assets, Scene()));
             Assert.That(error.Message, Is.StringStarting("the simulation of Assets/Swarm.unity cannot start in the player: no JVM package is installed"));
             Assert.That(error.Message, Is.StringContaining("install org.collektive.unity.jvm.win-x64, or set Location in the JVM settings to JAVA_HOME"));
-            Assert.That(Directory.Exists(Assets), Is.False, "no partial output");
+            Assert.That(Directory.Exists(Assets), Is.False, "a failed build must not leave files");
         }
 
         [Test]
@@ -217,7 +219,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             var folder = Path.Combine(Root, "unity/Samples~", sample);
             var schema = Path.GetFileNameWithoutExtension(Directory.GetFiles(folder, "*.fbs")[0]);
-            // As imported with its library, whose GUID comes from its path in the package.
+            // Imports the sample with its library, whose GUID comes from the path in the package.
             Directory.CreateDirectory("Assets/" + sample);
             var library = "Assets/" + sample + "/" + schema + ".clkprograms";
             File.Copy(Path.Combine(Root, "build/generated/sample-programs", schema + ".clkprograms"), library, true);
@@ -239,7 +241,7 @@ namespace Collektive.Headless.Tests.Editor
             var package = program.Library.Schema.Substring(0, program.Library.Schema.IndexOf('.'));
             foreach (var kotlin in Directory.GetFiles(Path.Combine(Root, "jvm-host/programs/src/main/kotlin", package)))
                 File.Copy(kotlin, "Assets/" + sample + "/Programs/" + Path.GetFileName(kotlin));
-            Assert.That(SchemaProject.FindAll().Find(project => project.Jar == library).IsStale, Is.False, "it plays without a JDK");
+            Assert.That(SchemaProject.FindAll().Find(project => project.Jar == library).IsStale, Is.False, "Play must not need a JDK");
         }
 
         private static void Select(BuildTarget target, string architecture) =>
@@ -251,7 +253,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(error.Message, Is.StringContaining("Assets/Swarm.unity cannot start in the player: " + problem));
         }
 
-        /// <summary>Writes a scene with a manager that has these settings, as names and values or references, and a library.</summary>
+        /// <summary>Writes a scene with a library and a manager. The settings alternate between names and values or references.</summary>
         private static string Scene(params string[] settings)
         {
             if (Array.IndexOf(settings, "libraries.Array.data[0]") < 0)
@@ -282,7 +284,7 @@ namespace Collektive.Headless.Tests.Editor
             return "{fileID: " + id + ", guid: " + guid + ", type: 3}";
         }
 
-        /// <summary>Continues as the built player, in another folder and without the project and the editor's paths.</summary>
+        /// <summary>Continues the test as in the built player, which has a different working directory, no project and no paths of the editor.</summary>
         private static void EnterPlayer()
         {
             Loop.DataPath = Path.GetFullPath("player/Swarm_Data");

@@ -15,7 +15,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>Programs are built when they are saved, in the background, with the real flatc, generator and compilers.</summary>
+    /// <summary>Tests that saving programs builds them in the background, with the real flatc, generator and compilers.</summary>
     [Category("Mono")]
     public sealed class ProgramBuildTests : ProjectFixture
     {
@@ -39,17 +39,17 @@ namespace Collektive.Headless.Tests.Editor
             UseKotlin();
             var clock = Stopwatch.StartNew();
             Save(Count);
-            Assert.That(File.Exists(Jar), Is.False, "the editor does not wait");
+            Assert.That(File.Exists(Jar), Is.False, "the editor must not wait for the build");
             Build();
             var first = clock.ElapsedMilliseconds;
             Assert.That(Project.Imported, Has.Some.EqualTo(Jar));
             Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt" }));
-            Assert.That(File.Exists("Assets/Swarm/Generated/swarm/SwarmSchema.cs"), Is.True, "the C# is generated, too");
+            Assert.That(File.Exists("Assets/Swarm/Generated/swarm/SwarmSchema.cs"), Is.True, "the C# must be generated, too");
             Assert.That(Swarm().IsStale, Is.False);
             Assert.That(Project.ProgressItems[Project.ProgressItems.Count - 1], Is.EqualTo((Schema, Progress.Status.Succeeded)));
             Assert.That(Log, Is.Empty);
 
-            // The same sources give the same bytes, so that commits do not contain needless changes.
+            // Equal sources must give equal bytes, so that commits do not contain needless changes.
             var bytes = File.ReadAllBytes(Jar);
             EditorApplication.ExecuteMenuItem("Tools/Collektive/Rebuild Programs");
             Build();
@@ -60,13 +60,13 @@ namespace Collektive.Headless.Tests.Editor
             Save("Assets/Swarm/Programs/More.kt");
             Build();
             Console.WriteLine("the first build took " + first + " ms, a later one " + clock.ElapsedMilliseconds + " ms");
-            Assert.That(clock.ElapsedMilliseconds, Is.LessThan(first), "the compilers are loaded");
+            Assert.That(clock.ElapsedMilliseconds, Is.LessThan(first), "a later build must be faster, because the compilers are already loaded");
             Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt", "swarm.MoreKt" }));
 
             File.Delete("Assets/Swarm/Programs/More.kt");
             Menus.Postprocess(new string[0], new[] { "Assets/Swarm/Programs/More.kt" });
             Build();
-            Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt" }), "a deleted file has no programs");
+            Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt" }), "the program of a deleted file must be removed");
 
             Write(Schema, BuildTests.Schema.Replace("hops: float", "hops: float; colour: float"));
             Write(Count, BuildTests.Kotlin.Replace("toFloat()", "toFloat(), colour = 1f"));
@@ -74,7 +74,7 @@ namespace Collektive.Headless.Tests.Editor
             Save(Schema);
             Build();
             Assert.That(Swarm().IsStale, Is.False);
-            Assert.That(Project.Refreshes, Is.EqualTo(refreshes + 1), "Unity compiles the changed C#");
+            Assert.That(Project.Refreshes, Is.EqualTo(refreshes + 1), "Unity must compile the changed C#");
             Assert.That(File.ReadAllText("Assets/Swarm/Generated/swarm/ActuatorData.cs"), Is.StringContaining("olour"));
             Assert.That(Log, Is.Empty);
         }
@@ -98,7 +98,7 @@ namespace Collektive.Headless.Tests.Editor
 
             Write(Count, BuildTests.Kotlin);
             Save(Count);
-            // The file changes during the build.
+            // The file changes while the build runs.
             Menus.Tick();
             Write(Count, Wrong);
             Build();
@@ -119,7 +119,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Project.ProgressItems[Project.ProgressItems.Count - 1].Status, Is.EqualTo(Progress.Status.Canceled));
             Assert.That(Log, Is.Empty);
 
-            // Simulates a reload: another domain starts without the build, and finishes it.
+            // Simulates a domain reload. The new domain knows of the build only through the session state, and must finish it.
             SessionState.SetString("Collektive.Build", Jar);
             Menus.Postprocess(new string[0], new string[0]);
             Build();
@@ -132,12 +132,12 @@ namespace Collektive.Headless.Tests.Editor
             Save(Count);
             Build();
             Assert.That(Swarm().IsStale, Is.False);
-            Assert.That(SessionState.GetString("Collektive.Compiler", ""), Is.EqualTo(compiler), "the process outlives the reload");
+            Assert.That(SessionState.GetString("Collektive.Compiler", ""), Is.EqualTo(compiler), "the compiler's process must outlive the reload");
 
             Write(Jar, "half a jar");
-            Assert.That(Swarm().IsStale, Is.True, "a damaged jar is built again");
+            Assert.That(Swarm().IsStale, Is.True, "a damaged jar must be outdated");
             Menus.Postprocess(new string[0], new string[0]);
-            Assert.That(ProgramBuild.IsRunning, Is.False, "but its sources are not new");
+            Assert.That(ProgramBuild.IsRunning, Is.False, "without new sources, no build may start");
             Save(Count);
             Build();
             Assert.That(Swarm().IsStale, Is.False);
@@ -156,9 +156,9 @@ namespace Collektive.Headless.Tests.Editor
 
             var first = File.GetLastWriteTimeUtc(Jar);
             Assert.That(Play(), Is.True);
-            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(first), "nothing changed");
+            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(first), "without a change, the jar must not be built again");
 
-            // A clone has different file times and, on Windows, different line endings.
+            // In a clone, the files have different times and, on Windows, different line endings.
             Write(Count, BuildTests.Kotlin.Replace("\n", "\r\n"));
             File.SetLastWriteTimeUtc(Count, DateTime.UtcNow.AddDays(1));
             Assert.That(Swarm().IsStale, Is.False);
@@ -185,7 +185,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Logged(Jar + " is older than its sources"), Is.StringStarting("Warning: "));
 
             ProjectSettings.instance.whenProgramsFail = WhenProgramsFail.Ask;
-            Assert.That(Play(), Is.False, "batch mode shows no dialog");
+            Assert.That(Play(), Is.False, "in batch mode, Play must not start, because no dialog can be shown");
             Loop.IsBatchMode = false;
             foreach (var answer in new[] { false, true })
             {
@@ -198,7 +198,7 @@ namespace Collektive.Headless.Tests.Editor
                 Assert.That(Play(), Is.EqualTo(answer));
                 Assert.That(asked, Is.StringContaining("The programs of " + Schema + " were not compiled"));
             }
-            // Cancelling the wait does not count as consent.
+            // Cancelling the wait must not start Play.
             Project.CancelsWaiting = true;
             Project.Answer = message => false;
             Assert.That(Play(), Is.False);
@@ -255,7 +255,7 @@ namespace Collektive.Headless.Tests.Editor
 
         private static void Save(params string[] files) => Menus.Postprocess(files, new string[0]);
 
-        /// <summary>Runs the editor's loop until all builds have ended.</summary>
+        /// <summary>Runs the loop of the editor until all builds have ended.</summary>
         private static void Build()
         {
             do
@@ -279,7 +279,7 @@ namespace Collektive.Headless.Tests.Editor
             return starts;
         }
 
-        /// <summary>Writes the jar that a colleague's editor built.</summary>
+        /// <summary>Writes the jar as if a colleague's editor had built it.</summary>
         private static void Commit(SchemaProject project)
         {
             ProgramLibraryTests.Pack(project.Jar, "Manifest-Version: 1.0\r\nCollektive-Runtime: builtIn\r\nCollektive-Version: " + PackageState.Version

@@ -8,7 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>Programs are selected or dropped in inspectors, and their parameters have fields of their types.</summary>
+    /// <summary>Tests that users can select programs in inspectors or drop them there, and that parameters have fields of their types.</summary>
     [Category("Mono")]
     public sealed class ProgramDrawerTests : ProjectFixture
     {
@@ -78,7 +78,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             var property = new SerializedObject(node).FindProperty("ownProgram");
             Assert.That(Drag(EventType.DragPerform, property, node), Is.EqualTo(EventType.DragPerform));
-            Assert.That(Drag(EventType.DragPerform, property, library, 500), Is.EqualTo(EventType.DragPerform), "beside the field");
+            Assert.That(Drag(EventType.DragPerform, property, library, 500), Is.EqualTo(EventType.DragPerform), "a drop beside the field must have no effect");
             Assert.That(node.OwnProgram == null, Is.True);
         }
 
@@ -118,7 +118,7 @@ namespace Collektive.Headless.Tests.Editor
             second.Parameters.Add(new NodeParameter("steps", "4"));
             Inspect(node, second);
             Assert.That(Gui.Lines, Has.Some.EqualTo("int steps: (mixed)").And.Some.EqualTo("double range: (mixed)").And.Some.EqualTo("toggle far: False"));
-            Assert.That(second.Parameters, Has.Count.EqualTo(2), "drawing changes nothing");
+            Assert.That(second.Parameters, Has.Count.EqualTo(2), "drawing must not change the parameters");
             Act("steps", 7, node, second);
             Assert.That(node.Parameters, Is.EqualTo(new[] { new NodeParameter("steps", "7") }));
             Assert.That(second.Parameters, Is.EqualTo(new[] { new NodeParameter("range", "9"), new NodeParameter("steps", "7") }));
@@ -185,7 +185,7 @@ namespace Collektive.Headless.Tests.Editor
             Inspect(targets);
         }
 
-        /// <returns>The type of the event afterwards.</returns>
+        /// <summary>Sends a drag event to a property, and returns the type of the event afterwards.</summary>
         private static EventType Drag(EventType type, SerializedProperty property, Object dragged, float x = 10)
         {
             DragAndDrop.objectReferences = new[] { dragged };

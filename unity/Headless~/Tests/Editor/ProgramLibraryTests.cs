@@ -12,7 +12,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>A jar with programs is an asset, which is imported without a JVM.</summary>
+    /// <summary>Tests that a jar with programs is an asset, which the editor imports without a JVM.</summary>
     [Category("Mono")]
     public sealed class ProgramLibraryTests : ProjectFixture
     {
@@ -67,7 +67,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(library.Programs.Select(program => program.Name), Is.EqualTo(new[] { "hops", "swarm" }));
             Assert.That(library.Find("hops"), Is.SameAs(hops));
             Assert.That(hops.Parameters[0].DefaultValue, Is.EqualTo("4"));
-            Assert.That(flock == null, Is.True, "a renamed program is another one");
+            Assert.That(flock == null, Is.True, "a renamed program must be a different asset");
         }
 
         [Test]
@@ -107,7 +107,7 @@ namespace Collektive.Headless.Tests.Editor
                 else
                 {
                     damaged = (byte[])whole.Clone();
-                    // The directory of a jar is at its end.
+                    // In half of these jars, all damage is at the end of the file, where a jar has its directory.
                     var range = i % 4 == 1 ? 400 : damaged.Length;
                     for (var change = 0; change < 20; change++) damaged[damaged.Length - 1 - random.Next(range)] = (byte)random.Next(256);
                 }
@@ -130,16 +130,16 @@ namespace Collektive.Headless.Tests.Editor
 
         private static ProgramLibrary Load(string path) => AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path);
 
-        /// <summary>Returns the index of a program.</summary>
+        /// <summary>Returns the lines of a program in the index of its class.</summary>
         /// <param name="parameters">Name, default and description, separated by tabs.</param>
         internal static string Program(string name, params string[] parameters) =>
             "program\t" + name + "\tprobe.SensorData\n" + string.Concat(parameters.Select(parameter => "parameter\t" + parameter + "\n"));
 
-        /// <summary>Writes the jar of classes with their indexes. A class whose name begins with a hyphen has an index but is missing.</summary>
+        /// <summary>Writes a jar with classes and their indexes. A class whose name begins with a hyphen has an index, but is missing in the jar.</summary>
         internal static void Pack(string path, params (string ClassName, string Index)[] classes) =>
             Pack(path, "Manifest-Version: 1.0\r\n", "probe.ProbeSchema", classes);
 
-        /// <summary>Writes the jar of a schema without programs.</summary>
+        /// <summary>Writes a jar with a schema and without programs.</summary>
         internal static void Pack(string path, string schema) => Pack(path, "Manifest-Version: 1.0\r\n", schema);
 
         internal static void Pack(string path, string manifest, string schemas, params (string ClassName, string Index)[] classes)

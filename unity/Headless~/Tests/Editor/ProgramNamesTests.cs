@@ -8,7 +8,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>Scenes of earlier versions refer to their schema, jars and programs by name.</summary>
+    /// <summary>Tests scenes of earlier versions, which refer to their schema, jars and programs by name.</summary>
     [Category("Mono")]
     public sealed class ProgramNamesTests : ProjectFixture
     {
@@ -53,7 +53,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             var folder = Path.Combine(Root, "unity/Samples~/Channel");
             var scene = File.ReadAllText(Path.Combine(folder, "Channel.unity"));
-            // As written by the previous release.
+            // Changes the scene to the form that the previous release wrote.
             var start = scene.IndexOf("      propertyPath: settings.libraries", System.StringComparison.Ordinal);
             var end = scene.IndexOf("      propertyPath: settings.seed", System.StringComparison.Ordinal);
             var target = "    - target: {fileID: 7296416222207784731, guid: de7f1c418113b5c64bd5634bfb1c00c4, type: 3}\n";
@@ -85,7 +85,7 @@ namespace Collektive.Headless.Tests.Editor
             var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>("Assets/Swarm/swarm.clkprograms");
             AssetDatabase.TryGetGUIDAndLocalFileIdentifier(library.Find("flock"), out var guid, out var id);
             Assert.That(File.ReadAllText("Assets/Robot.prefab"), Is.EqualTo(Fields("{fileID: " + id + ", guid: " + guid + ", type: 3}", "")));
-            Assert.That(File.ReadAllText("Assets/Unused.prefab"), Is.StringContaining("program: flock"), "no open scene refers to it");
+            Assert.That(File.ReadAllText("Assets/Unused.prefab"), Is.StringContaining("program: flock"), "the prefab is not in an open scene");
         }
 
         [Test]

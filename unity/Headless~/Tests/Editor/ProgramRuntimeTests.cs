@@ -11,7 +11,8 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>
-    /// Tools &gt; Collektive &gt; Rebuild Programs for a scene that runs on Collektive. The package's library and compiler plugin replace Collektive's.
+    /// Tests Tools &gt; Collektive &gt; Rebuild Programs for a scene on Collektive's runtime. The package's own library and compiler plugin stand in for
+    /// Collektive's.
     /// </summary>
     [Category("Mono")]
     public sealed class ProgramRuntimeTests : ProjectFixture
@@ -49,10 +50,10 @@ namespace Collektive.Headless.Tests.Editor
             var first = File.GetLastWriteTimeUtc(Jar);
             Menus.Load();
             Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
-            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(first), "nothing changed");
+            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(first), "without a change, the jar must not be built again");
             File.Copy(Path.Combine(Root, "jvm-host/host/target/collektive-adapter.jar"), "collektive/other.jar");
             Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
-            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.GreaterThan(first), "the runtime's jars changed");
+            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.GreaterThan(first), "the jar must be built again after a change to the runtime's jars");
         }
 
         [Test]

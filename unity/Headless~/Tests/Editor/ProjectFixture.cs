@@ -9,13 +9,13 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>A Unity project in a temporary folder, with the package's tools at their paths in the tarball.</summary>
+    /// <summary>A fixture with a Unity project in a temporary folder, in which the package's tools have the same paths as in the tarball.</summary>
     public abstract class ProjectFixture
     {
         private string before;
         private string folder;
 
-        /// <summary>Log messages as "TYPE: TEXT".</summary>
+        /// <summary>The log messages, in the form "TYPE: TEXT".</summary>
         protected List<string> Log { get; } = new List<string>();
 
         protected static string Root => Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT");
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Editor
             return found;
         }
 
-        /// <summary>Writes a Kotlin compiler in its distributed layout, with the jars that the build uses.</summary>
+        /// <summary>Creates a Kotlin compiler with the layout of its distribution and the jars that the build uses.</summary>
         protected static void UseKotlin(string version = "2.4.21-release-1")
         {
             Write("kotlinc/build.txt", version);

@@ -17,7 +17,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             Draw(Personal);
             Draw(Shared);
-            Assert.That(File.Exists("ProjectSettings/Collektive.asset"), Is.False, "nothing was changed");
+            Assert.That(File.Exists("ProjectSettings/Collektive.asset"), Is.False, "the file must not exist before a setting is changed");
             Assert.That(Directory.Exists("UserSettings"), Is.False);
             Gui.Act("JDK", "/opt/jdk");
             Draw(Personal);
@@ -68,7 +68,7 @@ namespace Collektive.Headless.Tests.Editor
             Gui.Passes(() => page.OnGUI(""));
             Gui.Clear();
             Gui.Passes(() => page.OnGUI(""));
-            Assert.That(Gui.Lines, Has.Some.Contains("/nowhere/jdk"), "GUI events do not search the disk");
+            Assert.That(Gui.Lines, Has.Some.Contains("/nowhere/jdk"), "the warning must stay, because GUI events must not search the disk");
             Menus.Tick();
             Gui.Clear();
             Gui.Passes(() => page.OnGUI(""));

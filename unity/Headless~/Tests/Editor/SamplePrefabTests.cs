@@ -8,7 +8,9 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>Scenes of samples use prefabs. Runs without Unity cannot read them and build equal objects.</summary>
+    /// <summary>
+    /// Tests that the prefabs in the scenes of samples equal the objects that runs without Unity build, because these runs cannot read prefabs.
+    /// </summary>
     public sealed class SamplePrefabTests : ProjectFixture
     {
         private const string Folder = "Packages/org.collektive.unity/Samples~/GradientAscent/";
@@ -20,7 +22,7 @@ namespace Collektive.Headless.Tests.Editor
             var scene = samples.GetType("CollektiveSamples.GradientAscent.GradientAscentScene", true);
             var built = (GameObject)scene.GetMethod("MakeOriginal", BindingFlags.Static | BindingFlags.NonPublic).Invoke(null, null);
             var prefab = AssetDatabase.LoadAssetAtPath<GameObject>(Folder + "Climber.prefab");
-            // The child contains the renderer.
+            // In the prefab, a child has the renderer.
             Assert.That(Names(prefab), Is.EqualTo(Names(built).Except(new[] { "MeshFilter", "MeshRenderer" })));
             var text = File.ReadAllText(Path.Combine(Root, "unity/Samples~/GradientAscent/Climber.prefab"));
             Assert.That(text, Is.StringContaining("m_Constraints: " + (int)built.GetComponent<Rigidbody>().constraints + "\n"));

@@ -8,7 +8,7 @@ using probe;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Flight recordings during a session, read with the JDK's jfr tool.</summary>
+    /// <summary>Tests flight recordings during a session. The JDK's tool jfr reads them.</summary>
     [TestFixture]
     public sealed class JvmRecordingTests
     {
@@ -43,12 +43,12 @@ namespace Collektive.Headless.Tests
                 Console.WriteLine(
                     "  recording: started in " + start + " ms, written in " + stop + " ms; longest tick " + during.ToString("0.0") +
                     " ms meanwhile, " + usual.ToString("0.0") + " ms before");
-                // The first recording of a JVM takes some hundred milliseconds to start, later ones take a few.
+                // The first recording of a JVM takes some hundred milliseconds to start, and later ones take only a few.
                 if (start >= 200) Assert.That(during, Is.LessThan(start / 2.0));
             }
         }
 
-        /// <summary>Returns the longest tick in milliseconds.</summary>
+        /// <summary>Runs ticks until a condition holds, and returns the duration of the longest tick in milliseconds.</summary>
         private static double TickUntil(Session session, Func<bool> done, int ticks)
         {
             var longest = 0.0;

@@ -10,7 +10,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Settings become JVM options, and the running JVM reports their values.</summary>
+    /// <summary>Tests that settings become JVM options, and that the running JVM reports their values.</summary>
     [TestFixture]
     public sealed class JvmSettingsTests
     {
@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests
             }
             Assert.That(words[2], Is.EqualTo("-XX:+AutoCreateSharedArchive"));
             Assert.That(words[3], Is.StringStarting("-XX:SharedArchiveFile=" + folder));
-            Assert.That(words[4], Is.EqualTo("-Xlog:cds=off"), "its output is not shown");
+            Assert.That(words[4], Is.EqualTo("-Xlog:cds=off"), "output about the archive must not be shown");
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, TestJvm.HostJar, folder).Options, Is.EqualTo(words));
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
             var jar = Path.Combine(folder, "host.jar");
@@ -98,7 +98,7 @@ namespace Collektive.Headless.Tests
             var first = Archive();
             File.WriteAllBytes(first, new byte[100]);
             Assert.That(Archive(), Is.EqualTo(first));
-            Assert.That(File.Exists(first), Is.False, "its JVM was killed before it wrote the header");
+            Assert.That(File.Exists(first), Is.False, "a truncated archive, which a killed JVM leaves, must be removed");
             File.WriteAllText(first, "archive");
             var other = Path.Combine(folder, "classes-of-another-editor.jsa");
             File.WriteAllText(other, "archive");

@@ -6,8 +6,8 @@ using NUnit.Framework;
 namespace Collektive.Headless.Tests
 {
     /// <summary>
-    /// A process without a usable native library plays 50 frames. One error names the platform and the solution, and nothing throws. The tests start
-    /// separate processes because this one has loaded the library.
+    /// Tests a process without a usable native library that plays 50 frames. It must report a single error, which names the platform and the solution, and
+    /// throw no exception. The tests start separate processes, because this process has loaded the library.
     /// </summary>
     [TestFixture]
     public sealed class MissingLibraryTests
@@ -69,7 +69,7 @@ namespace Collektive.Headless.Tests
 
         private string Play(string where) => Play(where, Assemblies);
 
-        /// <summary>Runs the process with the assemblies of a folder, and returns its summary of errors.</summary>
+        /// <summary>Runs the process with the assemblies in a folder, and returns its summary of errors.</summary>
         private string Play(string where, string assemblies)
         {
             var arguments = "--debug \"" + Path.Combine(assemblies, Program) + "\" " + where;

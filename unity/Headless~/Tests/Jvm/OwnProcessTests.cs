@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>A JVM in a separate process may end at any time, and can be replaced. These tests run only in that placement.</summary>
+    /// <summary>Tests that a JVM in a separate process may end at any time, and that it can be replaced. These tests run only in that placement.</summary>
     [TestFixture, Category("OwnProcess")]
     public sealed class OwnProcessTests
     {

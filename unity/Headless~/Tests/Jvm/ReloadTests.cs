@@ -6,7 +6,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Each session loads its programs again, and closing it unloads them.</summary>
+    /// <summary>Tests that each session loads its programs again, and that closing a session unloads them.</summary>
     [TestFixture]
     [Category("Slow")]
     public sealed class ReloadTests
@@ -30,13 +30,15 @@ namespace Collektive.Headless.Tests
             var after = StatusAfterCollection();
             using (TestJvm.Open("sum"))
             {
-                Assert.That(StatusAfterCollection().Classes - after.Classes, Is.GreaterThan(3), "the count sees the classes of one session");
+                Assert.That(StatusAfterCollection().Classes - after.Classes, Is.GreaterThan(3), "the count must include the classes of one session");
             }
             Assert.That(after.Classes - before.Classes, Is.LessThan(100), "classes: " + before.Classes + " -> " + after.Classes);
             Assert.That(after.MetaspaceUsed - before.MetaspaceUsed, Is.LessThan(Mebi), "metaspace: " + before.MetaspaceUsed + " -> " + after.MetaspaceUsed);
         }
 
-        /// <summary>Returns the status after garbage collections. The threads of a closed session keep its classes for some milliseconds.</summary>
+        /// <summary>
+        /// Returns the status after several garbage collections, because the threads of a closed session keep its classes for some milliseconds.
+        /// </summary>
         private static JvmStatus StatusAfterCollection()
         {
             for (var i = 0; i < 3; i++)

@@ -9,7 +9,7 @@ namespace Collektive.Headless.Tests
     {
         private const int StopLimitMs = 5000;
 
-        // As in an editor, the JVM outlives each play. It must stop before the process does, because its threads need the runtime's signal handlers.
+        // The JVM outlives each play, as in an editor. It must stop before the process ends, because its threads need the runtime's signal handlers.
         static TestJvm()
         {
             UnityEngine.Headless.Loop.IsEditor = true;
@@ -20,17 +20,17 @@ namespace Collektive.Headless.Tests
 
         internal static string HostJar => Variable("COLLEKTIVE_HOST_JAR");
 
-        /// <summary>A new object with the settings of the test JVM.</summary>
+        /// <summary>A new object with the settings of the tests' JVM.</summary>
         internal static JvmSettings Settings => new JvmSettings
         {
             placement = Placement, maximumHeapMb = 256, collector = JvmCollector.Serial, cdsArchive = false,
         };
 
-        /// <summary>The placement that this test run uses.</summary>
+        /// <summary>The placement of the JVM in this test run.</summary>
         internal static JvmPlacement Placement { get; } = (JvmPlacement)Enum.Parse(
             typeof(JvmPlacement), Environment.GetEnvironmentVariable("COLLEKTIVE_TEST_PLACEMENT") ?? nameof(JvmPlacement.InProcess));
 
-        /// <summary>The inspector's text for when changed settings take effect.</summary>
+        /// <summary>The inspector's text that explains when changed settings take effect.</summary>
         internal static string WhenChangesTakeEffect => Placement == JvmPlacement.OwnProcess ? "at the next Play" : "after a restart of the editor";
 
         internal static JvmLaunch Launch(JvmSettings settings) => settings.ToLaunch(Home, HostJar, "unused");

@@ -9,7 +9,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Player
 {
-    /// <summary>Settings of the inspector become keys of scenario files and manifests without extra code.</summary>
+    /// <summary>Tests that settings in the inspector are keys of scenario files and manifests, without separate code for each setting.</summary>
     [TestFixture]
     public sealed class ScenarioTests
     {
@@ -40,7 +40,7 @@ namespace Collektive.Headless.Tests.Player
             }
             Assert.That(other.Keys, Has.Member("threads").And.Member("network").And.Member("stepLimitMs"));
             foreach (var setting in other) root[setting.Key] = setting.Value;
-            // These paths must exist.
+            // These keys cannot be changed, because their paths must exist.
             foreach (var key in Paths) other.Remove(key);
             root[Paths[0]] = ".";
             root[Paths[1]] = "user.fbs";
@@ -312,7 +312,7 @@ namespace Collektive.Headless.Tests.Player
         private static JObject Minimal() => JObject.Parse(
             "{\"version\": 1, \"scene\": \"Scene\", \"scripts\": \".\", \"schema\": \"user.fbs\", \"programs\": \".\", \"program\": \"p\", \"seconds\": 1}");
 
-        /// <summary>Returns a value that differs from the default.</summary>
+        /// <summary>Returns a value that differs from the given default.</summary>
         private static JToken Vary(object value)
         {
             switch (value)

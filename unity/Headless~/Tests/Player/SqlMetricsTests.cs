@@ -7,13 +7,13 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests.Player
 {
-    /// <summary>Metrics are untrusted: they can read only the table of nodes.</summary>
+    /// <summary>Tests metrics in SQL. They are untrusted, so they must be able to read only the table of nodes.</summary>
     [TestFixture]
     public sealed class SqlMetricsTests : SimulationFixture
     {
         private const int LimitMs = 100;
 
-        /// <summary>Column of the first character of the metric in the file that <see cref="Make"/> writes.</summary>
+        /// <summary>The column of the metric's first character in the file that <see cref="Make"/> writes.</summary>
         private const int FirstColumn = 11;
 
         private readonly string path = Path.Combine(Path.GetTempPath(), "collektive-metrics-" + Guid.NewGuid() + ".json");
@@ -73,7 +73,7 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Measure("total(heard)"), Is.EqualTo(0));
         }
 
-        // The values are 1, NaN and infinity; the fourth node has not run a round.
+        // The values of the nodes are 1, NaN and infinity. The fourth node has not run a round.
         [TestCase("count(*)", 4)]
         [TestCase("count(value)", 2)]
         [TestCase("count(sensor_value)", 3)]

@@ -7,13 +7,13 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless.Tests
 {
-    /// <summary>Decodes a replay page as described in FORMAT.md, without code of the writer.</summary>
+    /// <summary>Decodes a replay page as FORMAT.md describes it, and shares no code with the writer.</summary>
     internal sealed class ReplayDecoder
     {
         internal struct Node
         {
-            public float X, Y, Z, Scalar; // the first field
-            public double[] Values; // of all fields; NaN if missing
+            public float X, Y, Z, Scalar; // the value of the first field
+            public double[] Values; // the values of all fields, NaN if missing
         }
 
         internal sealed class Frame
@@ -29,7 +29,7 @@ namespace Collektive.Headless.Tests
 
         private readonly double step;
         private readonly int slots;
-        private int[] ids; // of the segment
+        private int[] ids; // the ids of the nodes in the segment
         private readonly double[] times;
 
         public ReplayDecoder(string html, string before, string after)
@@ -100,7 +100,7 @@ namespace Collektive.Headless.Tests
                 ReadLinks(reader, frame, links);
                 Frames.Add(frame);
             }
-            if (reader.BaseStream.Position != bytes.Length) throw new InvalidDataException("bytes after the end");
+            if (reader.BaseStream.Position != bytes.Length) throw new InvalidDataException("the page has bytes after the end");
         }
 
         private static List<int> ReadPresence(BinaryReader reader)
@@ -119,16 +119,16 @@ namespace Collektive.Headless.Tests
             foreach (var pair in ReadPairs(reader))
             {
                 frame.LinksChanged++;
-                if (!links.Remove(pair)) throw new InvalidDataException("removed an absent link");
+                if (!links.Remove(pair)) throw new InvalidDataException("a removed link did not exist");
             }
             foreach (var pair in ReadPairs(reader))
             {
                 frame.LinksChanged++;
-                if (!links.Add(pair)) throw new InvalidDataException("added an existing link");
+                if (!links.Add(pair)) throw new InvalidDataException("an added link already existed");
             }
             foreach (var (a, b) in links)
             {
-                if (!frame.Nodes.ContainsKey(ids[a]) || !frame.Nodes.ContainsKey(ids[b])) throw new InvalidDataException("link of an absent node");
+                if (!frame.Nodes.ContainsKey(ids[a]) || !frame.Nodes.ContainsKey(ids[b])) throw new InvalidDataException("a link refers to an absent node");
                 frame.Links.Add((ids[a], ids[b]));
             }
         }
@@ -143,7 +143,7 @@ namespace Collektive.Headless.Tests
                 var rest = (int)ReadNumber(reader);
                 b = (further == 0 ? b : a + further) + (rest >> 2);
                 a += further;
-                if (a >= b || (rest & 3) == 0) throw new InvalidDataException("pair out of order, or without a link");
+                if (a >= b || (rest & 3) == 0) throw new InvalidDataException("a pair is out of order, or has no link");
                 if ((rest & 1) != 0) pairs.Add((a, b));
                 if ((rest & 2) != 0) pairs.Add((b, a));
             }

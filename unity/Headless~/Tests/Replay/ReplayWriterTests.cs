@@ -12,7 +12,7 @@ namespace Collektive.Headless.Tests
     [TestFixture]
     public sealed class ReplayWriterTests
     {
-        /// <summary>The position step of the default arena of 20 m.</summary>
+        /// <summary>The resolution of positions in the default arena of 20 m.</summary>
         private const double Step = 20.0 / 65535;
 
         private const string Before = "<html><script>", After = "</script> ü </html>";
@@ -81,7 +81,7 @@ namespace Collektive.Headless.Tests
             {
                 for (var i = 0; i < segments * ReplayWriter.FramesPerSegment; i++)
                 {
-                    // Replace a tenth of the nodes in each frame.
+                    // In each frame, new nodes replace a tenth of the nodes.
                     next += Nodes / 10;
                     writer.BeginFrame(next);
                     for (var id = 0; id < Stay; id++) writer.Node(id, 0, 0, 0, id);
@@ -97,7 +97,7 @@ namespace Collektive.Headless.Tests
                 before = Memory(writer, ref ids, 20);
                 after = Memory(writer, ref ids, 200);
             });
-            Assert.Less(after - before, 200000, "bytes, of 80,000 nodes that came and left");
+            Assert.Less(after - before, 200000, "the writer must not keep the memory of 80,000 nodes that have left");
             Assert.Less((int)replay.Header["slots"], 4 * Nodes);
             CollectionAssert.AreEqual(new[] { 0, Stay - 1, Nodes / 10, ids + Nodes - 1 }, replay.Header["ids"].ToObject<int[]>());
             for (var i = 0; i < replay.Frames.Count; i++)
@@ -216,7 +216,7 @@ namespace Collektive.Headless.Tests
             for (var time = 0; time < 5; time++)
             {
                 Assert.AreEqual(1.2345f, replay.Frames[time].Nodes[1].X, Step / 2 + 1e-6);
-                Assert.AreEqual(time % 2 == 0 ? -far : far, replay.Frames[time].Nodes[2].X, "the farthest position that can be stored");
+                Assert.AreEqual(time % 2 == 0 ? -far : far, replay.Frames[time].Nodes[2].X, "the position must be the farthest one that can be stored");
                 Assert.AreEqual(Math.Max(-1e6f * time, -far), replay.Frames[time].Nodes[2].Y, 1);
             }
         }
@@ -258,7 +258,7 @@ namespace Collektive.Headless.Tests
             {
                 Assert.AreEqual(Nodes * (Nodes - 1) / 2, frame.LinksInAll);
                 Assert.AreEqual(ReplayWriter.LinkBudget, frame.Links.Count, 0.02 * ReplayWriter.LinkBudget);
-                Assert.IsTrue(frame.Links.SetEquals(replay.Frames[0].Links), "other links than in the first frame");
+                Assert.IsTrue(frame.Links.SetEquals(replay.Frames[0].Links), "the frame must have the same links as the first frame");
             }
             var ofNode = new int[Nodes];
             foreach (var (a, b) in replay.Frames[0].Links)
@@ -266,7 +266,7 @@ namespace Collektive.Headless.Tests
                 ofNode[a]++;
                 ofNode[b]++;
             }
-            Assert.Greater(ofNode.Min(), 90, "each node keeps 150 of its 399 links");
+            Assert.Greater(ofNode.Min(), 90, "each node must keep about 150 of its 399 links");
         }
 
         [Test]
@@ -288,7 +288,7 @@ namespace Collektive.Headless.Tests
         {
             const int Nodes = 1000, Frames = 100;
             var random = new Random(1);
-            var places = new double[4 * Nodes]; // x, z and velocities
+            var places = new double[4 * Nodes]; // x, z and the velocities along them
             for (var i = 0; i < places.Length; i++) places[i] = i % 4 < 2 ? 20 * random.NextDouble() - 10 : random.NextDouble() - 0.5;
             Record(writer =>
             {
@@ -300,7 +300,7 @@ namespace Collektive.Headless.Tests
                         int x = 4 * id, z = x + 1;
                         for (var axis = x; axis <= z; axis++)
                         {
-                            // Bodies turn slowly.
+                            // Bodies change their direction slowly.
                             places[axis + 2] += 0.02 * (random.NextDouble() - 0.5);
                             places[axis] += 0.2 * places[axis + 2];
                         }
@@ -311,7 +311,7 @@ namespace Collektive.Headless.Tests
                 }
             });
             var size = 0.75 * (new FileInfo(page).Length - Before.Length - After.Length);
-            Assert.Less(size / (Nodes * Frames), 4.5, "bytes per node and frame, before base64");
+            Assert.Less(size / (Nodes * Frames), 4.5, "the bytes per node and frame, before the encoding as base64");
         }
 
         [Test]
@@ -329,7 +329,7 @@ namespace Collektive.Headless.Tests
                         writer.EndFrame();
                     }
                 }
-                // Measure within one segment, because each segment allocates its compressor.
+                // Allocations are measured within one segment, because each segment allocates a compressor.
                 Write(0, 2 * ReplayWriter.FramesPerSegment + 1);
                 var before = GC.GetAllocatedBytesForCurrentThread();
                 Write(2 * ReplayWriter.FramesPerSegment + 1, 3 * ReplayWriter.FramesPerSegment - 1);
@@ -542,7 +542,7 @@ namespace Collektive.Headless.Tests
                 run(writer);
                 writer.Finish(template, page);
             }
-            Assert.IsFalse(File.Exists(scratch), "the scratch file was not deleted");
+            Assert.IsFalse(File.Exists(scratch), "the scratch file must be deleted");
             return new ReplayDecoder(File.ReadAllText(page), Before, After);
         }
 
@@ -598,12 +598,12 @@ namespace Collektive.Headless.Tests
         {
             Assert.AreEqual(expected.Time, actual.Time);
             Assert.AreEqual(expected.Nodes.Count, actual.Nodes.Count);
-            Assert.IsTrue(expected.Links.SetEquals(actual.Links), "the links differ"); // AreEquivalent takes minutes
+            Assert.IsTrue(expected.Links.SetEquals(actual.Links), "the links must be equal"); // AreEquivalent takes minutes
             var tolerance = Step / 2 + 1e-6;
             foreach (var pair in expected.Nodes)
             {
                 var node = actual.Nodes[pair.Key];
-                // Floats of that size have no finer resolution.
+                // The tolerance grows with the value, because large floats have a coarse resolution.
                 void AssertNear(float wanted, float found) => Assert.AreEqual(wanted, found, tolerance + Math.Abs(wanted) * 1e-7);
                 AssertNear(pair.Value.X, node.X);
                 AssertNear(pair.Value.Y, node.Y);

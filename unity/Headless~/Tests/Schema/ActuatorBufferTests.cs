@@ -75,7 +75,7 @@ namespace Collektive.Headless.Tests.Schema
             Assert.Throws<ArgumentOutOfRangeException>(() => actuators.CopyPrevious(3, ref kept));
         }
 
-        /// <summary>Writes the next frame into the same memory, as a session does.</summary>
+        /// <summary>Writes the next frame to the same memory, as a session does.</summary>
         private void NextFrame(float first)
         {
             actuators.Retain();

@@ -9,7 +9,7 @@ using Features = test.features;
 namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
-    /// No managed memory is allocated per tick once capacities are reached. The control needs mono-sgen, because Boehm's counter is always 0.
+    /// Tests that no managed memory is allocated per tick once capacities are reached. The control needs mono-sgen, because Boehm's counter is always 0.
     /// </summary>
     [TestFixture]
     public class AllocationTests
@@ -23,7 +23,7 @@ namespace Collektive.Headless.Tests.Schema
         [Test]
         public void TheCounterDetectsAllocations()
         {
-            // Allocates one object of the smallest size per tick. The limit is lower, because the runtime counts whole blocks.
+            // The control allocates an object of the smallest size in each tick. The limit is lower than its size, because the runtime counts whole blocks.
             Assert.That(AllocatedBy(() => kept = new object()), Is.GreaterThan(8L * Ticks));
         }
 

@@ -9,8 +9,8 @@ using Collektive.FlatBuffers;
 namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
-    /// Canonical text of drafts, mirrors, flatc's readers and flatc's Java objects. Members are sorted by lower-case name. Reals are printed as
-    /// their bits, integers as signed 64 bits, and absent lists as empty lists.
+    /// Converts drafts, mirrors and flatc's readers to a canonical text, which equals the text of flatc's Java objects. Members are sorted by lower-case
+    /// name. Floating-point numbers are printed as bits, integers as signed 64-bit numbers, and absent lists as empty lists.
     /// </summary>
     internal static class Dump
     {

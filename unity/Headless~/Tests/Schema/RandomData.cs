@@ -25,7 +25,7 @@ namespace Collektive.Headless.Tests.Schema
             draft.Clear();
             foreach (var field in draft.GetType().GetFields(BindingFlags.Public | BindingFlags.Instance))
             {
-                // Half of the scalars keep the schema's default.
+                // Let half of the scalars keep the schema's default.
                 var set = Nullable.GetUnderlyingType(field.FieldType) != null || field.FieldType == typeof(string) || Coin();
                 if (set) field.SetValue(draft, Value(field.FieldType));
                 if (field.FieldType == typeof(string) && field.GetValue(draft) == null) field.SetValue(draft, Text());
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Schema
                 {
                     var required = property.Name == "Main";
                     if (!required && (nesting >= MaxNesting || Coin())) continue;
-                    // A property with the name of its class ends with an underscore.
+                    // The name of a property ends with an underscore if it would equal the name of its class.
                     Fill((Draft)draft.GetType().GetMethod("Make" + property.Name.TrimEnd('_')).Invoke(draft, null), nesting + 1);
                 }
                 else

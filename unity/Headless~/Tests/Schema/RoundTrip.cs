@@ -7,8 +7,9 @@ using Collektive.FlatBuffers;
 namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
-    /// The C# half of <c>schema/test/test_roundtrip.py</c>: writes random sensor and global data for the JVM, and compares actuator data that the JVM wrote.
-    /// Schemas are separated by commas. Each has its own file of records with sensors, globals (-1 for none), count, frame and text; see Record.
+    /// The C# half of <c>schema/test/test_roundtrip.py</c>. It writes random sensor and global data for the JVM, and compares actuator data that the JVM has
+    /// written. The schemas are a comma-separated argument. Each schema has a file of records, which contain sensors, globals (-1 for none), count, frame
+    /// and text. See Record.
     /// </summary>
     internal static class RoundTrip
     {
@@ -112,7 +113,7 @@ namespace Collektive.Headless.Tests.Schema
                     var again = (byte[])bytes.Clone();
                     actuators.Attach(new ByteBuffer(bytes), position);
                     var text = TextOf(count, actuators.Get);
-                    // Previous answers remain readable after their frame is overwritten. Copies remain readable indefinitely.
+                    // Retained answers must stay readable after their frame is overwritten, and copies must stay readable for ever.
                     actuators.Retain();
                     Array.Clear(bytes, 0, bytes.Length);
                     actuators.Attach(new ByteBuffer(again), position);
