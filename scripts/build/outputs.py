@@ -96,7 +96,7 @@ def require_replaceable(file: str, beginning: bytes, option: str) -> None:
         return
     with open(file, "rb") as existing:
         if existing.read(len(beginning)) not in (b"", beginning):
-            raise Failure(f"'{file}' exists and has other contents than {option} writes: name another file, or remove it")
+            raise Failure(f"'{file}' exists and was not written by {option}: name another file, or remove it")
 
 
 def require(folder: Path, outcome: str, code: int) -> None:

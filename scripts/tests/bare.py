@@ -84,7 +84,7 @@ def test(names: Sequence[str], results: Path) -> tuple[str, int]:
 def _is_possible() -> bool:
     """Returns whether roots can be created on this machine. If not, prints the reason."""
     if not system.can_install():
-        print_progress("skipped: fresh roots need root and apt-get")
+        print_progress("skipped: only root can create fresh roots, and only with apt-get")
         return False
     if subprocess.run(_namespace("true"), stderr=subprocess.DEVNULL).returncode != 0:
         print_progress("skipped: this machine does not allow mount namespaces")
@@ -145,7 +145,7 @@ def _test_container(root: Path, results: Path) -> int:
     cases, code = [], 0
     for title, words, has_network in commands:
         code = code or _run(CONTAINER, root, *words, has_network=has_network)
-        cases.append(junit.Case(title, f"it, or a step before it, ended with {code}" if code else ""))
+        cases.append(junit.Case(title, f"this step or an earlier one ended with {code}" if code else ""))
     figures = list((root / "out/study/figures").glob("*.pdf"))
     cases.append(junit.Case("the study has its figures", "" if len(figures) == 7 else f"{len(figures)} figures"))
     junit.write(str(results / f"{CONTAINER}.xml"), CONTAINER, cases)
@@ -193,7 +193,7 @@ def _ubuntu_keyring(name: str, work: Path, suite: str, mirror: str, script: list
     _debootstrap(name, packages, suite, mirror, script, "--download-only", "--no-check-gpg")
     package = next((packages / "var/cache/apt/archives").glob("ubuntu-keyring_*.deb"))
     if hashlib.sha256(package.read_bytes()).hexdigest() != UBUNTU_KEYRING_SHA256:
-        raise RootError(f"{package.name} has another SHA-256 than expected")
+        raise RootError(f"the SHA-256 of {package.name} is not the expected one")
     _logged(name, ["dpkg-deb", "--extract", package, work / "keyring"])
     _remove(packages)
     return work / "keyring/usr/share/keyrings/ubuntu-archive-keyring.gpg"

@@ -44,12 +44,12 @@ def check_definition(path: str, definition: dict[str, Any], definitions: Definit
         if plugin not in BUILT_PLUGINS | UNITY_PLUGINS:
             yield f"{path}: refers to the plugin '{plugin}', which is not in the package"
     if definition.get("precompiledReferences") and not definition.get("overrideReferences"):
-        yield f"{path}: names plugins, which Unity ignores without overrideReferences"
+        yield f"{path}: lists precompiled references, which Unity ignores without overrideReferences"
     platforms = set(definition.get("includePlatforms", []))
     folders = path.split("/")
     is_test = "Tests" in folders
     if platforms - PLATFORMS or (is_test and not platforms):
-        yield f"{path}: its platforms are {sorted(platforms)}: allowed are {sorted(PLATFORMS)}"
+        yield f"{path}: its platforms are {sorted(platforms)}, but only {sorted(PLATFORMS)} are allowed, and tests need at least one of them"
     if platforms not in (set(), {"Editor"}) and not is_test:
         yield f"{path}: its platforms are {sorted(platforms)}: runtime code must compile for all platforms, so that unsupported players report an error"
     # Tests that run in edit mode do not need to be in a folder Editor.

@@ -13,7 +13,7 @@ PRIMITIVES = {"Sphere": {33, 23, 135}, "Cube": {33, 23, 65}, "Capsule": {33, 23,
 def problems(assets: Assets) -> Iterator[str]:
     for path in assets.with_ending(".cs"):
         if re.search(r"enableInstancing = true", assets.read(path)):
-            yield f"{path}: enables instancing at run time; Unity strips the shader variants unless a material asset enables it"
+            yield f"{path}: enables instancing at run time; Unity strips the shader variants unless a material asset enables instancing"
     for path in assets.with_ending(".shader"):
         for light_mode in ("DepthOnly", "ShadowCaster"):
             if f'"LightMode" = "{light_mode}"' not in assets.read(path):

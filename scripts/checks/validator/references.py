@@ -64,7 +64,7 @@ class AssetFile:
                 yield f"{document.line}: the file id {document.file_id} is used twice"
             seen.add(document.file_id)
             if CLASSES.get(document.class_id) != document.type_name:
-                yield f"{document.line}: class {document.class_id} is not known as {document.type_name}"
+                yield f"{document.line}: {document.type_name} has the unknown class number {document.class_id}"
             for where, reference in references(document.fields):
                 problem = self.check_reference(reference)
                 if problem:
@@ -98,7 +98,7 @@ class AssetFile:
             return None if file_id in known and reference.get("type") == "3" else f"{file_id} is not the id of an object in {target}: {', '.join(names)}"
         imported = IMPORTED.get(os.path.splitext(target)[1])
         if imported:
-            return None if (file_id, reference.get("type")) == imported else f"{target} is referred to by fileID {imported[0]} and type {imported[1]}"
+            return None if (file_id, reference.get("type")) == imported else f"a reference to {target} needs fileID {imported[0]} and type {imported[1]}"
         if target not in self.files:
             return f"{target} cannot be referenced"
         if target.endswith(".prefab") and file_id == WHOLE_PREFAB:
@@ -111,7 +111,7 @@ class AssetFile:
         for entry in document.fields["m_Component"]:
             component = self.by_id.get(entry["component"]["fileID"])
             if component and component.fields["m_GameObject"]["fileID"] != str(document.file_id):
-                yield f"{component.line}: {component.type_name} belongs to another GameObject than {document.fields['m_Name']}"
+                yield f"{component.line}: {component.type_name} is listed by {document.fields['m_Name']}, but belongs to a different GameObject"
         listed = {entry["component"]["fileID"] for entry in document.fields["m_Component"]}
         for other in self.documents:
             owner = other.fields.get("m_GameObject", {}).get("fileID")
@@ -130,7 +130,7 @@ class AssetFile:
     def check_scene(self) -> Iterator[str]:
         roots = [document for document in self.documents if document.type_name == "SceneRoots"]
         if len(roots) != 1:
-            yield "1: a scene has one SceneRoots"
+            yield "1: a scene must have exactly one SceneRoots"
             return
         listed = {reference["fileID"] for reference in roots[0].fields["m_Roots"]}
         roots_found = {str(document.file_id) for document in self.documents if is_root(document)}

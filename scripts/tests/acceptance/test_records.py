@@ -60,13 +60,13 @@ class Records(Project):
         os.symlink(self.a, self.path("symlink.clkrec"))
         scenario = self.path("project", "lamps.json")
         for out, message in ((self.a, "is the record that is read"), (self.path("link.clkrec"), "is the record that is read"),
-                             (self.path("symlink.clkrec"), "is the record that is read"), (scenario, "has other contents than --out writes")):
+                             (self.path("symlink.clkrec"), "is the record that is read"), (scenario, "exists and was not written by --out")):
             result = collektive("replay", self.a, "--out", out)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(message, last_error(result))
         result = collektive("run", scenario, "--out", self.path("other"), "--recording", scenario)
         self.assertEqual(result.returncode, 1, result.stderr)
-        self.assertIn("has other contents than --recording writes", last_error(result))
+        self.assertIn("exists and was not written by --recording", last_error(result))
         with open(self.a, "rb") as file:
             self.assertEqual(file.read(), before)
         with open(scenario, "rb") as file:

@@ -169,7 +169,7 @@ class Trial:
         process = self.start((), "out", ("--overwrite",), **failing(at, self.folder))
         code, output = self.end(process)
         if "Traceback" in output:
-            self.problems.append("a traceback")
+            self.problems.append("the output contains a traceback")
         kept = next((folder for folder in (self.path("out"), self.path("out", "earlier.part")) if os.path.exists(os.path.join(folder, "manifest.json"))), None)
         if kept is None:
             self.problems.append("the earlier results are lost")

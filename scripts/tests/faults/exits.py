@@ -106,7 +106,7 @@ def run(places: dict[str, Any], kind: str, index: int) -> str:
         if index < 2 and not problem:
             summary = subprocess.run([os.path.join(jdk, "bin/jfr"), "summary", os.path.join(folder, "record.jfr")], capture_output=True, text=True)
             if summary.returncode != 0 or "jdk.JVMInformation" not in summary.stdout:
-                wrong.append("jfr summary does not read the flight recording")
+                wrong.append("jfr summary cannot read the flight recording")
         if not wrong:
             return ""
         where = f"{kind} on {runtime}, {os.path.basename(jdk)}, {placement}"

@@ -168,7 +168,7 @@ def main() -> None:
         faults = json.load(file)
     faults = [fault for fault in faults if words in fault["fault"]]
     if not faults:
-        sys.stderr.write(f"collektive: the name of no fault in faults.json contains '{words}'\n")
+        sys.stderr.write(f"collektive: no fault in faults.json has a name that contains '{words}'\n")
         sys.exit(2)
     kinds = [(*kind, placement) for placement in PLACEMENTS for kind in itertools.product(places["runtimes"], places["jdks"])]
     print("Columns: " + ", ".join(f"{index + 1} = {runtime} with {os.path.basename(jdk)}, {placement}"
