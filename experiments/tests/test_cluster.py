@@ -14,11 +14,11 @@ def cluster() -> Iterator[Cluster]:
     """A cluster of two nodes, whose processes communicate over the loopback interface."""
     # With these settings, Ray detects a lost node within two seconds instead of twenty.
     checks = {"health_check_initial_delay_ms": 0, "health_check_period_ms": 500, "health_check_failure_threshold": 3}
-    made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False, "_system_config": checks})
-    made.add_node(num_cpus=1)
-    made.wait_for_nodes()
-    yield made
-    made.shutdown()
+    two_nodes = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False, "_system_config": checks})
+    two_nodes.add_node(num_cpus=1)
+    two_nodes.wait_for_nodes()
+    yield two_nodes
+    two_nodes.shutdown()
 
 
 def test_a_lost_cluster_node_causes_no_lost_or_duplicate_runs(project: Project, cluster: Cluster) -> None:

@@ -97,15 +97,15 @@ class Player:
         self._reading: asyncio.Task[None] | None = None
 
     async def start(self, scenario: str, plan: player.Plan, jar: Path, dll: Path, folder: Path, words: Sequence[str]) -> None:
-        """Starts the process. It writes its outputs to the given folder, which must be empty."""
+        """Starts the process, which writes its outputs to `folder`. Deletes earlier content of the folder first."""
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
-        ours, theirs = socket.socketpair()
-        with theirs:
-            command = player.command("live", scenario, plan, jar, dll, find_jdk(), ["--out", folder, "--channel", str(theirs.fileno()), *words])
+        own_end, player_end = socket.socketpair()
+        with player_end:
+            command = player.command("live", scenario, plan, jar, dll, find_jdk(), ["--out", folder, "--channel", str(player_end.fileno()), *words])
             self._process = await asyncio.create_subprocess_exec(
-                *command, env=managed.environment("mono-sgen"), stdin=asyncio.subprocess.DEVNULL, pass_fds=[theirs.fileno()])
-        reader, self._writer = await asyncio.open_connection(sock=ours)
+                *command, env=managed.environment("mono-sgen"), stdin=asyncio.subprocess.DEVNULL, pass_fds=[player_end.fileno()])
+        reader, self._writer = await asyncio.open_connection(sock=own_end)
         self._reading = asyncio.create_task(self._read(reader, self._process))
 
     def send(self, command: dict[str, Any]) -> None:

@@ -14,17 +14,17 @@ class Generated(Folder):
     @pytest.mark.quick
     def test_the_command_generates_the_same_code_as_the_build(self) -> None:
         for schema in glob.glob(os.path.join(os.path.dirname(SAMPLE), "*/*.fbs")):
-            made = self.path(os.path.basename(schema))
-            self.assertEqual(collektive("generate", schema, "--csharp", made).returncode, 0)
-            self.same(made, os.path.join(BUILD, "generated/samples", os.path.basename(os.path.dirname(schema))))
+            generated = self.path(os.path.basename(schema))
+            self.assertEqual(collektive("generate", schema, "--csharp", generated).returncode, 0)
+            self.same(generated, os.path.join(BUILD, "generated/samples", os.path.basename(os.path.dirname(schema))))
         flatc = os.path.join(BUILD, "flatc")
         schemas = [os.path.join(ROOT, "schema", name) for name in ["frame.fbs", "types.fbs"]]
         subprocess.run([flatc, "--csharp", "-o", self.path("core"), *schemas], check=True)
         subprocess.run([sys.executable, os.path.join(ROOT, "scripts/build/rename_flatbuffers.py"), self.path("core")], check=True)
         self.same(self.path("core"), os.path.join(BUILD, "generated/bridge"))
 
-    def same(self, made, built) -> None:
-        self.assertEqual(self.files(made), self.files(built))
+    def same(self, generated, built) -> None:
+        self.assertEqual(self.files(generated), self.files(built))
 
     @staticmethod
     def files(folder):

@@ -55,8 +55,8 @@ class Outcome:
 class Trial:
     """A trial, which disturbs a run in a separate folder."""
 
-    def __init__(self, kind: str, number: int, count: int, seed: int, reference: dict[str, Any], took: float) -> None:
-        self.kind, self.number, self.count, self.reference, self.took = kind, number, count, reference, took
+    def __init__(self, kind: str, number: int, count: int, seed: int, reference: dict[str, Any], duration: float) -> None:
+        self.kind, self.number, self.count, self.reference, self.duration = kind, number, count, reference, duration
         self.mark = f"{os.getpid()}-{kind}-{number}"
         self.random = random.Random(f"{seed} {kind} {number}")
         self.folder = tempfile.mkdtemp(prefix="collektive-chaos-")
@@ -104,7 +104,7 @@ class Trial:
         """Sends SIGKILL to the player, the command or all processes at a random time."""
         into_earlier = self.random.random() < 0.2
         process = self.start(out="earlier" if into_earlier else "out")
-        target, moment = self.random.choice(["player", "command", "all"]), self.random.uniform(0, 1.05 * self.took)
+        target, moment = self.random.choice(["player", "command", "all"]), self.random.uniform(0, 1.05 * self.duration)
         self.detail = f"SIGKILL to {target} after {moment:.2f} s"
         time.sleep(moment)
         if target == "command":
@@ -120,7 +120,7 @@ class Trial:
         return (*self.end(process), self.path("refused" if into_earlier else "out"))
 
     def signal(self) -> tuple[int, str, str]:
-        number, moment = self.random.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP]), self.random.uniform(0, 1.05 * self.took)
+        number, moment = self.random.choice([signal.SIGINT, signal.SIGTERM, signal.SIGHUP]), self.random.uniform(0, 1.05 * self.duration)
         self.detail = f"{number.name} after {moment:.2f} s"
         process = self.start()
         time.sleep(moment)
@@ -131,7 +131,7 @@ class Trial:
         """Writes the results to a disk that is small, that is read-only, or that becomes read-only during the run."""
         fault = self.random.choice(["small", "small", "read-only", "becomes read-only"])
         size = self.random.choice([4, 8, 16, 64, 200, 400, 600, 800, 1000, 1500]) if fault == "small" else 20000
-        moment = self.random.uniform(0.5, 1) * self.took
+        moment = self.random.uniform(0.5, 1) * self.duration
         action = {"small": ":", "read-only": 'mount -o remount,ro "$DISK"',
                   "becomes read-only": f'(sleep {moment:.2f}; mount -o remount,ro,force "$DISK" || mount -o remount,size=4k "$DISK") &'}[fault]
         self.detail = f"disk {fault}, {size} KB"
@@ -143,7 +143,7 @@ class Trial:
 
     def clock(self) -> tuple[int, str, str]:
         """Changes the time of day during the run."""
-        jump, moment = self.random.choice([-86400, -3600, -1, 3600, 400 * 86400]), self.random.uniform(0, self.took)
+        jump, moment = self.random.choice([-86400, -3600, -1, 3600, 400 * 86400]), self.random.uniform(0, self.duration)
         self.detail = f"the clock jumps by {jump} s after {moment:.2f} s"
         offset = self.path("offset")
         write_text(offset, "+0")
@@ -281,11 +281,11 @@ def make_reference(work: str) -> tuple[dict[str, Any], float]:
         result = subprocess.run([COLLEKTIVE, "run", scenario, "--out", out, "--overwrite"], capture_output=True, text=True)
         if result.returncode != 0:
             sys.exit(f"collektive: chaos: the undisturbed run failed:\n{result.stderr}")
-    took = time.monotonic() - began
+    duration = time.monotonic() - began
     subprocess.run([COLLEKTIVE, "run", scenario, "--out", out, "--overwrite"], check=True, capture_output=True, env={**os.environ, **failing(0, work)})
     calls = int.from_bytes(content(os.path.join(work, "calls")), sys.byteorder)
     digest = json.loads(content(os.path.join(out, "manifest.json")))["digest"]
-    return {"folder": out, "files": digest_of(out), "digest": digest, "scenario": scenario, "calls": calls}, took
+    return {"folder": out, "files": digest_of(out), "digest": digest, "scenario": scenario, "calls": calls}, duration
 
 
 def failing(at: int, folder: str) -> dict[str, str]:
@@ -323,15 +323,15 @@ def main() -> int:
         counts["clock"] = 0
     cases = []
     with tempfile.TemporaryDirectory(prefix="collektive-chaos-") as work, concurrent.futures.ThreadPoolExecutor(2) as pool:
-        reference, took = make_reference(work)
-        print(f"an undisturbed run takes {took:.1f} s; seed {given.seed}\n{'kind':8} {'trials':>6} {'wrong':>6}  ends", flush=True)
+        reference, duration = make_reference(work)
+        print(f"an undisturbed run takes {duration:.1f} s; seed {given.seed}\n{'kind':8} {'trials':>6} {'failed':>6}  ends", flush=True)
         for kind, count in counts.items():
-            trials = [Trial(kind, number, count, given.seed, reference, took) for number in range(count)]
+            trials = [Trial(kind, number, count, given.seed, reference, duration) for number in range(count)]
             outcomes = list(pool.map(Trial.run, trials))
             ends = collections.Counter(outcome.end for outcome in outcomes)
-            wrong = [outcome for outcome in outcomes if outcome.problems]
-            print(f"{kind:8} {count:6} {len(wrong):6}  {', '.join(f'{number} {end}' for end, number in ends.most_common())}", flush=True)
-            for outcome in wrong:
+            failed = [outcome for outcome in outcomes if outcome.problems]
+            print(f"{kind:8} {count:6} {len(failed):6}  {', '.join(f'{number} {end}' for end, number in ends.most_common())}", flush=True)
+            for outcome in failed:
                 print("  " + "\n    ".join("; ".join(outcome.problems).splitlines()), flush=True)
             cases += [junit.Case(f"{kind} {number}", "; ".join(outcome.problems)) for number, outcome in enumerate(outcomes)]
         after = subprocess.run([COLLEKTIVE, "run", reference["scenario"], "--out", reference["folder"], "--overwrite"], capture_output=True, text=True)

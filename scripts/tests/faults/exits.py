@@ -94,23 +94,23 @@ def run(places: dict[str, Any], kind: str, index: int) -> str:
                 process.send_signal(SIGNALS[kind])
         code = process.wait()
         watchdog.cancel()
-        wrong = []
+        problems = []
         expected = CORECLR_CODES.get(kind, KINDS[kind]) if runtime == "coreclr" else KINDS[kind]
         if code != expected:
-            wrong.append(f"exit code {code} instead of {expected}")
+            problems.append(f"exit code {code} instead of {expected}")
         if b"did not end" in text:
-            wrong.append("the JVM did not shut down cleanly")
+            problems.append("the JVM did not shut down cleanly")
         problem = recording_problem(os.path.join(folder, "record.jfr"))
         if problem:
-            wrong.append(problem)
+            problems.append(problem)
         if index < 2 and not problem:
             summary = subprocess.run([os.path.join(jdk, "bin/jfr"), "summary", os.path.join(folder, "record.jfr")], capture_output=True, text=True)
             if summary.returncode != 0 or "jdk.JVMInformation" not in summary.stdout:
-                wrong.append("jfr summary cannot read the flight recording")
-        if not wrong:
+                problems.append("jfr summary cannot read the flight recording")
+        if not problems:
             return ""
         where = f"{kind} on {runtime}, {os.path.basename(jdk)}, {placement}"
-        return f"{where}: {'; '.join(wrong)}\n    " + text.decode(errors="replace")[-2000:].replace("\n", "\n    ")
+        return f"{where}: {'; '.join(problems)}\n    " + text.decode(errors="replace")[-2000:].replace("\n", "\n    ")
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 

@@ -56,8 +56,8 @@ class Trial:
         if kind == "missing":
             return "/nowhere/jvm"
         home = self.path("home")
-        wrong = {"no-libjvm": "lib/server/libjvm.so", "cut-libjvm": "lib/server/libjvm.so", "no-modules": "lib/modules",
-                 "cut-modules": "lib/modules", "old": "release"}[kind]
+        damaged = {"no-libjvm": "lib/server/libjvm.so", "cut-libjvm": "lib/server/libjvm.so", "no-modules": "lib/modules",
+                   "cut-modules": "lib/modules", "old": "release"}[kind]
         # The files java, libjli.so and libjvm.so are copied, because programs find their JVM by the resolved path of these files.
         for where, folders, names in os.walk(self.jdk):
             inside = os.path.relpath(where, self.jdk)
@@ -67,7 +67,7 @@ class Trial:
             os.makedirs(os.path.join(home, inside), exist_ok=True)
             for name in names:
                 relative = os.path.normpath(os.path.join(inside, name))
-                if relative == wrong or name.endswith((".jsa", ".zip", ".debuginfo")):
+                if relative == damaged or name.endswith((".jsa", ".zip", ".debuginfo")):
                     continue
                 real = os.path.realpath(os.path.join(where, name))
                 target = os.path.join(home, relative)
@@ -76,7 +76,7 @@ class Trial:
                 else:
                     os.symlink(real, target)
         if kind.startswith("cut"):
-            shutil.copy(self.cut(os.path.join(self.jdk, wrong), "half"), os.path.join(home, wrong))
+            shutil.copy(self.cut(os.path.join(self.jdk, damaged), "half"), os.path.join(home, damaged))
         if kind == "old":
             with open(os.path.join(home, "release"), "w") as file:
                 file.write('JAVA_VERSION="11.0.2"\n')
@@ -96,10 +96,10 @@ class Trial:
             return str(self.places["incompatible"])
         with open(self.path("programs.jar"), "wb") as file:
             if kind == "newer":
-                with zipfile.ZipFile(file, "w") as made, zipfile.ZipFile(self.places["jar"]) as real:
+                with zipfile.ZipFile(file, "w") as copy, zipfile.ZipFile(self.places["jar"]) as real:
                     for name in real.namelist():
                         data = real.read(name)
-                        made.writestr(name, data[:6] + struct.pack(">H", 99) + data[8:] if name.endswith(".class") else data)
+                        copy.writestr(name, data[:6] + struct.pack(">H", 99) + data[8:] if name.endswith(".class") else data)
         return self.path("programs.jar")
 
     def command(self) -> list[str]:
@@ -130,18 +130,18 @@ class Trial:
             return f"ends with code {result.returncode}", read, text
         last, state = works[0]
         best = next((step for step in ORDER if step in last), "restart")
-        wrong = []
+        problems = []
         if best != self.fault["works"]:
-            wrong.append(f"works afterwards: {last}")
+            problems.append(f"works afterwards: {last}")
         if "reads" in self.fault and not read:
-            wrong.append("the expected message was not printed")
+            problems.append("the expected message was not printed")
         if best == "next tick" and "next play" not in last:
-            wrong.append("the next play did not start")
+            problems.append("the next play did not start")
         if not last.endswith("C#"):
-            wrong.append("C# did not run after the fault")
+            problems.append("C# did not run after the fault")
         if state != ("Stopped" if best != "restart" else "None" if self.own else "Lost"):
-            wrong.append(f"the JVM is {state} at the end")
-        return "; ".join(wrong), read, text
+            problems.append(f"the JVM is {state} at the end")
+        return "; ".join(problems), read, text
 
 
 def attempt(places: dict[str, Any], fault: dict[str, Any], runtime: str, jdk: str, placement: str) -> tuple[str, str, str]:
@@ -182,15 +182,15 @@ def main() -> None:
                 for fault in faults]
         for fault, futures in rows:
             results = [future.result() for future in futures]
-            marks = " ".join(" !" if wrong else "ok" for wrong, _, _ in results).rjust(3 * len(kinds) - 1)
+            marks = " ".join(" !" if failure else "ok" for failure, _, _ in results).rjust(3 * len(kinds) - 1)
             read = next((read for _, read, _ in results if read), "")
             print(f"{short(fault['fault'], 52):52} {marks} {fault['works']:16}  {short(read, 150)}", flush=True)
-            for (wrong, _, text), (runtime, jdk, placement) in zip(results, kinds[-len(results):]):
-                cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}, {placement}", wrong))
-                if wrong:
+            for (failure, _, text), (runtime, jdk, placement) in zip(results, kinds[-len(results):]):
+                cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}, {placement}", failure))
+                if failure:
                     lines = [short(line, 300) for line in text.splitlines()]
                     lines = lines[:15] + ["..."] + lines[15:][-15:]
-                    print(f"    ! {runtime}, {os.path.basename(jdk)}, {placement}: {wrong}\n        " + "\n        ".join(lines))
+                    print(f"    ! {runtime}, {os.path.basename(jdk)}, {placement}: {failure}\n        " + "\n        ".join(lines))
     sys.exit(junit.report(arguments.results, "faults", cases))
 
 

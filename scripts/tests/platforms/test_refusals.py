@@ -28,18 +28,18 @@ def start(platform: str, home: str, case: str = "options_that_make_the_jvm_print
 
 def home_of(platform: str) -> str:
     """Returns the JRE that the tests of the library use."""
-    made = os.path.join(CROSS, "jre-" + platform)
-    return made if os.path.exists(made) else os.path.dirname(os.path.dirname(JAVA[platform][-1]))
+    prepared = os.path.join(CROSS, "jre-" + platform)
+    return prepared if os.path.exists(prepared) else os.path.dirname(os.path.dirname(JAVA[platform][-1]))
 
 
 def without_release(home: str, folder: Path) -> str:
     """Copies the JVM without the file `release`, which names the platform."""
-    made = os.path.join(folder, "home")
-    os.mkdir(made)
+    copy = os.path.join(folder, "home")
+    os.mkdir(copy)
     for name in os.listdir(home):
         if name != "release":
-            os.symlink(os.path.join(home, name), os.path.join(made, name))
-    return made
+            os.symlink(os.path.join(home, name), os.path.join(copy, name))
+    return copy
 
 
 def others(platform: str) -> list[str]:

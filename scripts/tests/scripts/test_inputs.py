@@ -111,7 +111,7 @@ class Project:
     def __init__(self, folder: Path, seed: int) -> None:
         self.folder = folder / "project"
         self.random = random.Random(seed)
-        self.made = 0
+        self.created = 0
         self.root = "root.fbs"
         for part in ("scripts", "programs", "schemas", "outside"):
             (self.folder / part).mkdir(parents=True)
@@ -146,9 +146,9 @@ class Project:
         return f"{change.__name__} {change()}"
 
     def place(self, part: str) -> Path:
-        self.made += 1
+        self.created += 1
         suffix = {"scripts": ".cs", "programs": self.random.choice([".kt", ".java"]), "schemas": ".fbs", "outside": ".txt"}[part]
-        return self.folder / part / self.random.choice(self.FOLDERS) / f"f{self.made}{self.random.choice([suffix, suffix, '.md'])}"
+        return self.folder / part / self.random.choice(self.FOLDERS) / f"f{self.created}{self.random.choice([suffix, suffix, '.md'])}"
 
     def add(self) -> Path:
         return write(self.place(self.random.choice(["scripts", "programs", "schemas"])), self.text())
@@ -171,7 +171,7 @@ class Project:
         """Creates a link to a file or folder outside the project."""
         part = self.random.choice(["scripts", "programs", "schemas"])
         link = self.place(part)
-        target = write(self.folder / "outside" / f"d{self.made}" / link.name, self.text())
+        target = write(self.folder / "outside" / f"d{self.created}" / link.name, self.text())
         if self.random.random() < 0.5:
             link, target = link.with_suffix(""), target.parent
         link.parent.mkdir(exist_ok=True)
@@ -197,8 +197,8 @@ class Project:
 
     def rename(self) -> Path:
         file = self.random.choice([self.schema, *self.replaceable()])
-        self.made += 1
-        name = f"r{self.made}{file.suffix}"
+        self.created += 1
+        name = f"r{self.created}{file.suffix}"
         if file == self.schema:
             self.root = name
         return file.rename(file.with_name(name))

@@ -604,7 +604,7 @@ namespace Collektive.Headless.Tests
             {
                 var node = actual.Nodes[pair.Key];
                 // The tolerance grows with the value, because large floats have a coarse resolution.
-                void AssertNear(float wanted, float found) => Assert.AreEqual(wanted, found, tolerance + Math.Abs(wanted) * 1e-7);
+                void AssertNear(float expectedValue, float found) => Assert.AreEqual(expectedValue, found, tolerance + Math.Abs(expectedValue) * 1e-7);
                 AssertNear(pair.Value.X, node.X);
                 AssertNear(pair.Value.Y, node.Y);
                 AssertNear(pair.Value.Z, node.Z);

@@ -31,14 +31,14 @@ internal class Changes(
                 nodes.addAll(added)
                 val unlinked = links.filter { random.nextInt(8) == 0 }.shuffled(random)
                 links.removeAll(unlinked.toSet())
-                val wanted = if (nodes.isEmpty()) {
+                val chosen = if (nodes.isEmpty()) {
                     emptyList()
                 } else {
                     List(random.nextInt(30)) {
                         Line(nodes.random(random), nodes.random(random))
                     }
                 }
-                val linked = (wanted + unlinked.filter { random.nextInt(3) == 0 }).filter { it.from != it.to }.distinct()
+                val linked = (chosen + unlinked.filter { random.nextInt(3) == 0 }).filter { it.from != it.to }.distinct()
                 links.addAll(linked)
                 val values = linked.map { it to Values(random.nextInt(20).toFloat(), random.nextInt(3).toFloat()) }
                 Changes(removed, added, unlinked, values, nodes.filter { random.nextInt(5) > 0 }, random.nextInt(100).takeIf { it < 20 })
