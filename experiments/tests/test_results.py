@@ -102,7 +102,7 @@ def test_holm_corrects_as_published_and_never_lowers_or_reorders() -> None:
         known = ~np.isnan(values)
         assert (corrected[known] >= values[known]).all() and (corrected[known] <= 1).all()
         assert (np.diff(corrected[known][np.argsort(values[known])]) >= 0).all()
-        assert (corrected[known] <= values[known] * known.sum() + 1e-12).all(), "at most Bonferroni's"
+        assert (corrected[known] <= values[known] * known.sum() + 1e-12).all(), "Holm's correction must not exceed Bonferroni's"
 
 
 def test_kaplan_meier_reproduces_a_published_curve() -> None:

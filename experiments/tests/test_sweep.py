@@ -27,7 +27,7 @@ def await_runs(project: Project, count: int, out: str = "out") -> None:
     end = time.monotonic() + 60
     runs = project.folder / out / "runs"
     while not runs.is_dir() or sum(not name.endswith(".part") for name in os.listdir(runs)) < count:
-        assert time.monotonic() < end, "no run ends"
+        assert time.monotonic() < end, "the runs must end within the time limit"
         time.sleep(0.02)
 
 
@@ -39,7 +39,7 @@ def workers(project: Project) -> list[int]:
 def await_no_worker(project: Project) -> None:
     end = time.monotonic() + 20
     while workers(project):
-        assert time.monotonic() < end, "workers are left"
+        assert time.monotonic() < end, "no worker may be left"
         time.sleep(0.05)
 
 

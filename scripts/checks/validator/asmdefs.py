@@ -6,7 +6,7 @@ from typing import Any
 
 from validator.assets import Assets
 
-# Assemblies of Unity's packages that assembly definitions may reference.
+# Assemblies and plugins of Unity's packages that assembly definitions may reference.
 UNITY_ASSEMBLIES = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
 UNITY_PLUGINS = {"nunit.framework.dll"}
 # Plugins that the build adds to the package.

@@ -83,12 +83,12 @@ class DemoTest(Folder):
 
     def test_it_is_fast_enough(self) -> None:
         # On two idle cores, the targets are 2 ms and 33 ms. A busy machine may take twice as long.
-        self.assertLessEqual(self.whole["step_ms_median"], 2 * 2, "bridge and rounds, median")
-        self.assertLessEqual(self.whole["tick_ms_p99"], 2 * 33, "whole tick, p99")
+        self.assertLessEqual(self.whole["step_ms_median"], 2 * 2, "median time of bridge and rounds in ms")
+        self.assertLessEqual(self.whole["tick_ms_p99"], 2 * 33, "99th percentile of the whole tick in ms")
 
     def test_the_replay_page_takes_at_most_a_tenth_of_the_run(self) -> None:
         self.assertLessEqual(self.whole["replay_ms"], 0.1 * 1000 * self.whole["wall_seconds"])
-        self.assertLess(os.path.getsize(os.path.join(self.out, "replay.html")), 3e6, "bytes")
+        self.assertLess(os.path.getsize(os.path.join(self.out, "replay.html")), 3e6, "size of the page in bytes")
 
     def test_pictures_are_written_and_listed_in_the_output(self) -> None:
         for name in ["start.png", "middle.png", "end.png", "replay.html", "metrics.csv", "manifest.json"]:

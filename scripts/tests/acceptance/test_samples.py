@@ -69,7 +69,7 @@ class SamplesTest(Folder):
         for row in rows[7], rows[15], rows[23]:
             self.assertGreater(row["formed"], 0.9 * 299, row)
             self.assertEqual(row["shapes"], 1, row)
-        self.assertGreater(min(row["nearest"] for row in rows), 0.1, "two drones overlap")
+        self.assertGreater(min(row["nearest"] for row in rows), 0.1, "drones must not overlap")
 
     def test_all_nodes_have_a_nearby_leader_even_after_leaders_fail(self) -> None:
         rows = self.rows("LeaderElection")
@@ -77,7 +77,7 @@ class SamplesTest(Folder):
         self.assertEqual(before["led"], 400)
         self.assertTrue(4 <= before["regions"] <= 40, before["regions"])
         rest = 400 - before["regions"]
-        self.assertLess(rows[10]["led"], rest, "the leaders failed")
+        self.assertLess(rows[10]["led"], rest, "the number of nodes with a leader must drop when the leaders fail")
         self.assertEqual(after["led"], rest)
         for row in before, after:
             self.assertTrue(0 < row["farthest"] <= 20, row["farthest"])
@@ -87,7 +87,7 @@ class SamplesTest(Folder):
         before, after = rows[9], rows[-1]
         for row in before, after:
             self.assertEqual(row["connected"], 1)
-            self.assertLess(row["channel_nodes"], 200, "of 600")
+            self.assertLess(row["channel_nodes"], 200, "only some of the 600 nodes may be in the channel")
         # The straight path is 90 m long. The paths around the near and the far ends of the walls are 98 m and 107 m long.
         self.assertTrue(98 <= before["length"] <= 115, before["length"])
         self.assertTrue(107 <= after["length"] <= 125, after["length"])
@@ -96,7 +96,7 @@ class SamplesTest(Folder):
         rows = self.rows("Rescue")
         self.assertEqual(rows[59]["found"], 3)
         self.assertEqual(rows[59]["connected"], 3)
-        self.assertLess(rows[59]["channel_robots"], 60, "of 120")
+        self.assertLess(rows[59]["channel_robots"], 60, "only some of the 120 robots may be in channels")
         self.assertEqual(rows[-1]["robots"], 108)
         self.assertEqual(rows[-1]["connected"], 3)
 

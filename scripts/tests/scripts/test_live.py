@@ -65,7 +65,7 @@ def test_a_large_record_is_deleted_while_the_player_writes_it(tmp_path: Path) ->
         assert record.limit()
         player.write(b"x" * 200_000)
         player.flush()
-        assert not record.limit(), "reported once"
+        assert not record.limit(), "the deletion must be reported only once"
         player.write(b"x")
         player.flush()
         assert source.stat().st_blocks * 512 < 100_000

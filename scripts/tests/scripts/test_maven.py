@@ -67,11 +67,11 @@ def modules(checkout: Checkout) -> Modules:
 
 def test_modules_are_compiled_when_they_or_their_dependencies_changed(modules: Modules) -> None:
     assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, modules.output
-    assert modules.build() == set(), "nothing changed"
+    assert modules.build() == set(), "without a change, nothing may be compiled"
     modules.edit(LOWER, "ordinary(): Int = 1", "ordinary(): Int = 2")
     assert modules.build() == {"LowerKt"}, "the body of a function is not visible to other modules"
     modules.edit(LOWER, "value() + 1", "value() + 2")
-    assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, "callers contain the body of an inline function"
+    assert modules.build() == {"LowerKt", "UpperKt", "LowerTestKt", "UpperTestKt"}, "callers contain the body of an inline function, so they must be compiled"
     modules.edit("lower/src/test/kotlin/LowerTest.kt", "below", "lowest")
     assert modules.build() == {"LowerTestKt"}, "tests are not visible to other modules"
 

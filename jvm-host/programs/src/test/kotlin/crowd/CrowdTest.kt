@@ -52,7 +52,7 @@ class CrowdTest {
     fun `a near wall repels a walker`() {
         val (x, _) = alone(Point2D(10.0 to 0.0), Point2D(0.3 to 0.0)).onGround()
         assertTrue(x < 0, "$x")
-        assertEquals(1.4f to 0f, alone(Point2D(10.0 to 0.0), Point2D(1.5 to 0.0)).onGround(), "1.25 m from its surface")
+        assertEquals(1.4f to 0f, alone(Point2D(10.0 to 0.0), Point2D(1.5 to 0.0)).onGround(), "1.25 m from the wall's surface")
         assertEquals(
             1.4f to 0f,
             alone(Point2D(10.0 to 0.0), Point2D(0.0 to 0.0)).onGround(),

@@ -15,7 +15,7 @@ class RuntimesTest {
     fun `both runtimes compute the same positions for hundreds of ticks`() {
         val own = run("builtIn")
         assertEquals(own, run("collektive"))
-        assertEquals(TICKS, own.distinct().size, "the swarm moves")
+        assertEquals(TICKS, own.distinct().size, "the swarm must move in every tick")
     }
 
     /** Returns the targets of each tick while nodes move, and while nodes are added and removed. */

@@ -35,7 +35,7 @@ class ModelTest {
                 DynamicTest.dynamicTest("$schedule, $name, seed $seed") {
                     val expected = Model(schedule, network).let { model -> Changes.random(seed, TICKS).map(model::step) }
                     for (threads in listOf(1, 2, 4, 8)) assertEquals(expected, run(seed, threads, schedule, network), "$threads threads")
-                    assertEquals(expected, run(seed, 2, schedule, network, runtimes = MailboxRuntimes()), "by mailboxes")
+                    assertEquals(expected, run(seed, 2, schedule, network, runtimes = MailboxRuntimes()), "on the mailbox runtime")
                 }
             }
         }
@@ -55,7 +55,7 @@ class ModelTest {
     fun `schedules and networks differ`() {
         val runs = networks.filterKeys { it != "almost ideal" }.values.map { run(1, 2, Schedule.LOCKSTEP, it) } +
             listOf(run(1, 2, Schedule.SEQUENTIAL, NetworkModel()))
-        for (a in runs.indices) for (b in 0 until a) assertNotEquals(runs[a], runs[b], "$a and $b")
+        for (a in runs.indices) for (b in 0 until a) assertNotEquals(runs[a], runs[b], "runs $a and $b must differ")
     }
 
     @Test

@@ -69,8 +69,8 @@ class NetworkTest {
     fun `a message that arrives after a more recent one is ignored`() {
         val seen = receivedFrom1(NetworkModel(jitter = 3.0), 200).filterNotNull()
         assertEquals(seen.sorted(), seen)
-        assertTrue(seen.toSet().size < 150, "some are overtaken")
-        assertTrue(seen.toSet().size > 50, "many are not")
+        assertTrue(seen.toSet().size < 150, "later messages must overtake some of the messages")
+        assertTrue(seen.toSet().size > 50, "many messages must not be overtaken")
     }
 
     @Test
@@ -114,7 +114,7 @@ class NetworkTest {
             Triple(99f, 0f, 1.0),
         )) {
             // The tolerance is four standard deviations of a proportion of 10,500 messages.
-            assertTrue(abs(lossOf(network, length, attenuation) - expected) < 0.02, "$length m, $attenuation")
+            assertTrue(abs(lossOf(network, length, attenuation) - expected) < 0.02, "links of $length m with attenuation $attenuation")
         }
     }
 
@@ -134,7 +134,7 @@ class NetworkTest {
                     "after one round with two links, at time 0.5",
                 )
                 assertEquals(listOf(0L, 0, 0, 0), counts { })
-                assertEquals(listOf(0L, 0, 0, 0), counts { }, "arrived at 1.1")
+                assertEquals(listOf(0L, 0, 0, 0), counts { }, "messages that arrived at 1.1 must still be valid")
                 assertEquals(listOf(0L, 0, 0, 2), counts { }, "messages that are valid until 1.8 must have expired at 2.0")
             }
         }

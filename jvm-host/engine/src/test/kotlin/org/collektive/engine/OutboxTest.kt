@@ -34,11 +34,11 @@ class OutboxTest {
         val random = Random(1)
         var last: Export? = null
         for (tick in 1L..1000L) {
-            assertSame(last, box.readable(tick), "tick $tick, before")
+            assertSame(last, box.readable(tick), "tick $tick, before the sender's round")
             if (random.nextInt(3) == 0) continue
             val sent = Sent()
             box.send(sent, tick, time = tick * 0.1)
-            assertSame(last, box.readable(tick), "tick $tick, after")
+            assertSame(last, box.readable(tick), "tick $tick, after the sender's round")
             assertSame(sent, box.readable(tick + 1), "tick $tick in a sequential schedule")
             assertSame(sent, box.last)
             last = sent

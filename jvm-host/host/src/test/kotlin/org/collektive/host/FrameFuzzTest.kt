@@ -66,7 +66,7 @@ class FrameFuzzTest {
         for (length in 0 until whole.capacity()) {
             val cut = ByteArray(length).also { whole.get(0, it) }
             val code = session.step(direct(cut))
-            assertTrue(code == -12L, "a frame cut to $length of ${whole.capacity()} bytes gave $code")
+            assertTrue(code == -12L, "code $code for a frame cut to $length of ${whole.capacity()} bytes")
         }
         session.close()
     }

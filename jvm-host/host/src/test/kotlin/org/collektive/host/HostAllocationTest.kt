@@ -39,7 +39,7 @@ class HostAllocationTest {
             repeat(count) {
                 frame.putLong(tickAt, tick++)
                 if (allocates) control = LongArray(100)
-                assertTrue(session.step(frame) >= 0, "refused")
+                assertTrue(session.step(frame) >= 0, "the step must succeed")
             }
             return (threads.getThreadAllocatedBytes(Thread.currentThread().id) - before) / count
         }
@@ -48,7 +48,7 @@ class HostAllocationTest {
         assertTrue(control >= 800, "the control run allocates 816 B, so at least 800 B must be measured, not $control B")
         val bytes = (1..3).minOf { ticks(500, false) }
         // The rest is the test's own duplicate of the answer.
-        assertTrue(bytes <= WRAPPER_BYTES, "$bytes B per tick")
+        assertTrue(bytes <= WRAPPER_BYTES, "$bytes B were allocated per tick")
         session.close()
     }
 

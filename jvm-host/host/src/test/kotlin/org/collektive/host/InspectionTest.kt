@@ -65,7 +65,7 @@ class InspectionTest {
         assertTrue(second.roundNanos() > 0)
         assertEquals(second.roundNanos(), inspection(3, 2, 1)?.roundNanos(), "the time must stay the same, because the node was not due")
         assertEquals(0, inspection(4, 1, 2)?.roundNanos(), "the node has not run a round since its inspection began")
-        assertNull(inspection(5, 7, 1, 2), "unknown node")
+        assertNull(inspection(5, 7, 1, 2), "an unknown node must have no inspection")
     }
 
     @Test

@@ -198,7 +198,7 @@ class PrimitivesTest {
             }
         }
         assertEquals<Path>(FullPath(listOf("outer", 7)), error.path)
-        assertNull(error.previous, "evolve sends nothing")
+        assertNull(error.previous, "evolve must not send anything")
         assertEquals(SharedData<Int, Int>(0), error.current)
         assertTrue("outer > 7" in error.message.orEmpty())
         val second = assertFailsWith<AlignmentClashException> {

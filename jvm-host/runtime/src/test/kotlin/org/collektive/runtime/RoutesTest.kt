@@ -60,7 +60,7 @@ class RoutesTest {
             }
             for (id in reference.ids) {
                 val state = devices.getValue(id).state.mapKeys { it.key.tokens }
-                assertEquals((reference.device(id) as ReferenceDevice).state, state, "state of $id, seed $seed")
+                assertEquals((reference.device(id) as ReferenceDevice).state, state, "state of device $id, seed $seed")
             }
             rounds += due.size
             clashes += expected.values.count { it.exceptionOrNull() is AlignmentClashException }

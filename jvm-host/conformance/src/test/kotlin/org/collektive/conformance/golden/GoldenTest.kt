@@ -32,7 +32,7 @@ class GoldenTest {
                 listOf(false, true).flatMap { GoldenNetwork(topology, it, runtimes()).answers(program) }
             }
             val theirs = answers.getValue(name)
-            assertEquals(theirs.size, ours.size, "rounds")
+            assertEquals(theirs.size, ours.size, "number of rounds")
             val differing = ours.indices.filter { !isSame(theirs[it], ours[it]) }
             val examples = differing.take(3).map { "round $it: expected ${theirs[it]}, found ${ours[it]}" }
             assertEquals(0, differing.size, "differing rounds of ${ours.size}: $examples")

@@ -46,7 +46,7 @@ internal object GeneratedSchemas {
             System.getProperty("collektive.flatc"), "--java", "--gen-object-api", "--gen-all", "--no-warnings",
             "--java-package-prefix", "objects", "-I", "${root.resolve("schema")}", "-o", "$objects", "$schema",
         )
-        assertEquals(0, flatc.inheritIO().start().waitFor(), "flatc")
+        assertEquals(0, flatc.inheritIO().start().waitFor(), "flatc must succeed")
         GeneratedCode.javac(listOf(objects), classes)
         val loader = URLClassLoader(arrayOf(classes.toUri().toURL()), javaClass.classLoader)
         return loader.loadClass(name).getConstructor().newInstance() as DataSchema

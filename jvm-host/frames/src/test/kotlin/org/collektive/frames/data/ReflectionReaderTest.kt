@@ -70,7 +70,7 @@ internal class ReflectionReaderTest {
                 refused++
             }
         }
-        assertTrue(refused in 5_000 until 20_000, "$refused refused")
+        assertTrue(refused in 5_000 until 20_000, "$refused schemas were rejected")
     }
 
     private fun damage(bytes: ByteArray) {
