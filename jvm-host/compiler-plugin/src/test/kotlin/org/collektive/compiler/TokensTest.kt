@@ -28,7 +28,7 @@ class TokensTest {
     @Test
     fun `each call has its own token`() {
         val places = tokens(compiled).flatten()
-        // Calls of first and twice in main, of first in the lambda, of neighboring in both overloads.
+        // The tokens belong to the calls of `first` and `twice` in main, of `first` in the lambda, and of `neighboring` in both overloads.
         assertEquals(7, places.toSet().size)
     }
 

@@ -3,7 +3,7 @@ package org.collektive.compiler
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** Every exit from an aligned region restores the stack. */
+/** Tests that every exit from an aligned region restores the stack. */
 class UnwindingTest {
     @Test
     fun `early return from an arm`() = assertLastPath("returned", "mark > evolve")

@@ -5,14 +5,14 @@ import org.junit.jupiter.api.DynamicTest.dynamicTest
 import org.junit.jupiter.api.TestFactory
 import kotlin.test.assertEquals
 
-/** Programs in all styles of Kotlin compute the expected results on every route. */
+/** Tests that programs in all styles of Kotlin compute the expected results on all kinds of devices. */
 class UsersProgramsTest {
     @TestFactory
     fun `user programs give the expected results`(): List<DynamicTest> = expected.map { (name, results) ->
         dynamicTest(name) {
             val program = compiled.program(name)
             for ((route, row) in rows()) {
-                // Loops clash on that route, which has no AlignmentStack.
+                // Loops clash on devices without AlignmentStack.
                 if (route == WITHOUT_STACK && name in LOOPS_OVER_FIELDS) continue
                 val last = List(ROUNDS) { row.round(program).values.toList() }.last()
                 assertEquals(results, last.toString(), route)
@@ -29,7 +29,7 @@ class UsersProgramsTest {
 
         val compiled = Compilation.of(source)
 
-        /** The results of the devices by program. */
+        /** The expected answers of the devices, by program. */
         val expected: Map<String, String> =
             Regex("// = (.*)\nfun Aggregate<Int>\\.(\\w+)\\(").findAll(source).associate { it.groupValues[2] to it.groupValues[1] }
     }

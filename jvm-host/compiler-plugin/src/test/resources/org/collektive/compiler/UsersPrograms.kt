@@ -1,4 +1,4 @@
-// Programs in the styles of users. The comment before each is what four devices in a row return in the twelfth round.
+// Programs in different styles of users. The comment before each shows the answers of four devices in a row in the twelfth round.
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.*
 import it.unibo.collektive.stdlib.spreading.*
