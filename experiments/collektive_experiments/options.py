@@ -7,17 +7,17 @@ import re
 def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive sweep."""
     where = _add_run_arguments(parser)
-    where.add_argument("--slurm", action="store_true", help="write an array job for the remaining runs, slurm.sh, instead of running them")
+    where.add_argument("--slurm", action="store_true", help="write slurm.sh, an array job for the remaining runs, instead of running them")
     parser.add_argument("--resume", action="store_true", help="continue a sweep that was stopped; complete runs are not repeated")
-    parser.add_argument("--csv", action="store_true", help="also write runs.csv and series.csv")
-    parser.add_argument("--dry-run", action="store_true", help="print the number of runs and their estimated time, after two trial runs")
+    parser.add_argument("--csv", action="store_true", help="also write the tables as CSV files")
+    parser.add_argument("--dry-run", action="store_true", help="make three trial runs, and print the number of runs and their estimated time")
     parser.add_argument("--keep-going", action="store_true", help="continue even if the first runs all fail in the same way")
 
 
 def add_tune_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive tune."""
     _add_run_arguments(parser)
-    parser.add_argument("--trials", type=_positive, metavar="N", help="total number of trials (default: that of the experiment file, or 50)")
+    parser.add_argument("--trials", type=_positive, metavar="N", help="total number of trials (default: the number in the experiment file, or 50)")
     parser.add_argument("--resume", action="store_true", help="continue a search; complete runs are not repeated")
 
 
@@ -38,14 +38,14 @@ def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive plot. The package checks their values, because experiment files can contain them, too."""
     parser.add_argument("folder", metavar="FOLDER", help="folder of a sweep")
     parser.add_argument("--metric", nargs="+", metavar="NAME", help="draw only one figure of each of these metrics")
-    parser.add_argument("--x", metavar="KEY", help="key of the horizontal axis, or time (the default of the kind line)")
+    parser.add_argument("--x", metavar="KEY", help="key of the horizontal axis, or time (default for the kind line: time)")
     parser.add_argument("--by", metavar="KEY", help="key shown by colours, markers and line styles, or by the vertical axis of a heat map")
     parser.add_argument("--kind", metavar="line|box|heat|ecdf", help="kind of figure (default: line)")
-    parser.add_argument("--log", metavar="x|y|xy", help="logarithmic axes")
+    parser.add_argument("--log", metavar="x|y|xy", help="axes with a logarithmic scale")
     # Without this pattern, argparse would read a range such as -1:1 as an unknown option.
     parser._negative_number_matcher = re.compile(r"-[0-9.]")
     parser.add_argument("--range", metavar="A:B", help="limits of the metric's axis")
-    parser.add_argument("--size", metavar="WxH", help="size in inches (default: the width of a column, 2.2 high)")
+    parser.add_argument("--size", metavar="WxH", help="width and height in inches (default: the width of a column, and a height of 2.2)")
     parser.add_argument("--style", metavar="plain|ieee|acm", help="fonts and axes (default: plain)")
     parser.add_argument("--experiment", metavar="EXPERIMENT.json", help="use the figures and labels of this file instead of those during the sweep")
 
