@@ -85,7 +85,7 @@ suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT PARALLEL SCRIPT faults/faults.py --results RESULTS/faults.xml)
-suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 4 --results RESULTS/exits.xml)
+suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 2 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED SCRIPT pages.py page RESULTS)
@@ -96,15 +96,15 @@ set(acceptance NEEDS setup:junit build:runtime build:sample_code build:jvm_modul
   PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
-suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick and not slow" -n 2)
+suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick and not slow" -n 3)
 suite(acceptance-slow acceptance LABELS extra ${acceptance} -m slow -n 2)
 
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
 set(experiments_tests build:runtime build:failing setup:experiments-tests setup:tune UNLOCKED
   SCRIPT experiments.py --junitxml RESULTS/pytest.xml)
-set(one_machine "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 2)
-suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} ${one_machine} -m "not slow")
-suite(experiments-slow experiments LABELS extra NEEDS ${experiments_tests} ${one_machine} -m slow)
+set(one_machine "${experiments}" "--ignore=${experiments}/test_cluster.py")
+suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} ${one_machine} -n 3 -m "not slow")
+suite(experiments-slow experiments LABELS extra NEEDS ${experiments_tests} ${one_machine} -n 2 -m slow)
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
 suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing UNLOCKED PARALLEL
   SCRIPT chaos/chaos.py 6 3 3 1 12 --results RESULTS/chaos.xml)

@@ -230,6 +230,7 @@ def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(proje
     await_no_worker(project)
 
 
+@pytest.mark.slow  # the suite chaos kills sweeps at random moments, too
 def test_a_sweep_killed_with_sigkill_resumes_to_the_same_table(project: Project) -> None:
     driver = project.start(**MANY)
     await_runs(project, 3)
@@ -264,6 +265,7 @@ def can_mount() -> bool:
     return subprocess.run(["unshare", "--mount", "mount", "-t", "tmpfs", "none", "/mnt"], capture_output=True).returncode == 0
 
 
+@pytest.mark.slow  # the suite chaos fills disks, too
 @pytest.mark.skipif(not can_mount(), reason="no small disk can be mounted here")
 def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lamps: Project) -> None:
     disk = project.folder / "disk"

@@ -78,6 +78,6 @@ class AllocationTest {
         const val NODES = 500
         const val WARM_UP = 500
         const val TICKS = 1000
-        const val RUNS = 20
+        const val RUNS = 5
     }
 }
