@@ -1,4 +1,4 @@
-"""Runs scenarios in processes of the player."""
+"""Runs scenarios in player processes."""
 import glob
 import json
 import os

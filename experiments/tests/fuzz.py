@@ -63,7 +63,7 @@ class Case:
             else:
                 self.root["set"][key] = values[0]
         if not self.root["zip"] and not {"deltaTime", "outputs.interval"} & set(keys) and chance.random() < 0.3:
-            # No run has the first interval with the second tick, which would be invalid together.
+            # Zipped, because the first interval would be invalid with the second tick.
             self.root["zip"] = {"deltaTime": [0.5, 1.5], "outputs.interval": [0.5, 1.5]}
         while self._count() > MAX_RUNS:
             key = chance.choice([key for key, values in self.root["vary"].items() if len(values) > 1])

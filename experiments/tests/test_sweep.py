@@ -362,7 +362,7 @@ def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
     for index in ("4", "-1"):
         unknown = subprocess.run([script], capture_output=True, text=True, env={**os.environ, "SLURM_ARRAY_TASK_ID": index})
         assert (unknown.returncode, f"the job has no task {index}" in unknown.stderr, "Traceback" in unknown.stderr) == (1, True, False), unknown.stderr
-    # The sweep itself executes the runs of tasks that did not run.
+    # With --resume, the sweep itself executes the runs of tasks that did not run.
     resumed = lamps.sweep("--resume", out="slurm", **keys)
     assert resumed.returncode == 0, resumed.stderr
     assert "3 of 4 runs are already complete" in resumed.stderr

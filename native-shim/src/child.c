@@ -182,7 +182,7 @@ int32_t child_start(const struct launch *launch, int64_t deadline, char *version
     if (result != CLK_OK) return result;
     if (!prim_thread_start(child_main, "collektive-jvm", STACK_BYTES)) {
         prim_semaphore_post(&child.ended);
-        return error_set(CLK_MEMORY, "cannot create a thread; free memory or raise the limit of threads");
+        return error_set(CLK_MEMORY, "cannot create a thread; free memory or raise the thread limit");
     }
     result = await_start(deadline);
     text_export(channel_text(), version, capacity);

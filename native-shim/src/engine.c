@@ -138,7 +138,7 @@ int32_t engine_begin(engine_work *work) {
     if (!engine.started) {
         engine.started = prim_thread_start(engine_main, "collektive", STACK_BYTES);
         if (!engine.started)
-            return error_set(CLK_MEMORY, "cannot create the JVM thread (16 MB stack); free memory or raise the limit of threads");
+            return error_set(CLK_MEMORY, "cannot create the JVM thread (16 MB stack); free memory or raise the thread limit");
     }
     engine.work = work;
     atomic_store(&engine.busy, true);

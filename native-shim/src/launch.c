@@ -81,7 +81,7 @@ static void check_archive(struct launch *launch) {
         log_format(CLK_LOG_WARNING, "no class archive is written, so the JVM starts more slowly: " PRIM_FOREIGN_TEXT, archive);
     } else if (prim_disk_free(archive) < ARCHIVE_BYTES) {
         log_format(CLK_LOG_WARNING,
-                   "no class archive is written, so the JVM starts more slowly: less than 32 MB of disk space are free for %s", archive);
+                   "no class archive is written, so the JVM starts more slowly: less than 32 MB of disk space is free for %s", archive);
     } else {
         return;
     }

@@ -95,7 +95,7 @@ int32_t options_check(const char *const options[], int32_t count) {
         bytes += length + 1;
         if (length > OPTION_BYTES || bytes > ALL_BYTES) {
             return error_set(CLK_JVM_OPTIONS, "the JVM option '%.40s...' is too long: %s; shorten the JVM options", options[i],
-                             length > OPTION_BYTES ? "one option has at most 8 KiB" : "all options together have at most 24 KiB");
+                             length > OPTION_BYTES ? "an option may have at most 8 KiB" : "all options together may have at most 24 KiB");
         }
         result = check_one(options[i]);
     }

@@ -72,7 +72,7 @@ void prim_lock(prim_mutex *mutex);
 void prim_unlock(prim_mutex *mutex);
 
 void prim_semaphore_init(prim_semaphore *semaphore, unsigned count);
-/* Sets a semaphore that this process shares with a child to 0. It must be in zeroed shared memory. Call it again only after the child has ended. */
+/* Initialises to 0 a semaphore in zeroed shared memory, which this process shares with a child. Call it again only after the child has ended. */
 void prim_semaphore_share(prim_semaphore *semaphore);
 void prim_semaphore_post(prim_semaphore *semaphore);
 bool prim_semaphore_try(prim_semaphore *semaphore);

@@ -83,7 +83,7 @@ CLK_API void JNICALL Java_org_collektive_host_Main_serve(JNIEnv *env, jclass cla
     serve.channel = (struct channel *)(void *)serve.memory;
     serve.blocks = calloc(PRIM_SHARED_BYTES / CHANNEL_ALIGNMENT, sizeof(struct block *)); /* pages that are not used need no memory */
     const char *problem = serve.memory == NULL || serve.blocks == NULL
-                              ? "cannot map the memory of the caller; free memory or raise the limit of threads"
+                              ? "cannot map the memory of the caller; free memory or raise the thread limit"
                           : serve.channel->version != CLK_VERSION || serve.channel->size != sizeof *serve.channel
                               ? "the caller has a shim of another version; reinstall the package"
                               : NULL;

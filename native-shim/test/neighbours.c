@@ -491,7 +491,7 @@ static void any_number_of_threads_has_equal_results(void) {
 
 static void an_update_stops_at_the_limit_of_links(void) {
     for (int32_t threads = 1; threads <= 2; threads++) {
-        struct swarm_of swarm = make_swarm(3000, 0, 1); /* all points are at one place, so all are neighbours */
+        struct swarm_of swarm = make_swarm(3000, 0, 1); /* all points coincide, so all are neighbours */
         CHECK(clk_neighbours_place(swarm.neighbours, swarm.points, swarm.count, 0) == 0);
         int32_t done = clk_neighbours_update(swarm.neighbours, swarm.searches, swarm.count, threads, 1000000);
         clk_pairs pairs;

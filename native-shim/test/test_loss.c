@@ -263,7 +263,7 @@ void stop_times_out(void) {
     start_with_session();
     CHECK_OK(step(session, HANG_AT_STOP, 0, 60000));
     CHECK_CODE(CLK_TIMEOUT, "did not end within 400 ms", clk_jvm_stop(400));
-    /* The hanging thread is halted, which sets the state. Under load, this may take long. CTest limits the wait. */
+    /* The state is set when the hanging thread is halted. Under load, this can take long. CTest limits the wait. */
     while (clk_jvm_state() != CLK_STATE_STOPPED) sleep_ms(10);
     check_threads_stand_still();
     CHECK_CODE(CLK_JVM_NOT_RUNNING, own_or("start it again", "only once"), step(session, EMPTY, 0, 60000));

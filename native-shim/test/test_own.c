@@ -8,9 +8,9 @@
 #include <windows.h>
 
 #include "prim.h"
-void own_without_resources(void) { skip("Windows has no resource limits as in POSIX"); }
-void own_without_processes(void) { skip("Windows has no resource limits as in POSIX"); }
-void own_out_of_memory(void) { skip("Windows has no resource limits as in POSIX"); }
+void own_without_resources(void) { skip("Windows has no POSIX resource limits"); }
+void own_without_processes(void) { skip("Windows has no POSIX resource limits"); }
+void own_out_of_memory(void) { skip("Windows has no POSIX resource limits"); }
 void own_needs_no_shared_memory_folder(void) { skip("the folder /dev/shm exists only on Linux"); }
 void own_continues_after_a_suspension(void) { skip("Windows has no signals to suspend a process"); }
 

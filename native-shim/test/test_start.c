@@ -162,7 +162,7 @@ void class_path_missing(void) {
 /* Only the UTF-8 code page contains both characters of the path. */
 void class_path_beyond_ascii(void) {
     char path[4096];
-    if (GetACP() == CP_UTF8) skip("the code page of this Windows is UTF-8, which can encode all characters");
+    if (GetACP() == CP_UTF8) skip("this system's code page is UTF-8, which can encode all characters");
     snprintf(path, sizeof path, "%s/\xC3\xA4\xE4\xB8\xAD", scratch_folder());
     wchar_t wide[4096];
     MultiByteToWideChar(CP_UTF8, 0, path, -1, wide, 4096);
@@ -272,7 +272,7 @@ void options_too_long(void) {
     static char option[1 << 20];
     memset(option, 'x', sizeof option - 1);
     memcpy(option, "-Dx=", 4);
-    CHECK_CODE(CLK_JVM_OPTIONS, "one option has at most 8 KiB", check(OPTIONS(option)));
+    CHECK_CODE(CLK_JVM_OPTIONS, "an option may have at most 8 KiB", check(OPTIONS(option)));
     option[8 << 10] = '\0';
     CHECK_OK(check_texts(OPTIONS(option)));
     CHECK_OK(check(OPTIONS(option, option)));

@@ -19,7 +19,7 @@ def option(name: str) -> Callable[..., Any]:
 
 
 def environment() -> Mapping[str, str]:
-    """Returns the environment variables with which the package runs."""
+    """Returns the environment variables for running the package."""
     return {**os.environ, "COLLEKTIVE_JAVA_HOME": str(find_jdk()), "COLLEKTIVE": str(COLLEKTIVE), "PYTHONPATH": str(EXPERIMENTS),
             "PYTHONDONTWRITEBYTECODE": "1"}
 

@@ -156,7 +156,7 @@ def unavailable_reason(name: str) -> str | None:
 
 
 def java_command(name: str) -> list[str]:
-    """Returns the command that runs the java of a platform's JRE on this machine."""
+    """Returns the command that runs a platform's `java` on this machine."""
     return [*emulator(name), str(BUILD / f"jre-{name}/bin/java") + (".exe" if name == "win-x64" else "")]
 
 

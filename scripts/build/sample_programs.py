@@ -1,6 +1,6 @@
 """Splits the jar with the programs of all samples into a library for each sample: `sample_programs.py OUT`.
 
-Each library OUT/NAME.clkprograms has the name of the sample's schema and contains the classes of the schema's namespace. Equal inputs give equal files.
+Each library OUT/NAME.clkprograms is named after the sample's schema and contains the classes in its namespace. The same input always gives the same bytes.
 """
 import hashlib
 import re
@@ -42,7 +42,7 @@ def library(schema: Path, jar: zipfile.ZipFile) -> dict[str, bytes]:
     names = [name for name in jar.namelist() if not name.endswith("/") and name.startswith(
         (package.replace(".", "/") + "/", f"META-INF/collektive/programs/{package}.", f"META-INF/collektive/{package}."))]
     marks = {"Manifest-Version": "1.0", "Collektive-Runtime": "builtIn", "Collektive-Version": version.product(), "Collektive-Sources": _hash(schema)}
-    # Lines of a jar's manifest may have at most 72 bytes.
+    # A line in a jar's manifest is limited to 72 bytes.
     lines = [re.sub(r"(?<=.{72})(?=.)", "\r\n ", f"{name}: {value}", count=1) for name, value in marks.items()]
     return {"META-INF/MANIFEST.MF": "\r\n".join([*lines, "", ""]).encode(), SERVICE: (service + "\n").encode(),
             **{name: jar.read(name) for name in sorted(names)}}

@@ -53,7 +53,7 @@ def texts(path: Path) -> Iterator[tuple[int, bool, str]]:
 
 
 def is_message(text: str) -> bool:
-    """Returns whether a text is a message, which has at least three words."""
+    """Returns whether a text counts as a message, that is, has at least three words."""
     return len(re.findall(r"(?<![\w/.{$-])[A-Za-z]{2,}(?![\w/{(=.-]\w)", text)) >= 3
 
 

@@ -6,7 +6,7 @@ const harper = pathToFileURL(`${process.env.COLLEKTIVE_NODE_MODULES}/harper.js/d
 const { Dialect, LocalLinter } = await import(`${harper}index.js`);
 const { slimBinaryInlined: binary } = await import(`${harper}slimBinaryInlined.js`);
 
-// The linter's other kinds of errors are matters of taste, or false reports about names and units.
+// The linter's other kinds of errors are matters of taste or false positives on names and units.
 const KINDS = new Set(["Agreement", "BoundaryError", "Eggcorn", "Grammar", "Malapropism", "Nonstandard", "Redundancy", "Repetition", "Usage"]);
 
 const linter = new LocalLinter({ binary, dialect: Dialect.British });

@@ -5,7 +5,7 @@ from build import graph
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("targets", nargs="*", default=["runtime"], metavar="TARGET", help="targets (default: runtime, everything that a scene needs)")
+    parser.add_argument("targets", nargs="*", default=["runtime"], metavar="TARGET", help="targets (default: runtime, which is everything a scene needs)")
 
 
 def run(arguments: argparse.Namespace) -> int:

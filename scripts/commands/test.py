@@ -47,7 +47,7 @@ LONG_RUNS = {
     "exits": LongRun("faults/exits.py", ("runtime", "csharp_tests"), ("200",), "end 200 runs in different ways: scene change, quit, Ctrl-C, "
                      "unhandled exceptions"),
     "chaos": LongRun("chaos/chaos.py", ("runtime", "replay_page", "failing"), ("200", "20", "50", "5", "500", "--seed"), "disturb 780 runs: kill, "
-                     "signals, full and read-only disks, clock changes, little memory, one failing system call; checks that no run is falsely "
+                     "signals, full and read-only disks, clock changes, low memory, a failing system call; checks that no run is falsely "
                      "complete, no process is left and no earlier result is lost"),
     "soak": LongRun("soak.py", ("runtime", "csharp_tests"), (), "run a scene that adds and removes nodes; memory, threads and descriptors must not grow "
                     "after the first minute"),

@@ -30,7 +30,7 @@ class Record:
     def limit(self) -> bool:
         """Deletes the content of the record if it is too large. Returns whether this is the first deletion."""
         with contextlib.suppress(FileNotFoundError):
-            # Compares blocks, because after a deletion the file begins with a hole, which counts for its size but not for its blocks.
+            # Compares blocks, because after a deletion the file begins with a hole, which adds to its size but occupies no blocks.
             if 512 * self._path.stat().st_blocks > self._maximum:
                 os.truncate(self._path, 0)
                 was_deleted, self._is_deleted = self._is_deleted, True
@@ -69,5 +69,5 @@ class Record:
                     if at <= size and kind in (b"DONE", b"FAIL"):
                         end = at
         if end == 0:
-            raise Failure("the run has no finished tick yet")
+            raise Failure("the run has not finished a tick yet")
         return end

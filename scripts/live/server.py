@@ -128,7 +128,7 @@ class Live:
             await self.start()
         except Failure as failure:
             # The player has already printed the error of an invalid scenario, and the compilers have printed their errors.
-            reason = str(failure) or f"the {'scenario is invalid' if self.plan is plan else 'sources are not compiled'}; the reason is in the terminal"
+            reason = str(failure) or f"the {'scenario is invalid' if self.plan is plan else 'sources do not compile'}; the reason is in the terminal"
             stopped = {"event": "stopped", "message": reason}
         if self.plan is plan:
             self.scenario, self.seed, self.values, self.trust = before
@@ -207,9 +207,9 @@ class Live:
             sending.cancel()
             with contextlib.suppress(asyncio.CancelledError, ConnectionClosed):
                 await sending
-            controlled = self.pages[0] is page
+            was_controller = self.pages[0] is page
             self.pages.remove(page)
-            if controlled and self.pages:
+            if was_controller and self.pages:
                 self.send_welcome(self.pages[0])
 
     def send_welcome(self, page: Page) -> None:
@@ -309,7 +309,7 @@ class Live:
         """Copies the record of the run so far, and returns a message about it."""
         file = self.beside_scenario(name, ".clkrec")
         if file is None:
-            return "enter the name of a .clkrec file, which is written beside the scenario"
+            return "enter a file name that ends in .clkrec; the file is saved beside the scenario"
         try:
             await asyncio.to_thread(self.record.save, file)
         except FileExistsError:
@@ -324,7 +324,7 @@ class Live:
         """Writes a scenario with the current values, and returns a message about it."""
         file = self.beside_scenario(name, ".json")
         if file is None:
-            return "enter the name of a .json file, which is written beside the scenario"
+            return "enter a file name that ends in .json; the file is saved beside the scenario"
         values = json.loads(Path(self.scenario).read_text(encoding="utf-8"))
         if self.seed is not None:
             values["seed"] = int(self.seed)

@@ -20,7 +20,7 @@ def read(folder: Path, failure: str) -> list[junit.Case]:
         except ValueError as error:
             broken.append(junit.Case(path.name, str(error)))
     if not broken and not cases and (failure or not notes(folder)):
-        broken.append(junit.Case("results", f"the suite wrote no results: {failure or 'it passed'}"))
+        broken.append(junit.Case("results", f"the suite wrote no results: {failure or 'its command succeeded'}"))
     if not broken and failure and not any(case.failure for case in cases):
         broken.append(junit.Case("end", f"the suite failed although no test did: {failure}"))
     return cases + broken

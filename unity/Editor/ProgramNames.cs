@@ -79,7 +79,7 @@ namespace Collektive.Unity.Editor
                 {
                     if (node.OwnProgram != null || node.Program.Length == 0 || TryReplace(node, settings.FindProgram(node.Program))) continue;
                     if (unknown.Add(node.Program))
-                        Debug.LogWarning("node '" + node.name + "' names program '" + node.Program + "', which is in no library of the Simulation Manager: "
+                        Debug.LogWarning("node '" + node.name + "' names program '" + node.Program + "', which no library of the Simulation Manager contains: "
                             + "add the library, and select the program in the node", node);
                 }
             }

@@ -211,7 +211,7 @@ PAGES: dict[str, Callable[[], str]] = {
     "csharp-bridge": csharp("Collektive.Bridge"),
     "kotlin-api": kotlin("api", "The annotation, device and parameters of programs.", "org/collektive/api"),
     "kotlin-dsl": kotlin("dsl", "Collektive's DSL: primitives, fields, and the API for hosts of programs."),
-    "kotlin-stdlib": kotlin("stdlib", "Collektive's standard library and the properties of links, without the lifted operators of Kotlin's library."),
+    "kotlin-stdlib": kotlin("stdlib", "Collektive's standard library and the link properties, without the operators lifted from Kotlin's library."),
     "kotlin-testing": kotlin("testing", "For tests of programs: `Tools~/collektive-testing.jar`."),
     "c-header": c_header,
 }

@@ -31,14 +31,14 @@ def problems(assets: Assets, classes: Iterable[str], guids_file: str = GUIDS_FIL
     present = referable(assets, classes)
     for guid, path in sorted(listed.items(), key=lambda entry: entry[1]):
         if guid not in present:
-            yield f"{path}: its GUID {guid} is missing, which breaks users' scenes; restore it in the meta of the asset, even if the asset was renamed"
+            yield f"{path}: its GUID {guid} is missing, which breaks users' scenes; restore it in the asset's .meta file, even if the asset was renamed"
     for guid, path in sorted(present.items(), key=lambda entry: entry[1]):
         if listed.get(guid) != path:
             yield f"{path}: not in {os.path.basename(guids_file)} with GUID {guid}; run scripts/checks/validate.py --update"
 
 
 def update(assets: Assets, classes: Iterable[str], guids_file: str = GUIDS_FILE) -> None:
-    """Adds new and renamed assets to the file. Keeps the entries of missing assets, which remain errors."""
+    """Adds new and renamed assets to the file. Keeps the entries of missing assets, so these are still reported."""
     listed = {**read(guids_file), **referable(assets, classes)}
     with open(guids_file, "w") as file:
         for guid, path in sorted(listed.items(), key=lambda entry: entry[1]):

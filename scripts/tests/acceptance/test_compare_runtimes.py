@@ -51,7 +51,7 @@ class Compared(Folder):
 
     def test_a_difference_is_reduced_to_the_smallest_network_and_shortest_run(self) -> None:
         if os.environ.get("COLLEKTIVE_JARS"):
-            pytest.skip("the classes are those of this project")
+            pytest.skip("the test expects this project's classes, not those of Collektive's jars")
         result = self.compare(DIFFERENT)
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
         first, *ticks, last = result.stdout.splitlines()

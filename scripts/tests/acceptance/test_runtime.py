@@ -167,7 +167,7 @@ class Runtimes(Project):
 
         # A jar that another tool has compiled does not name its runtime.
         repack(marked, self.path("project", "programs.jar"), lambda name: name != "META-INF/MANIFEST.MF")
-        self.refused("references it.unibo.collektive.stdlib.", "which is missing in the Collektive runtime", "one of its jars is missing or of another version")
+        self.refused("references it.unibo.collektive.stdlib.", "which is missing in the Collektive runtime", "its jars is missing or has the wrong version")
 
         repack(LIBRARY, self.jar("stdlib"), lambda name: name.startswith(STDLIB))
         repack(LIBRARY, self.jar("dsl"), lambda name: not name.startswith(STDLIB), lambda name, data: data.replace(b"getNewState", b"getNewStage"))

@@ -34,7 +34,7 @@ def test_a_run_without_a_finished_tick_has_no_record(content: bytes | None, tmp_
     source = tmp_path / "run.clkrec"
     if content is not None:
         source.write_bytes(content)
-    with pytest.raises(Failure, match="the run has no finished tick yet"):
+    with pytest.raises(Failure, match="the run has not finished a tick yet"):
         Record(source).save(tmp_path / "saved.clkrec")
     assert not (tmp_path / "saved.clkrec").exists()
 

@@ -3,7 +3,7 @@ using System.IO;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The Gradle build with which IDEs complete and check the Kotlin of a project. Unity does not use it.</summary>
+    /// <summary>The Gradle build that IDEs use to complete and check a project's Kotlin code. Unity does not use it.</summary>
     internal static class GradleBuild
     {
         /// <summary>Folder in the project: Unity would import Gradle's outputs below <c>Assets</c>.</summary>

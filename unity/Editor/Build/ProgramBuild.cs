@@ -51,7 +51,7 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>Starts the builds of outdated jars after files or the editor's code changed.</summary>
-        /// <param name="changed">The changed files, by their paths from the project's folder.</param>
+        /// <param name="changed">Paths of the changed files, relative to the project's folder.</param>
         internal static void StartOutdated(IReadOnlyCollection<string> changed)
         {
             var interrupted = current == null ? SessionState.GetString(CurrentKey, "") : "";

@@ -20,7 +20,7 @@ namespace Collektive.Unity.Editor
 
         internal SimulationSettings Settings { get; }
 
-        /// <summary>Whether its JVM is the package's rather than one installed on the machine.</summary>
+        /// <summary>Whether the simulation uses the package's JVM rather than one installed on the machine.</summary>
         internal bool NeedsJvm
         {
             get

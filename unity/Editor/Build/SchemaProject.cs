@@ -20,7 +20,7 @@ namespace Collektive.Unity.Editor
             Runtime = new ProgramRuntime(user ?? (simulations.Count > 0 ? simulations[0] : new SimulationSettings()));
         }
 
-        /// <summary>The runtime for which its programs are compiled: that of a simulation that uses them, otherwise that of any simulation.</summary>
+        /// <summary>The runtime for which the programs are compiled. It comes from a simulation that uses them, otherwise from the first simulation.</summary>
         internal ProgramRuntime Runtime { get; }
 
         /// <summary>Whether one of the simulations runs its programs.</summary>

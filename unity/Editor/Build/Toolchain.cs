@@ -86,7 +86,7 @@ namespace Collektive.Unity.Editor
 
         /// <summary>Returns the root of the Kotlin compiler: from the settings, <c>KOTLIN_HOME</c> or <c>PATH</c>.</summary>
         /// <param name="runtime">With Collektive, any version is accepted, because its plugin determines it.</param>
-        /// <exception cref="ToolException">Not found, or of another version.</exception>
+        /// <exception cref="ToolException">The compiler was not found, or has an unsupported version.</exception>
         internal static string FindKotlin(AggregateRuntime runtime)
         {
             var candidates = new List<string> { PersonalSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };

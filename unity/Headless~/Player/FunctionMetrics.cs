@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The metrics of a scenario that are functions of its programs. They have values only after ticks that were prepared to measure them.</summary>
+    /// <summary>The metrics of a scenario that are functions of its programs. They have values only after ticks in which they were measured.</summary>
     internal sealed class FunctionMetrics
     {
         private readonly List<string> names = new List<string>();

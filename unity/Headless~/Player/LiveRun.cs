@@ -128,7 +128,7 @@ namespace Collektive.Headless
             }
             catch (Exception error)
             {
-                // For example, the scene may not expect that the user removes nodes.
+                // For example, the scene may not expect the user to remove nodes.
                 hasMetricsFailed = true;
                 newMetrics = null;
                 Notify("the metrics of the scene failed and are no longer measured: " + error.Message);

@@ -113,8 +113,8 @@ namespace Collektive.Headless
             foreach (var mover in movers)
             {
                 var place = mover.Key.position;
-                var turn = mover.Key.rotation;
-                mover.Value.Add(place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
+                var rotation = mover.Key.rotation;
+                mover.Value.Add(place.x, place.y, place.z, rotation.x, rotation.y, rotation.z, rotation.w);
             }
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {

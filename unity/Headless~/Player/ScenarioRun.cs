@@ -45,7 +45,7 @@ namespace Collektive.Headless
                 && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
             {
                 throw new ScenarioException(scenario.Path
-                    + ": a run is repeated without changes: omit --seed, --seconds and --set, or run its scenario");
+                    + ": a run can only be repeated without changes; omit --seed, --seconds and --set, or run its scenario");
             }
             scenario.Override(options.Seed, options.Seconds);
         }

@@ -43,10 +43,10 @@ namespace Collektive.Headless
         /// <summary>Unit of a number, or null.</summary>
         public string Unit { get; set; }
 
-        /// <summary>Number at the lower end of the colours, or null for the smallest in the recording.</summary>
+        /// <summary>Value at the lower end of the colour scale, or null for the minimum in the recording.</summary>
         public float? Min { get; set; }
 
-        /// <summary>Number at the upper end of the colours, or null for the largest in the recording.</summary>
+        /// <summary>Value at the upper end of the colour scale, or null for the maximum in the recording.</summary>
         public float? Max { get; set; }
 
         /// <summary>Names of the categories 0, 1, ... Other categories are shown as numbers.</summary>

@@ -27,7 +27,7 @@ namespace Collektive.Headless
         /// <summary>By axis and slot.</summary>
         internal int[][] Positions { get; } = { new int[0], new int[0], new int[0] };
 
-        /// <summary>By field and slot, after <see cref="Quantise"/>: 0 without a value, otherwise as in FORMAT.md.</summary>
+        /// <summary>Values by field and slot, set by <see cref="Quantise"/>: 0 if the value is missing, otherwise coded as in FORMAT.md.</summary>
         internal int[][] Steps { get; }
 
         /// <summary>Number of links in the frame, each direction counted.</summary>

@@ -14,7 +14,7 @@ namespace Collektive.Headless
         private readonly ReplayField[] fields;
         private readonly double[] scales;
         private readonly float[] least;
-        // By column: x, y, z, then the fields.
+        // Indexed by column (x, y and z, followed by the fields) and slot.
         private readonly int[][] last;
         private readonly int[][] motion;
         private bool[] seen = new bool[0];

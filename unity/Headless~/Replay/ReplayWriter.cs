@@ -13,7 +13,7 @@ namespace Collektive.Headless
     /// Writes a run as a replay page in the format of FORMAT.md. For each frame, call <see cref="BeginFrame"/>, add each node and then each link
     /// between them, and call <see cref="EndFrame"/>. Call <see cref="Finish"/> at the end. Every <see cref="FramesPerSegment"/> frames are written to
     /// a scratch file, and slots of departed nodes are reused. Memory therefore grows by eight bytes per frame. Within a segment, frames do not
-    /// allocate unless they have more nodes or links than any earlier frame. One thread at a time. After an exception, dispose of the writer: the
+    /// allocate unless they have more nodes or links than any earlier frame. Not thread-safe. After an exception, dispose of the writer: the
     /// recording is unusable.
     /// </summary>
     public sealed class ReplayWriter : IDisposable

@@ -68,18 +68,18 @@ namespace Collektive.Standard
                 }
                 if (!hasTarget) target = area.Uniform(node.Random) ?? transform.position;
                 hasTarget = true;
-                var way = target - transform.position;
+                var offset = target - transform.position;
                 var reach = movement.speed * seconds;
-                if (reach < way.magnitude)
+                if (reach < offset.magnitude)
                 {
-                    transform.position += reach / way.magnitude * way;
+                    transform.position += reach / offset.magnitude * offset;
                     return;
                 }
-                seconds -= way.magnitude / movement.speed;
+                seconds -= offset.magnitude / movement.speed;
                 transform.position = target;
                 hasTarget = false;
                 remainingPause = movement.pause;
-                if (way.magnitude == 0 && remainingPause == 0) return;
+                if (offset.magnitude == 0 && remainingPause == 0) return;
             }
         }
 

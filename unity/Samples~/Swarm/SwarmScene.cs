@@ -60,7 +60,7 @@ namespace CollektiveSamples.Swarm
         };
 
         /// <summary>
-        /// Writes three values: the number of drones within a metre of their places on the shape; the number of shapes that drones form now; and the smallest
+        /// Writes three values: the number of drones within a metre of their places on the shape; the number of shapes that drones now form; and the smallest
         /// distance in metres between the centres of two drones at the beginning of the tick, at most 2.5.
         /// </summary>
         public override void Measure(double[] values)

@@ -5,7 +5,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor.Tests
 {
-    /// <summary>Tests a sample's library that this editor has imported. Scenes of samples contain the ids of its objects.</summary>
+    /// <summary>Tests a sample's program library that this editor imports. The samples' scenes refer to its objects by id.</summary>
     public sealed class ProgramLibraryTests
     {
         private const string Sample = "Packages/org.collektive.unity/Samples~/LeaderElection/leader_election.clkprograms";

@@ -137,7 +137,7 @@ export class Video {
     if (this.canvas.width === width && this.canvas.height === element('canvas').height) compose(this.canvas, this.legend);
   }
 
-  /** Ends the video and returns a promise of its file. */
+  /** Ends the video and returns a promise that resolves to its file. */
   stop() {
     if (this.recorder.state !== 'inactive') this.recorder.stop();
     return this.done;

@@ -8,7 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
-    /// <summary>Tests that users can select programs in inspectors or drop them there, and that parameters have fields of their types.</summary>
+    /// <summary>Tests that users can select programs in inspectors or drop them there, and that each parameter has a field of its type.</summary>
     [Category("Mono")]
     public sealed class ProgramDrawerTests : ProjectFixture
     {

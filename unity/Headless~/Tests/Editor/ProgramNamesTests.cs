@@ -110,7 +110,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Settings.program, Is.EqualTo("hop"));
             Assert.That(Settings.libraries, Has.Count.EqualTo(1));
             Logged("Warning: 'Manager' names program 'hop', which none of its libraries contains: select another one");
-            Assert.That(Log.FindAll(line => line.Contains("names program 'flok', which is in no library")), Has.Count.EqualTo(1));
+            Assert.That(Log.FindAll(line => line.Contains("names program 'flok', which no library")), Has.Count.EqualTo(1));
         }
 
         [Test]

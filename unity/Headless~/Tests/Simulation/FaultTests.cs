@@ -43,7 +43,7 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [TestCase(13, "thirteen", "root", "Probe.kt:")]
-        [TestCase(21, "two primitives ran at one path", "clash > share", "Probe.kt:")]
+        [TestCase(21, "two primitives ran at the same path", "clash > share", "Probe.kt:")]
         [TestCase(22, "infinite recursion", "deeper > else > deeper > else", "more)")]
         [TestCase(23, "cannot be combined: one has values for", "misaligned", "Probe.kt:")]
         [TestCase(24, "a float[] cannot be a pivot", "alignedOn", "Probe.kt:")]

@@ -102,11 +102,11 @@ namespace Collektive.Headless.Tests.Simulation
             private readonly Vector3[] points;
             private readonly int[] others;
 
-            internal Yardstick(int count, int othersOfEach)
+            internal Yardstick(int count, int neighboursPerPoint)
             {
                 var random = new RandomStream(1, 0, RandomPurpose.Scene);
                 points = new Vector3[count];
-                others = new int[count * othersOfEach];
+                others = new int[count * neighboursPerPoint];
                 for (var i = 0; i < count; i++) points[i] = new Vector3(random.Range(0f, Side), 0, random.Range(0f, Side));
                 for (var i = 0; i < others.Length; i++) others[i] = random.Range(0, count);
             }

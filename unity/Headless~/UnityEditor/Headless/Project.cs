@@ -41,7 +41,7 @@ namespace UnityEditor.Headless
 
         internal static void RecordUndo(System.Action back) => UndoSteps.Push((UnityEngine.Event.current, back));
 
-        /// The user's answer to a dialog, by its message.
+        /// Returns the user's answer to a dialog with a given message.
         public static System.Func<string, bool> Answer { get; set; }
 
         /// Whether the user clicks Cancel in a progress bar.

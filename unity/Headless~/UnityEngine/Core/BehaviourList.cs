@@ -3,20 +3,20 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Scripts ordered by execution order and enabling. A script enabled during a pass joins the next one. A disabled script drops out immediately.
+    /// Scripts ordered by execution order, then by enabling time. A script enabled during a pass joins the next one. A disabled script drops out immediately.
     sealed class BehaviourList
     {
         readonly struct Entry
         {
             public readonly MonoBehaviour Script;
             readonly int enabling;
-            readonly int place;
+            readonly int rank;
 
             public Entry(MonoBehaviour script)
             {
                 Script = script;
                 enabling = script.enabling;
-                place = Orders.IsPermuted ? Orders.Next() : enabling;
+                rank = Orders.IsPermuted ? Orders.Next() : enabling;
             }
 
             public bool IsCurrent => Script.enabling == enabling;
@@ -24,7 +24,7 @@ namespace UnityEngine
             public static int Compare(Entry a, Entry b)
             {
                 var byOrder = a.Script.messages.Order.CompareTo(b.Script.messages.Order);
-                return byOrder != 0 ? byOrder : a.place.CompareTo(b.place);
+                return byOrder != 0 ? byOrder : a.rank.CompareTo(b.rank);
             }
         }
 

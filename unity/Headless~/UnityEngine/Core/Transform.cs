@@ -18,7 +18,7 @@ namespace UnityEngine
         internal readonly List<Transform> children = new List<Transform>();
         internal Transform parentOrNull;
 
-        /// Whether it is in the list of transforms that changed since the last sync of physics.
+        /// Whether this transform is in the list of transforms that changed since the last physics sync.
         internal bool awaitsSync;
 
         Vector3 placed = Vector3.zero;
@@ -63,7 +63,7 @@ namespace UnityEngine
 
         unsafe ref Physx.Motion Motion => ref PhysicsWorld.Motions[body];
 
-        /// Whether a step has moved the body since.
+        /// Whether a physics step has moved the body since its pose was last copied.
         bool IsBehind
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]

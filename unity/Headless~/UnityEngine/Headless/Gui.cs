@@ -25,7 +25,7 @@ namespace UnityEngine.Headless
         /// Clears the recorded lines and actions.
         public static void Clear() => Drawn.Clear();
 
-        /// Draws as the editor does: a pass for the layout, and one for `input`, by default a repaint or the actions of `Act`. `between` runs between the two.
+        /// Draws like the editor, with a layout pass and a pass for `input` (by default, a repaint or the actions of `Act`). `between` runs between them.
         /// Controls that differ from the layout are an error, unless a control has used the event.
         public static void Passes(Action draw, Action between = null, Event input = null)
         {

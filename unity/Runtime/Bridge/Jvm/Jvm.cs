@@ -66,7 +66,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Checks the same as <see cref="Start"/>: the files, refused options and, in a child process (50 to 200 ms), whether the JVM accepts the options.
+        /// Runs the checks of <see cref="Start"/>: the files, refused options and, in a child process (50 to 200 ms), whether the JVM accepts the options.
         /// Accepted options are not tried again at the start.
         /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>

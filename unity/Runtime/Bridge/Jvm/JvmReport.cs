@@ -5,7 +5,7 @@ namespace Collektive.Bridge
 {
     /// <summary>
     /// The values in effect and the errors of JVM settings, and whether a restart is needed, for inspectors.
-    /// Replaced when the settings change; the check of the options takes 50 to 200 ms.
+    /// A new report is created when the settings change. Checking the options takes 50 to 200 ms.
     /// </summary>
     internal sealed class JvmReport
     {

@@ -105,7 +105,7 @@ namespace Collektive.Bridge
         /// <summary>Smallest number, apart from <see cref="Otherwise"/>.</summary>
         internal int Minimum { get; }
 
-        /// <summary>Largest number; 0 for settings that are not numbers.</summary>
+        /// <summary>Maximum value; 0 for settings that are not numeric.</summary>
         internal int Maximum { get; }
 
         /// <summary>The number that selects the JVM's default.</summary>

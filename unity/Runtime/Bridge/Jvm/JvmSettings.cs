@@ -44,7 +44,7 @@ namespace Collektive.Bridge
         Shenandoah,
     }
 
-    /// <summary>The compilation of programs to machine code.</summary>
+    /// <summary>The way in which the JVM compiles programs to machine code.</summary>
     public enum JvmCompiler
     {
         /// <summary>Compiles quickly first, then optimises frequently executed code.</summary>
@@ -56,7 +56,7 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// The settings of the JVM. Read when the JVM starts: with <see cref="JvmPlacement.InProcess"/> once per process. <see cref="JvmSetting.All"/> describes
+    /// The settings of the JVM. Read when the JVM starts: once per process with <see cref="JvmPlacement.InProcess"/>. <see cref="JvmSetting.All"/> describes
     /// each field; scenario files use the field names as keys.
     /// </summary>
     [Serializable]
@@ -212,7 +212,7 @@ namespace Collektive.Bridge
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
-                return "the JVM starts slower, without its class archive: the folder '" + cacheFolder + "' cannot be created (" + error.Message + ")";
+                return "the JVM starts more slowly, without its class archive: the folder '" + cacheFolder + "' cannot be created (" + error.Message + ")";
             }
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + file);

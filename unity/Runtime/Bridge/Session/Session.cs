@@ -63,7 +63,7 @@ namespace Collektive.Bridge
             return session;
         }
 
-        /// <summary>As <see cref="Open"/>, but while a debugger is attached, the session may be open only after <see cref="TryFinish"/>.</summary>
+        /// <summary>Like <see cref="Open"/>, but if a debugger is attached, the session may not be open until <see cref="TryFinish"/> returns true.</summary>
         public static Session BeginOpen(SessionSettings settings, DataSchema schema)
         {
             var session = new Session(settings, schema);
@@ -81,7 +81,7 @@ namespace Collektive.Bridge
 
         /// <summary>
         /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with <see cref="Request"/>, and clears
-        /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is as before the call.
+        /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is unchanged.
         /// </summary>
         /// <returns>Whether the tick has ended. Otherwise a debugger is attached to the JVM: <see cref="TryFinish"/> ends the tick.</returns>
         /// <exception cref="BridgeException">The step failed; see <see cref="BridgeException.Error"/>.</exception>

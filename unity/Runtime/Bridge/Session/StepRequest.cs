@@ -60,7 +60,7 @@ namespace Collektive.Bridge
             nodesAdded.Add(new NewNode(id, program, parameters));
         }
 
-        /// <summary>Replaces the parameters of a node that stays; its program is the one of <see cref="AddNode"/>.</summary>
+        /// <summary>Replaces the parameters of an existing node. The program must be the one passed to <see cref="AddNode"/>.</summary>
         public void ChangeNode(int id, string program, IReadOnlyList<KeyValuePair<string, string>> parameters)
         {
             nodesChanged.Add(new NewNode(id, program, parameters));
@@ -84,7 +84,7 @@ namespace Collektive.Bridge
             LinksRemoved.Add(link);
         }
 
-        /// <summary>Replaces the programs of all nodes by those in the jars at the paths <paramref name="jars"/>, before the next step.</summary>
+        /// <summary>Replaces the programs of all nodes with those in the jars at the paths <paramref name="jars"/>, before the next step.</summary>
         public void Reload(IReadOnlyList<string> jars)
         {
             reloadedJars = jars;

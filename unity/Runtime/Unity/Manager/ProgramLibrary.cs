@@ -15,7 +15,7 @@ namespace Collektive.Unity
         internal const string Extension = "clkprograms";
 
         [SerializeField]
-        [Tooltip("Identifies the file in players.")]
+        [Tooltip("GUID that identifies this file in players.")]
         private string guid = "";
 
         [SerializeField]

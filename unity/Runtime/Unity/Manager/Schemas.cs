@@ -21,7 +21,7 @@ namespace Collektive.Unity
                 problem + "; available: " + names + ". Select one in the Simulation Manager, or generate its code (Tools > Collektive > Generate Schema Code)");
         }
 
-        /// <summary>The same as <see cref="Find"/>, or null instead of an exception.</summary>
+        /// <summary>Like <see cref="Find"/>, but returns null instead of throwing an exception.</summary>
         internal static DataSchema TryFind(string name) => Choose(FindAll(), name);
 
         private static DataSchema Choose(List<DataSchema> all, string name) =>

@@ -10,7 +10,7 @@ namespace Collektive.Unity
     /// While paused, it runs no ticks. Call all members from the main thread.
     ///
     /// One manager serves all loaded scenes; a second one, for instance in an additive scene, disables itself with an error. Nodes of all loaded scenes take
-    /// part: nodes of a scene that is loaded later join, those of an unloaded scene leave. The simulation ends with the manager's own scene; remaining nodes
+    /// part. When a scene is loaded later, its nodes join; when it is unloaded, they leave. The simulation ends with the manager's own scene; remaining nodes
     /// wait for the next manager and start afresh.
     /// </summary>
     [AddComponentMenu("Collektive/Simulation Manager")]

@@ -197,7 +197,7 @@ namespace Collektive.Unity
             return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
         }
 
-        /// <summary>Returns the error of a node's program, or null. By name alone, the session could run a program of another library.</summary>
+        /// <summary>Returns the error of a node's program, or null. The name is not enough: another library may have a program of that name.</summary>
         internal string FindProblem(Node node)
         {
             var library = jars.Count > 0 || node.OwnProgram == null ? null : node.OwnProgram.Library;

@@ -82,8 +82,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Returns the nearest nodes, including the node itself, at most <paramref name="count"/>: the nearest first, at equal distances by id. Valid until the
-        /// next search. It is fastest if a radius of <paramref name="guess"/> metres contains a few more nodes than that; 0 for no guess.
+        /// Returns at most <paramref name="count"/> nearest nodes, including the node itself, sorted by distance and then by id. The result is valid until the
+        /// next search. The search is fastest if a radius of <paramref name="guess"/> metres contains a few more nodes than that; 0 for no guess.
         /// </summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindNearest(int count, float guess = 0)

@@ -74,13 +74,13 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Adds the search of a rule that <see cref="IsSearch"/>. The node is at index <paramref name="place"/> of the grid.</summary>
-        internal void AddSearch(TickContext tick, int place)
+        /// <summary>Adds the search of a rule that <see cref="IsSearch"/>. The node is at index <paramref name="nodeIndex"/> of the grid.</summary>
+        internal void AddSearch(TickContext tick, int nodeIndex)
         {
             ref var search = ref tick.Neighbours.Searches.Add();
             search = default;
             search.Rule = NumberIn(tick.Links);
-            search.Centre = place;
+            search.Centre = nodeIndex;
             search.Tolerance = lengthTolerance;
             search.BothWays = directed ? 0 : 1;
             FindNeighbours(tick.Neighbours);

@@ -44,7 +44,7 @@ namespace Collektive.Unity
             MemoryMarshal.Cast<NearPoint, NearNode>(search.Within(centre.x, centre.y, centre.z, radius));
 
         /// <summary>
-        /// The nodes nearest to a point, at most <paramref name="limit"/>, by distance and at equal distances by id; valid until the next search. It is fastest
+        /// Returns at most <paramref name="limit"/> nodes nearest to a point, sorted by distance and then by id; valid until the next search. It is fastest
         /// if a radius of <paramref name="guess"/> metres contains a few more nodes than that; 0 for no guess.
         /// </summary>
         internal Span<NearNode> FindNearest(Vector3 centre, int limit, float guess) =>

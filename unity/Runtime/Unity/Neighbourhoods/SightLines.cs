@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// The lines between pairs of nodes in one tick, with the number of obstacles of some layers on each. Lines are cast in batches before the
-    /// rules are called; those of new rules, and those with more hits than a batch keeps, one by one.
+    /// The lines between pairs of nodes in one tick, with the number of obstacles in some layers on each. Lines are cast in batches before the
+    /// rules are called. Lines of new rules, and lines with more hits than a batch can store, are cast one by one.
     /// </summary>
     internal sealed class SightLines : IDisposable
     {

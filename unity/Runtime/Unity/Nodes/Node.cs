@@ -124,9 +124,9 @@ namespace Collektive.Unity
         public float AnswerInterval { get; private set; }
 
         /// <summary>
-        /// Returns the program's last answer in the type of actuators. It is kept until the next one: while the node is not due, sleeps, or its rounds fail.
+        /// Returns the program's last answer in the type of actuators. It is kept until the next answer, even if the node is not due, sleeps or fails.
         /// <see cref="AnswerTick"/> and <see cref="AnswerTime"/> give its age. While the actuators of a tick run, nodes that come later
-        /// still have their previous answer. Data of a table is a view of the bridge's memory, valid until the next tick: then get it again.
+        /// still have their previous answer. A table is a view of the bridge's memory and is valid only until the next tick.
         /// </summary>
         /// <returns>False if the node has no answer since it joined, or if the schema has another type.</returns>
         public bool TryGetAnswer<TData>(out TData data)
@@ -141,7 +141,7 @@ namespace Collektive.Unity
         /// <summary>The last error of this node's round, sensors or actuators; empty before the first.</summary>
         public string LastError { get; internal set; } = "";
 
-        /// <summary>The same as <see cref="TryGetAnswer{TData}"/>, boxed, for tools without the schema's types; null without an answer.</summary>
+        /// <summary>The boxed answer of <see cref="TryGetAnswer{TData}"/>, for tools that do not know the schema's types; null without an answer.</summary>
         internal object Answer
         {
             get
@@ -158,7 +158,7 @@ namespace Collektive.Unity
         /// </summary>
         public Vector3 Position { get; internal set; }
 
-        /// <summary>The enabled nodes, in the order of their enabling.</summary>
+        /// <summary>The enabled nodes, in the order in which they were enabled.</summary>
         internal static List<Node> All
         {
             get
@@ -225,7 +225,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called before the tick after <paramref name="lastTick"/>: an answer of the tick before that is overwritten by the next step.
+        /// Copies an answer that the next step would overwrite. Called before the tick after <paramref name="lastTick"/>.
         /// </summary>
         internal void KeepAnswer(ulong lastTick)
         {

@@ -59,7 +59,7 @@ namespace Collektive.Unity
         private Bounds bounds;
         private int count;
         private bool hasReportedLimit;
-        private SimulationManager drawn;
+        private SimulationManager drawnManager;
         private ulong tick;
 
         /// <summary>A pair of nodes as the shader reads it: the place of each, and in the upper 8 bits the colour step of the link that begins there.</summary>
@@ -130,7 +130,7 @@ namespace Collektive.Unity
             if (material == null) own = new Material(shader);
             used = material == null ? own : material;
             properties = new MaterialPropertyBlock();
-            drawn = null;
+            drawnManager = null;
             count = 0;
         }
 
@@ -147,8 +147,8 @@ namespace Collektive.Unity
         {
             var manager = SimulationManager.Current;
             if (manager == null) return;
-            if (drawn != manager || tick != manager.Tick) Take(manager);
-            drawn = manager;
+            if (drawnManager != manager || tick != manager.Tick) Take(manager);
+            drawnManager = manager;
             tick = manager.Tick;
             if (count > 0) Draw();
         }

@@ -44,7 +44,7 @@ class CrowdTest {
         val walkers =
             mapOf(0 to Walker(Point2D(-0.6 to 0.0), Point2D(10.0 to 0.0)), 1 to Walker(Point2D(0.6 to 0.0), Point2D(-10.0 to 0.0)))
         val (left, right) = walk(walkers) { it.ticks(2) }.values.map { it.velocity.onGround() }
-        assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "it must go forward more slowly, and to the right, which is -z: $left")
+        assertTrue(left.first in 0f..1.3f && left.second < -0.1f, "the walker must slow down and move to its right (-z): $left")
         assertEquals(-left.first to -left.second, right, "the other walker must do the same in the opposite direction")
     }
 

@@ -9,7 +9,7 @@ import java.util.ArrayList;
 import java.util.List;
 import org.collektive.host.shim.Shim;
 
-/** Test host, which runs the command in each request. A request consists of a command and an argument (both int32), and bytes. */
+/** Test host that runs the command in each request. A request is a command and an argument (both int32), followed by bytes. */
 final class Host {
     private static final int EMPTY = 0;
     private static final int ECHO = 1;
@@ -216,7 +216,7 @@ final class Host {
         }
     }
 
-    /** Overflows the stack by a recursion in C. */
+    /** Overflows the stack by recursion in C. */
     private static native int overflow(int depth);
 
     private static int deeper(int depth) {

@@ -65,7 +65,7 @@ public fun Aggregate<Int>.windy(sensors: SensorData, device: Device): ActuatorDa
 public fun Aggregate<Int>.clock(sensors: SensorData, device: Device): ActuatorData =
     ActuatorData(device.time.toFloat(), (device.deltaTime * 1000).toInt())
 
-@Program("scaled", parameters = [Parameter("factor", "3", "What the value is multiplied with.")])
+@Program("scaled", parameters = [Parameter("factor", "3", "Factor by which the value is multiplied.")])
 public fun Aggregate<Int>.scaled(sensors: SensorData, device: Device): ActuatorData =
     ActuatorData(sensors.value() * device.parameters.double("factor").toFloat())
 

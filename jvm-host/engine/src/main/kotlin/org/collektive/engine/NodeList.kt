@@ -30,7 +30,7 @@ internal open class NodeList {
         return if (isValid) hint else indexOf(id)
     }
 
-    fun node(index: Int): Node = nodes[index] ?: error("no node $index of $size")
+    fun node(index: Int): Node = nodes[index] ?: error("no node at index $index; the list has $size nodes")
 
     fun find(id: Int): Node? {
         val index = indexOf(id)

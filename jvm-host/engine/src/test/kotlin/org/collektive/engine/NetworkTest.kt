@@ -17,7 +17,7 @@ class NetworkTest {
     /** A program in which each node sends its time, and answers with the values that it received from its neighbours. */
     private val received = program { device -> neighboring(device.time).neighbors.toMap() }
 
-    /** Returns the values that node 2 receives from node 1 in each of [ticks] ticks, while node 1 sends in the ticks of [sending]. */
+    /** Returns the values that node 2 receives from node 1 in each of [ticks] ticks. Node 1 sends only in the ticks [sending]. */
     private fun receivedFrom1(
         network: NetworkModel,
         ticks: Int,

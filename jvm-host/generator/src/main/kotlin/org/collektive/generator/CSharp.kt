@@ -96,7 +96,7 @@ internal class CSharp(private val schema: UserSchema) {
     private fun draftModel(type: TableType): Map<String, Any?> = rowModel(type, RowPlaces(type)) + mapOf(
         "namespace" to type.name.namespace,
         "name" to written(type).simple,
-        "documentation" to documentation(type.documentation, "Staging of the table", type.name.simple),
+        "documentation" to documentation(type.documentation, "Draft of the table", type.name.simple),
         "fields" to type.fields.map {
             mapOf("documentation" to documentation(it.documentation, "Field", it.name), "declaration" to declaration(type, it))
         },
@@ -147,7 +147,7 @@ internal class CSharp(private val schema: UserSchema) {
         is StringType, is TableType -> "$member = null;"
     }
 
-    /** Checks for NaN and infinity; a field whose default is one of them may contain them. */
+    /** Returns the check for NaN and infinity, or `null` if the field cannot contain them or has one of them as its default. */
     private fun finiteCheck(owner: Composite, field: Field): String? {
         val member = member(owner, field)
         val nullable = field.optional || owner is TableType && field.type is StructType && !field.required

@@ -46,7 +46,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
                 "${schema.fileName}:1: flatc crashed on this file (signal ${code - SIGNAL}); simplify the schema",
             )
         }
-        if (code != 0) throw GeneratorException("flatc rejects ${schema.fileName}:\n${placed(messages)}")
+        if (code != 0) throw GeneratorException("flatc rejects ${schema.fileName}:\n${withPositionsFirst(messages)}")
         if (messages.isNotEmpty()) System.err.println(messages)
     }
 
@@ -59,8 +59,8 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
 
         private val ERROR = Regex("""(?m)^(?:error:)?\s*(\S.*?):(\d+): (\d+): (error|warning): (.*?)(?:, originally at: (.+):(\d+))?$""")
 
-        /** Returns [messages] with the place of each error at the start, in the format that terminals and editors recognise. */
-        fun placed(messages: String): String = ERROR.replace(messages) {
+        /** Returns [messages] with the position of each error first, in the format that terminals and editors recognise. */
+        fun withPositionsFirst(messages: String): String = ERROR.replace(messages) {
             val (file, line, column, kind, text, origin, originLine) = it.destructured
             when {
                 origin.isNotEmpty() -> "$origin:$originLine: $kind: $text"

@@ -62,7 +62,7 @@ internal class NameRules(
             reject(name, "in C# the $it inside its namespace hides the namespace $it; rename one of them")
         }
         if (name.length > MAX_NAME) {
-            reject(name.take(MAX_NAME), "the name has more than $MAX_NAME characters with its namespace; shorten it")
+            reject(name.take(MAX_NAME), "the name, including its namespace, has more than $MAX_NAME characters; shorten it")
         }
     }
 

@@ -163,7 +163,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
             BaseType.Vector64 -> throw unsupported(owner, field.name(), "64-bit vectors are not supported; use a 32-bit vector")
 
-            else -> plainOrEnum(type.baseType(), index) ?: throw unsupported(owner, field.name(), "its type is not supported")
+            else -> scalarOrEnum(type.baseType(), index) ?: throw unsupported(owner, field.name(), "its type is not supported")
         }
     }
 
@@ -176,11 +176,11 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
 
         BaseType.Union -> throw unsupported(owner, field.name(), UNION)
 
-        else -> plainOrEnum(type.element(), type.index())
+        else -> scalarOrEnum(type.element(), type.index())
             ?: throw unsupported(owner, field.name(), "vectors of this type are not supported; use a vector of tables")
     }
 
-    private fun plainOrEnum(base: Byte, index: Int): Type? {
+    private fun scalarOrEnum(base: Byte, index: Int): Type? {
         val scalar = scalar(base) ?: return null
         if (index < 0) return scalar
         return enums.getOrPut(index) { enum(schema.enums(index), scalar) }

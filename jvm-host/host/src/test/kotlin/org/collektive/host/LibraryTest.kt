@@ -68,7 +68,7 @@ class LibraryTest {
     @Test
     fun `a jar that references a class that is missing in the library is refused`() {
         val other = patched("it/unibo/collektive/aggregate/FieldEntry", "it/unibo/collektive/aggregate/FieldOther")
-        refused(other, AggregateRuntime.BuiltIn, "references it.unibo.collektive.aggregate.FieldOther", "missing or of another version")
+        refused(other, AggregateRuntime.BuiltIn, "references it.unibo.collektive.aggregate.FieldOther", "missing or has the wrong version")
         val plugin = patched("it/unibo/collektive/aggregate/FieldEntry", "org/collektive/alignment/ProgramPlacesOf")
         refused(
             plugin,
@@ -85,7 +85,7 @@ class LibraryTest {
         val error = session.errors(session.ok(step(1))).values.first()
         session.close()
         assertContains(error, "NoSuchMethodError")
-        assertContains(error, "rebuild the programs with the jars that run them")
+        assertContains(error, "rebuild the programs against the jars that run them")
     }
 
     @Test

@@ -84,7 +84,7 @@ class StepTest {
                 digests += expected
             }
         }
-        assertEquals(3, digests.size, "asynchronous equals lockstep for due nodes, and a delayed message never arrives in its own tick")
+        assertEquals(3, digests.size, "asynchronous and lockstep must agree, and a delayed message must not arrive in its own tick")
     }
 
     @Test

@@ -143,7 +143,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     private fun <T> rejectField(result: T, primitive: String): T {
         check(result !is Field<*, *>) {
-            withPlace("$primitive returned a field, whose devices may not be aligned outside; collapse it inside")
+            withPlace("$primitive returned a field, whose neighbours may not be aligned outside it; collapse the field first")
         }
         return result
     }

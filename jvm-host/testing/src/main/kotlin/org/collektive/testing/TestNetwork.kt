@@ -32,7 +32,7 @@ import java.util.concurrent.TimeUnit
  * }
  * ```
  *
- * Compile tests, like programs, with the compiler plugin of the runtime on their class path. Not thread-safe.
+ * Like programs, tests must be compiled with the compiler plugin of the runtime on their class path. Not thread-safe.
  *
  * @param seed the seed of all random numbers; the same seed gives the same answers.
  * @param deltaTime simulated seconds from one round to the next.

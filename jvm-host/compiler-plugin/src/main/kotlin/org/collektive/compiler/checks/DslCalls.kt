@@ -19,7 +19,7 @@ import org.jetbrains.kotlin.name.Name
 /** The function that a call was resolved to. */
 internal val FirFunctionCall.callee: FirFunctionSymbol<*>? get() = calleeReference.toResolvedFunctionSymbol()
 
-/** Whether this is the member [name] of Aggregate, or the extension function of that name in the DSL's package. */
+/** Returns whether this is the member [name] of Aggregate, or the extension function of that name in the DSL's package. */
 internal fun FirFunctionSymbol<*>.isDsl(name: Name): Boolean =
     callableId.callableName == name && callableId.packageName == DslNames.apiPackage
 

@@ -8,7 +8,7 @@ import org.jetbrains.kotlin.fir.analysis.checkers.expression.FirExpressionChecke
 import org.jetbrains.kotlin.fir.expressions.FirExpression
 import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 
-/** Reports a primitive whose lambda ignores its parameter and that a simpler expression can replace. */
+/** Reports a primitive whose lambda ignores its parameter, if a simpler expression can replace the call. */
 internal object IgnoredParameter : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     private val simpler = mapOf(
         "evolve" to "the value itself",

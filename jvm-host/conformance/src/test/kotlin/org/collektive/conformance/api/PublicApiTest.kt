@@ -51,7 +51,7 @@ class PublicApiTest {
         /** The declarations that are missing on purpose, and the reason for each. */
         val EXCEPTIONS = mapOf(
             "~.networking.OutboundEnvelope.Companion" to "it is empty, so programs cannot call it",
-            "~.path.KotlinCryptoDigest" to "it wraps a class of a library that programs on the JVM do not need: JdkDigest has all digests",
+            "~.path.KotlinCryptoDigest" to "it wraps a library class that JVM programs do not need: JdkDigest has all digests",
             "~a.Aggregate.InternalAPI" to "its name marks it as internal: it is the receiver of the two functions below",
             "~a.Aggregate._ serialization aware exchanging" to "internal by its receiver: programs call the extension exchanging",
             "~a.Aggregate._ serialization aware neighboring" to "internal by its receiver: programs call the extension neighboring",

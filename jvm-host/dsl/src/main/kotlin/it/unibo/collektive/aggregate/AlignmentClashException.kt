@@ -28,7 +28,7 @@ public class AlignmentClashException private constructor(
         this(path, previous, current, withPlace(CLASH + HINT, place))
 
     private companion object {
-        const val CLASH = "two primitives ran at one path in one round"
+        const val CLASH = "two primitives ran at the same path in one round"
         const val HINT = "; wrap one of them, or each iteration of a loop, in alignedOn(key) { }"
     }
 }

@@ -284,7 +284,7 @@ public class Field<ID : Any, out T> private constructor(
         /**
          * Creates a field of [context]'s device. For implementations of [Aggregate]; programs use `neighboring`.
          *
-         * [ids] are the neighbours' ids, ascending if they are [Int]s and without [context]'s own; this is not checked. `values[i]`
+         * [ids] contains the neighbours' ids but not [context]'s own, in ascending order if they are [Int]s (not checked). `values[i]`
          * is the value of `ids[i]`. The field takes ownership of both arrays: do not change them afterwards.
          *
          * @throws IllegalStateException when a value is itself a [Field].

@@ -12,7 +12,7 @@ import org.collektive.alignment.readable
 @Serializable
 public class SerializablePath internal constructor(
     public val backend: String,
-    // For messages; unknown on a received path.
+    // The tokens, for error messages; null if the path arrived in a message.
     @Transient internal val known: List<Any?>? = null,
 ) : Path {
     /** A path that arrived in a message. */

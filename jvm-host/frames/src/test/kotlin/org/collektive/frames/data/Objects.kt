@@ -13,7 +13,7 @@ import java.lang.reflect.Array as ReflectArray
 /** Creates and prints random data of any schema, as objects of flatc's object API, as program results and as maps. */
 internal object Objects {
     /**
-     * Returns a canonical text of the data, which equals the text that the C# tests print.
+     * Returns the data as canonical text, identical to the text that the C# tests print.
      *
      * Members are sorted by lower-case name. Floating-point numbers are printed as bits, integers as signed 64-bit numbers, and absent
      * lists as empty lists.

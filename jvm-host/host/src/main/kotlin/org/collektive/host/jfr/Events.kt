@@ -159,7 +159,7 @@ internal class SessionEndEvent : Event() {
     var ticks = 0L
 
     @Label("Failure")
-    @Description("Reason why the session failed; null if it ended normally")
+    @Description("Reason for the failure; null if the session ended normally")
     @JvmField
     var failure: String? = null
 }

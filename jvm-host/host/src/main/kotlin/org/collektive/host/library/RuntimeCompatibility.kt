@@ -47,7 +47,7 @@ internal class RuntimeCompatibility(private val library: AggregateLibrary) {
             for (name in ConstantPool.of(bytes).classes) {
                 if (PREFIXES.none(name::startsWith) || !known.add(name) || "$name.class" in own || library.contains(name)) continue
                 val isBuiltIn = name.startsWith(ALIGNMENT)
-                val other = "one of its jars is missing or of another version"
+                val other = "one of its jars is missing or has the wrong version"
                 val reason = if (isBuiltIn) "it was compiled for the built-in runtime" else other
                 val missing = name.replace('/', '.')
                 throw incompatible("the jar ${jar.path} references $missing, which is missing in the $library: $reason")

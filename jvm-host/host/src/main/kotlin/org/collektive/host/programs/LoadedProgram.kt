@@ -13,7 +13,7 @@ import java.lang.invoke.MethodHandle
 import java.lang.invoke.MethodType
 
 /**
- * A program of a user's jar that is ready to run.
+ * A program from a user's jar, ready to run.
  *
  * [function] has exactly the type [TYPE], so `invokeExact` works and does not allocate. A generated lambda would be slightly faster, but
  * `LambdaMetafactory` does not support classes of another class loader.

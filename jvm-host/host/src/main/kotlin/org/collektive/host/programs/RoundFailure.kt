@@ -35,7 +35,7 @@ internal object RoundFailure {
             failure is OutOfMemoryError -> "$failure${settingToRaise(failure)}"
 
             failure is IncompatibleClassChangeError || failure is NoClassDefFoundError && failure.cause is ClassNotFoundException ->
-                "$failure: a jar is missing or of another version; rebuild the programs with the jars that run them"
+                "$failure: a jar is missing or has the wrong version; rebuild the programs against the jars that run them"
 
             else -> failure.toString()
         }

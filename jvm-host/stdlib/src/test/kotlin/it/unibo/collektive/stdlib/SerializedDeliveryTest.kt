@@ -37,7 +37,7 @@ class SerializedDeliveryTest {
         *ids,
     )
 
-    private fun Aggregate<Int>.everything(): List<Any?> {
+    private fun Aggregate<Int>.runAllFunctions(): List<Any?> {
         val metric = euclideanDistance2D(Point2D(localId * 1.5 to 2.0))
         val now = Instant.fromEpochSeconds(100)
         return listOf(
@@ -58,7 +58,7 @@ class SerializedDeliveryTest {
     fun `the library returns the same with JSON messages as in memory`() {
         val swarm = Swarm(5).line(1.5, 1.5, 1.5, 1.5)
         val row = network(0, 1, 2, 3, 4).line(0, 1, 2, 3, 4)
-        repeat(15) { assertEquals(swarm.round { everything() }, row.round { everything() }) }
+        repeat(15) { assertEquals(swarm.round { runAllFunctions() }, row.round { runAllFunctions() }) }
     }
 
     @Test

@@ -189,7 +189,7 @@ internal class Record private constructor(private val path: Path, private val ch
     }
 }
 
-/** A recorded step: its `StepRequest`, the jars that it loads, and either the answer or the reason of the failure. */
+/** A recorded step: its `StepRequest`, the jars that it loads, and either the answer or the reason for the failure. */
 internal class RecordedStep(val request: ByteBuffer, val jars: List<JarBytes>, val answer: StepResponseReader?, val failure: String?)
 
 /** Thrown when a record cannot be used, or only partly; [message] states the reason, the position, and what to do. */

@@ -88,7 +88,7 @@ internal class Replay(
             report.line(
                 "$ticks ticks replayed, $verdict; the last digest is ${hex(digest)} (${AggregateRuntime.of(request.runtime).title})",
             )
-            if (failedRounds + recordedFailedRounds > 0) report.line("$failedRounds rounds failed; $recordedFailedRounds in the record")
+            if (failedRounds + recordedFailedRounds > 0) report.line("$failedRounds rounds failed ($recordedFailedRounds in the record)")
         }
         return isEqual
     }

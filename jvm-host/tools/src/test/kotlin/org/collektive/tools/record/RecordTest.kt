@@ -177,7 +177,7 @@ class RecordTest {
             run("replay", record(jar = summing("sensors.value()")), "--programs", summing("sensors.value() / (sensors.value() - 201)"))
         assertEquals(1, result.code)
         assertContains(result.results, "tick 1 is the first difference")
-        assertContains(result.results, "1 rounds failed; 0 in the record")
+        assertContains(result.results, "1 rounds failed (0 in the record)")
     }
 
     @Test

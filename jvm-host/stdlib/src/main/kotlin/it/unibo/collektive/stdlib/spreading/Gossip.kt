@@ -146,7 +146,7 @@ private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.shortestPath(least: Int)
     return shortest
 }
 
-/** Returns whether the offer at [index] is usable, and no usable offer with a shorter path has common hops in a different order. */
+/** Returns whether the offer at [index] is usable, and orders common hops like every usable offer with a shorter path. */
 private fun <ID : Any, V> Field<ID, GossipValue<ID, V>>.isCoherent(index: Int): Boolean {
     if (!isUsable(index)) return false
     val path = neighborValue(index).path

@@ -20,7 +20,7 @@ internal inline fun <ID : Any, T, D> Field<ID, T>.forEachNeighborWith(
         val id = neighborId(index)
         while (place < metric.neighborCount && metric.neighborId(place) != id) place++
         check(place < metric.neighborCount) {
-            "the metric, over ${metric.all.ids.list}, has no distance for the aligned neighbour $id; create it where it is used"
+            "the metric covers ${metric.all.ids.list} and has no distance for the aligned neighbour $id; create the metric where it is used"
         }
         action(id, neighborValue(index), metric.neighborValue(place))
     }
