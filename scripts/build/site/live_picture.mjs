@@ -13,6 +13,7 @@ mkdirSync(folder, { recursive: true });
 const browser = await launch();
 try {
   const tab = await browser.newPage({ viewport: { width: 1120, height: 630 }, colorScheme: 'dark' });
+  tab.setDefaultTimeout(180000);
   await tab.goto(address);
   const view = tab.frame({ url: /\/view$/ });
   await view.waitForFunction(() => window.replay.player);

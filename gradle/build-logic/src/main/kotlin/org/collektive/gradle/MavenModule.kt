@@ -154,7 +154,8 @@ internal class MavenModule(private val project: Project, private val pom: Model)
             test.jvmArgs(settings.text("argLine").orEmpty().split(' ').filter { it.isNotEmpty() })
             test.systemProperties(settings.children("systemPropertyVariables").associate { it.name to it.value })
             val repository = project.fileTree(project.rootDir) { it.include(REPOSITORY) }
-            test.inputs.files(repository).withPropertyName("repository").withPathSensitivity(PathSensitivity.RELATIVE)
+            // A build creates folders without such files.
+            test.inputs.files(repository).withPropertyName("repository").withPathSensitivity(PathSensitivity.RELATIVE).ignoreEmptyDirectories()
         }
     }
 
