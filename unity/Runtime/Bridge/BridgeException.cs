@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Kinds of errors, with the numbers of <c>CLK_ERRORS</c> in the shim's header.</summary>
+    /// <summary>Kinds of errors. The numbers are the codes of <c>CLK_ERRORS</c> in the shim's header.</summary>
     public enum BridgeError
     {
         /// <summary>An argument is out of range.</summary>
@@ -33,7 +33,7 @@ namespace Collektive.Bridge
         Schema = -13,
         /// <summary>A program cannot be loaded.</summary>
         Program = -14,
-        /// <summary>A round did not end, so the session ended.</summary>
+        /// <summary>A round did not end in time, which ended the session.</summary>
         SessionFailed = -15,
         /// <summary>The host threw an unexpected exception.</summary>
         Java = -16,

@@ -18,19 +18,19 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// The JVM of this process. It outlives sessions, play modes and C# domains: a fresh domain finds it running. Only a JVM in a separate process
-    /// can be started again. All members may be called from any thread.
+    /// The JVM of this process. It outlives sessions and play mode, and is still running when Unity reloads the C# domain. A process can start only one JVM
+    /// of its own; a JVM in a separate process can be replaced. All members may be called from any thread.
     /// </summary>
     public static unsafe class Jvm
     {
         /// <summary>The current state; <see cref="JvmState.None"/> if the native library cannot be used. Never blocks.</summary>
         public static JvmState State => ShimLibrary.Problem == null ? (JvmState)Shim.clk_jvm_state() : JvmState.None;
 
-        /// <summary>Home, version and options of the JVM, one per line; empty before its start.</summary>
+        /// <summary>Home, version and options of the JVM, one per line; empty before the JVM starts.</summary>
         internal static string Description =>
             State == JvmState.None ? "" : Shim.Text((buffer, capacity) => Shim.clk_jvm_description((byte*)buffer, capacity));
 
-        /// <summary>Steps that reached the JVM since the process began, over all sessions.</summary>
+        /// <summary>Number of steps that the JVM received from all sessions since this process started.</summary>
         internal static ulong StepCalls => Stats.Steps;
 
         /// <summary>Process id of the last JVM in a separate process, running or not; 0 if it ran in this process or none was started.</summary>
@@ -50,13 +50,13 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Returns why the native library cannot be used: it is missing, for another platform, or of another version. The text names the
-        /// platform and the fix. Null if the library is usable.
+        /// Returns the reason why the native library cannot be used, with the platform and the fix, or null if the library is usable. The library may be
+        /// missing, built for another platform, or have another version.
         /// </summary>
         internal static string FindProblem() => ShimLibrary.Problem;
 
         /// <summary>
-        /// Starts the JVM, or does nothing if it already runs with the same options. Replaces a JVM in a separate process that has no session.
+        /// Starts the JVM, or does nothing if it already runs with the same options. A JVM in a separate process is replaced if it has no session.
         /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         internal static void Start(JvmLaunch launch)
@@ -66,8 +66,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Runs the checks of <see cref="Start"/>: the files, refused options and, in a child process (50 to 200 ms), whether the JVM accepts the options.
-        /// Accepted options are not tried again at the start.
+        /// Runs the checks of <see cref="Start"/>. It checks the files, rejects unsupported options, and starts a JVM with the options in a child process
+        /// (50 to 200 ms). <see cref="Start"/> does not try accepted options again.
         /// </summary>
         /// <exception cref="BridgeException">The JVM, its options or the host's jar are not usable.</exception>
         internal static void Check(JvmLaunch launch)
@@ -122,8 +122,8 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Shuts the JVM down, if one was started. Only a JVM in a separate process can be followed by another.</summary>
-        /// <exception cref="BridgeException">It did not end within <paramref name="limitMs"/> milliseconds.</exception>
+        /// <summary>Shuts the JVM down, if one was started. Afterwards, this process can only start a JVM in a separate process.</summary>
+        /// <exception cref="BridgeException">The JVM did not exit within <paramref name="limitMs"/> milliseconds.</exception>
         internal static void Stop(int limitMs)
         {
             if (ShimLibrary.Problem != null) return;

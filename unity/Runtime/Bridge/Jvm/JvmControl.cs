@@ -4,10 +4,10 @@ using Frame = org.collektive.frame;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Queries the host about the JVM itself, in frames outside any session. May be called from any thread; allocates.</summary>
+    /// <summary>Queries the host about the JVM itself, with frames that belong to no session. May be called from any thread. Each query allocates.</summary>
     internal static unsafe class JvmControl
     {
-        /// <summary>Held while an answer is read, because the next query or the end of the JVM would overwrite it.</summary>
+        /// <summary>Lock that is held while an answer is read. The next query, or the end of the JVM, would overwrite the answer.</summary>
         internal static readonly object Gate = new object();
 
         private const int FirstCapacity = 4096;

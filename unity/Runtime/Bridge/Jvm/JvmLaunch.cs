@@ -29,7 +29,7 @@ namespace Collektive.Bridge
         /// <summary>A warning about a setting that is ignored, with the reason; otherwise empty. The JVM starts anyway.</summary>
         public string Note { get; internal set; } = "";
 
-        /// <summary>Limit for the whole start in milliseconds.</summary>
+        /// <summary>Time limit for the whole start in milliseconds.</summary>
         public int StartLimitMs { get; set; } = 30000;
     }
 }

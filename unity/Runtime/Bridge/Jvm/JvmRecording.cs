@@ -5,9 +5,9 @@ using org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Controls the JVM's flight recording while the JVM runs, even between two ticks. Each member waits up to 10 s for a running tick. Starting and writing
-    /// run in the background; <see cref="Jvm.GetStatus"/> reports their progress. When the JVM exits, a running recording is written. All members may be called
-    /// from any thread.
+    /// Controls the JVM's flight recording while the JVM runs. Each member waits up to 10 s for a running tick. Recordings are started and written in the
+    /// background; <see cref="Jvm.GetStatus"/> reports the progress. A recording that is still running when the JVM exits is written to its file. All
+    /// members may be called from any thread.
     /// </summary>
     public static class JvmRecording
     {
@@ -17,8 +17,8 @@ namespace Collektive.Bridge
         /// <summary>Settings with more samples.</summary>
         public const string Profile = "profile";
 
-        /// <summary>Starts a recording; <paramref name="path"/> (usually <c>.jfr</c>) is written at its stop.</summary>
-        /// <param name="path">The file; an existing one is replaced.</param>
+        /// <summary>Starts a recording, which is written to <paramref name="path"/> when it stops.</summary>
+        /// <param name="path">The file, usually with the extension <c>.jfr</c>. An existing file is replaced.</param>
         /// <param name="settings"><see cref="Default"/>, <see cref="Profile"/>, or the path of a <c>.jfc</c> file.</param>
         /// <exception cref="BridgeException">No JVM runs.</exception>
         public static void Start(string path, string settings = Default)

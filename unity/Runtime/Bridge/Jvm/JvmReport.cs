@@ -4,8 +4,8 @@ using System.Collections.Generic;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The values in effect and the errors of JVM settings, and whether a restart is needed, for inspectors.
-    /// A new report is created when the settings change. Checking the options takes 50 to 200 ms.
+    /// A check of JVM settings for inspectors: their errors, the values in effect, and whether a restart is needed. Each change of the settings needs a new
+    /// report. Checking the options takes 50 to 200 ms.
     /// </summary>
     internal sealed class JvmReport
     {
@@ -23,7 +23,7 @@ namespace Collektive.Bridge
         /// <summary>Whether the JVM would start with these settings.</summary>
         internal bool IsValid => problems.Count == 0;
 
-        /// <summary>A remark on all settings; may be empty.</summary>
+        /// <summary>A remark that concerns all settings; may be empty.</summary>
         internal string Notice { get; private set; } = "";
 
         /// <summary>Checks <paramref name="settings"/> without starting a JVM. Call it from the main thread.</summary>
@@ -31,7 +31,7 @@ namespace Collektive.Bridge
         /// <param name="toLaunch">Returns the JVM's command line; throws <see cref="BridgeException"/> if no JVM is found.</param>
         internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch) => Of(settings, Jvm.TryGetStatus(), toLaunch);
 
-        /// <summary>The same with a status that was read earlier. May be called from any thread.</summary>
+        /// <summary>Like the other overload, but with a status that was read earlier. May be called from any thread.</summary>
         internal static JvmReport Of(JvmSettings settings, JvmStatus status, Func<JvmSettings, JvmLaunch> toLaunch)
         {
             var report = new JvmReport(status);

@@ -27,7 +27,7 @@ namespace Collektive.Bridge
             Marks = marks.Split(new[] { ' ' }, StringSplitOptions.RemoveEmptyEntries);
         }
 
-        /// <summary>All settings, in the order to show them in.</summary>
+        /// <summary>All settings, in the order in which inspectors show them.</summary>
         internal static IReadOnlyList<JvmSetting> All { get; } = new[]
         {
             new JvmSetting(
@@ -102,7 +102,7 @@ namespace Collektive.Bridge
         /// <summary>Unit of a number; may be empty.</summary>
         internal string Unit { get; }
 
-        /// <summary>Smallest number, apart from <see cref="Otherwise"/>.</summary>
+        /// <summary>Minimum value. <see cref="Otherwise"/> may be lower.</summary>
         internal int Minimum { get; }
 
         /// <summary>Maximum value; 0 for settings that are not numeric.</summary>
@@ -149,7 +149,7 @@ namespace Collektive.Bridge
                 (Unit.Length > 0 ? " " + Unit : "") + off;
         }
 
-        /// <summary>Returns the setting that a JVM's error message is about, or the flags if no other matches.</summary>
+        /// <summary>Returns the setting that caused a JVM's error message, or the additional flags if no other setting matches.</summary>
         internal static JvmSetting FindByErrorMessage(string message, JvmSettings settings)
         {
             foreach (var flag in settings.flags)
@@ -166,7 +166,7 @@ namespace Collektive.Bridge
             return Find(nameof(JvmSettings.flags));
         }
 
-        /// <summary>A flag as JVMs quote it: without dashes, sign and value.</summary>
+        /// <summary>Returns a flag in the form that JVMs quote in messages, without dashes, sign and value.</summary>
         private static string Core(string flag)
         {
             var core = flag.StartsWith("-XX:", StringComparison.Ordinal) ? flag.Substring(4).TrimStart('+', '-') : flag;
@@ -183,7 +183,7 @@ namespace Collektive.Bridge
             return "another";
         }
 
-        /// <summary>Whether a flag of the JVM chooses its collector.</summary>
+        /// <summary>Returns whether a JVM flag selects the garbage collector.</summary>
         internal static bool IsCollector(string flag) =>
             flag != null && flag.StartsWith("-XX:+Use", StringComparison.Ordinal) && flag.EndsWith("GC", StringComparison.Ordinal);
 

@@ -21,9 +21,9 @@ namespace Collektive.Bridge
     /// <summary>The process that the JVM runs in, which does not affect results.</summary>
     public enum JvmPlacement
     {
-        /// <summary>On a thread of this process, which can start only one JVM.</summary>
+        /// <summary>On a thread of this process. A process can start only one JVM.</summary>
         InProcess,
-        /// <summary>In a child process over shared memory. A crash ends only the session, and the next one can have other settings.</summary>
+        /// <summary>In a child process, connected by shared memory. A crash ends only the session, and the next session can have other settings.</summary>
         OwnProcess,
     }
 
@@ -32,19 +32,19 @@ namespace Collektive.Bridge
     {
         /// <summary>Serial, unless a flag selects another.</summary>
         Automatic,
-        /// <summary>A balance of throughput and short pauses.</summary>
+        /// <summary>G1, a balance between throughput and short pauses.</summary>
         G1,
-        /// <summary>One thread, with the lowest overhead and memory and the fastest start.</summary>
+        /// <summary>Serial, which uses one thread. It starts fastest and needs the least memory.</summary>
         Serial,
-        /// <summary>The highest throughput, with long pauses.</summary>
+        /// <summary>Parallel, with the highest throughput and long pauses.</summary>
         Parallel,
-        /// <summary>Pauses below a millisecond.</summary>
+        /// <summary>ZGC, with pauses below a millisecond.</summary>
         Z,
-        /// <summary>Pauses of a few milliseconds; not every JVM has it.</summary>
+        /// <summary>Shenandoah, with pauses of a few milliseconds. Not every JVM has it.</summary>
         Shenandoah,
     }
 
-    /// <summary>The way in which the JVM compiles programs to machine code.</summary>
+    /// <summary>How the JVM compiles programs to machine code.</summary>
     public enum JvmCompiler
     {
         /// <summary>Compiles quickly first, then optimises frequently executed code.</summary>
@@ -56,8 +56,8 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// The settings of the JVM. Read when the JVM starts: once per process with <see cref="JvmPlacement.InProcess"/>. <see cref="JvmSetting.All"/> describes
-    /// each field; scenario files use the field names as keys.
+    /// The settings of the JVM. They are read when the JVM starts, which with <see cref="JvmPlacement.InProcess"/> is once per process. <see
+    /// cref="JvmSetting.All"/> describes each field, and scenario files use the field names as keys.
     /// </summary>
     [Serializable]
     public sealed class JvmSettings
@@ -83,7 +83,7 @@ namespace Collektive.Bridge
         /// <summary>The garbage collector.</summary>
         public JvmCollector collector = JvmCollector.Automatic;
 
-        /// <summary>The compilation of programs to machine code.</summary>
+        /// <summary>How the JVM compiles programs to machine code.</summary>
         public JvmCompiler compiler = JvmCompiler.Tiered;
 
         /// <summary>Calls before code is compiled, as a percentage of the JVM's default.</summary>
@@ -142,7 +142,7 @@ namespace Collektive.Bridge
             return problems;
         }
 
-        /// <summary>The options for the JVM at <paramref name="javaHome"/>; its archive of classes is kept in <paramref name="cacheFolder"/>.</summary>
+        /// <summary>Returns the command line for the JVM at <paramref name="javaHome"/>. Its class archive is kept in <paramref name="cacheFolder"/>.</summary>
         internal JvmLaunch ToLaunch(string javaHome, string hostJar, string cacheFolder)
         {
             var options = new List<string>();
@@ -169,11 +169,13 @@ namespace Collektive.Bridge
             return new JvmLaunch(javaHome, hostJar, options) { Note = note, Placement = placement };
         }
 
-        /// <summary>Whether the JVM loads a native agent, such as the debugger's. It aborts if it must also write a class archive.</summary>
+        /// <summary>Whether the JVM loads a native agent, such as the debugger's. A JVM with an agent aborts if it must also write a class archive.</summary>
         private bool HasAgent =>
             debugPort != 0 || flags.Exists(flag => flag.StartsWith("-agent", StringComparison.Ordinal) || flag.StartsWith("-Xrun", StringComparison.Ordinal));
 
-        /// <summary>The feature number of the JVM at <paramref name="javaHome"/>, for instance 25; 0 if its <c>release</c> file contains none.</summary>
+        /// <summary>
+        /// Returns the feature version of the JVM at <paramref name="javaHome"/>, for example 25, or 0 if its <c>release</c> file does not contain it.
+        /// </summary>
         internal static int JavaVersion(string javaHome)
         {
             const string key = "JAVA_VERSION=\"";
@@ -189,17 +191,18 @@ namespace Collektive.Bridge
             return 0;
         }
 
-        // Objects that survive two collections are mostly nodes' state. The default would copy them up to fifteen times, with pauses of 5 ms instead of 1 ms.
+        // Objects that survive two collections are mostly state of nodes, which lives long. The default would copy them up to 15 times, with pauses of 5 ms
+        // instead of 1 ms.
         private static readonly string[] OwnCollector = { "-XX:+" + JvmSetting.FlagOf(JvmCollector.Serial), "-XX:MaxTenuringThreshold=2" };
 
         private const int FirstWithAutomaticArchive = 19;
 
         /// <summary>
-        /// The JVM writes the archive when it exits, and a new one after the JVM itself has changed. It never replaces an archive of another host jar at the
-        /// same path, so the jar's size and time are part of the name. Nor does it replace an archive without a header, which a JVM killed while writing leaves
-        /// behind, so such archives are removed.
+        /// Adds the options for the class archive, which the JVM writes when it exits, and writes again after the JVM itself was updated. The JVM never
+        /// replaces an archive that was written for another host jar, so the archive's name contains the size and time of the jar. It does not replace an
+        /// archive without a header either. A JVM that is killed while it writes leaves such an archive, which is therefore removed here.
         /// </summary>
-        /// <returns>The reason why no archive is used, or an empty text.</returns>
+        /// <returns>The reason why no archive is used, or an empty string.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
             var place = "classes-" + Hash(javaHome + "\n" + hostJar + "\n" + collector) + "-";
@@ -216,7 +219,7 @@ namespace Collektive.Bridge
             }
             options.Add("-XX:+AutoCreateSharedArchive");
             options.Add("-XX:SharedArchiveFile=" + file);
-            // The JVM logs a line for each class that it leaves out, and errors about an archive that it then replaces.
+            // Without this option, the JVM logs a line for each class that it omits, and logs errors about an archive before it replaces it.
             options.Add("-Xlog:cds=off");
             return "";
         }
@@ -229,8 +232,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Removes an archive with another name or without a header. If another JVM was writing it, this one starts without an archive, and the next one writes
-        /// it again.
+        /// Removes an archive that has another name or no header. If another JVM was still writing the archive, this JVM starts without one, and the
+        /// archive is written again when it exits.
         /// </summary>
         private static void RemoveUnusable(string archive, string expected)
         {
@@ -240,11 +243,11 @@ namespace Collektive.Bridge
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {
-                // Another process uses it, or has removed it.
+                // Another process uses the archive, or has already removed it.
             }
         }
 
-        /// <summary>The header is written last, over zeros.</summary>
+        /// <summary>Returns whether the archive is complete. The JVM first writes zeros in place of the header, and the header last.</summary>
         private static bool HasHeader(string archive)
         {
             using (var stream = new FileStream(archive, FileMode.Open, FileAccess.Read, FileShare.ReadWrite | FileShare.Delete)) return stream.ReadByte() > 0;

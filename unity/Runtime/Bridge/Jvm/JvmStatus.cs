@@ -41,19 +41,19 @@ namespace Collektive.Bridge
             RecordingsWritten = response.RecordingsWritten;
         }
 
-        /// <summary>Root of the JVM.</summary>
+        /// <summary>Root folder of the JVM.</summary>
         public string Home { get; }
 
         /// <summary>One line about the host and the JVM.</summary>
         public string Version { get; }
 
-        /// <summary>The options it was started with.</summary>
+        /// <summary>The options with which the JVM was started.</summary>
         public IReadOnlyList<string> Options { get; }
 
         /// <summary>Process id of a JVM in a separate process; 0 if it runs in this process.</summary>
         public int Process { get; }
 
-        /// <summary>Time since the start of the JVM.</summary>
+        /// <summary>Time since the JVM started.</summary>
         public TimeSpan Uptime { get; }
 
         /// <summary>Bytes of the heap in use.</summary>
@@ -74,7 +74,7 @@ namespace Collektive.Bridge
         /// <summary>Number of garbage collections so far.</summary>
         public long Collections { get; }
 
-        /// <summary>Milliseconds in garbage collections so far.</summary>
+        /// <summary>Milliseconds that garbage collections took so far.</summary>
         public long CollectionMs { get; }
 
         /// <summary>State of the flight recording.</summary>
@@ -83,7 +83,7 @@ namespace Collektive.Bridge
         /// <summary>File of the current or last recording; empty before the first.</summary>
         public string RecordingPath { get; }
 
-        /// <summary>Why the last action of the recording failed; empty if it succeeded.</summary>
+        /// <summary>The reason why the last action of the recording failed; empty if it succeeded.</summary>
         public string RecordingError { get; }
 
         /// <summary>Milliseconds that the last action of the recording took, in the background.</summary>

@@ -3,19 +3,19 @@ namespace Collektive.Bridge
     /// <summary>State of a flight recording of the JVM.</summary>
     public enum RecordingState : byte
     {
-        /// <summary>None runs.</summary>
+        /// <summary>No recording is running.</summary>
         Off = org.collektive.frame.RecordingState.Off,
 
-        /// <summary>It is being started.</summary>
+        /// <summary>A recording is being started.</summary>
         Starting = org.collektive.frame.RecordingState.Starting,
 
-        /// <summary>It runs.</summary>
+        /// <summary>A recording is running.</summary>
         On = org.collektive.frame.RecordingState.On,
 
-        /// <summary>It runs, and its events so far are being written.</summary>
+        /// <summary>A recording is running, and its events so far are being written.</summary>
         Dumping = org.collektive.frame.RecordingState.Dumping,
 
-        /// <summary>It is being stopped and written.</summary>
+        /// <summary>A recording is being stopped and written.</summary>
         Stopping = org.collektive.frame.RecordingState.Stopping,
     }
 }

@@ -12,17 +12,17 @@ namespace Collektive.Bridge
         Info = 1,
         /// <summary>Standard error of programs, and warnings.</summary>
         Warning = 2,
-        /// <summary>Something failed.</summary>
+        /// <summary>Errors.</summary>
         Error = 3,
     }
 
     /// <summary>
-    /// Polls the log lines of the shim, the JVM and the programs. Returns at most <see cref="LinesPerSecond"/> of each severity, so that the console can keep
-    /// up. A separate line reports the number of omitted lines. Empty without the native library. Used from one thread at a time.
+    /// Polls the log lines of the shim, the JVM and the programs. At most <see cref="LinesPerSecond"/> lines of each severity are returned, so that the
+    /// console can keep up; a separate line reports the number of omitted lines. Without the native library, the log is empty. Not thread-safe.
     /// </summary>
     internal sealed unsafe class HostLog
     {
-        /// <summary>Limit of lines per second and severity that <see cref="TryRead"/> returns.</summary>
+        /// <summary>Maximum number of lines of each severity that <see cref="TryRead"/> returns per second.</summary>
         public const int LinesPerSecond = 100;
 
         private const int LineCapacity = 16 * 1024;
@@ -54,7 +54,7 @@ namespace Collektive.Bridge
             return false;
         }
 
-        /// <summary>Starts a new second. Returns true if lines were omitted; <paramref name="line"/> then reports their number.</summary>
+        /// <summary>Starts a new second, and returns whether lines were omitted. If so, <paramref name="line"/> reports their number.</summary>
         public bool TryCount(out HostLogLevel level, out string line)
         {
             secondBegan = Stopwatch.GetTimestamp();

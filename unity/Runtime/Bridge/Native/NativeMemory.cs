@@ -3,7 +3,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Native memory of the shim as FlatBuffers reads and writes it. Owned by one session; not thread-safe.</summary>
+    /// <summary>Native memory of the shim that FlatBuffers can read and write. Owned by one session; not thread-safe.</summary>
     internal abstract unsafe class NativeMemory : ByteBufferAllocator
     {
         private byte* address;
@@ -16,7 +16,7 @@ namespace Collektive.Bridge
 
         public sealed override ReadOnlyMemory<byte> ReadOnlyMemory => throw new NotSupportedException("native memory has no Memory<byte>");
 
-        /// <summary>Refers to <paramref name="length"/> bytes from <paramref name="first"/> on; null and 0 for none.</summary>
+        /// <summary>Makes this object refer to <paramref name="length"/> bytes from <paramref name="first"/> on; null and 0 for no memory.</summary>
         protected void Show(byte* first, int length)
         {
             address = first;

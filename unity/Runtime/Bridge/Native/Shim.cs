@@ -4,12 +4,12 @@ using System.Runtime.InteropServices;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The C ABI of <c>collektive_shim</c> and <c>collektive_neighbours</c>, which are in one library; their headers document the contracts. Check
-    /// <see cref="ShimLibrary"/> before the first call.
+    /// The C functions of <c>collektive_shim</c> and <c>collektive_neighbours</c>, which are in one library. Their C headers document them. Check <see
+    /// cref="ShimLibrary"/> before the first call.
     /// </summary>
     internal static unsafe partial class Shim
     {
-        /// <summary>Major version of the header that this file was written from.</summary>
+        /// <summary>Major version of the C header that the declarations below match.</summary>
         internal const uint Major = 0;
 
         /// <summary>The return code of a step that has not ended.</summary>
@@ -87,7 +87,7 @@ namespace Collektive.Bridge
             if (code < 0) throw new BridgeException((BridgeError)code, LastError(code));
         }
 
-        /// <summary>Returns the full text of a function that copies UTF-8 to a buffer and returns the required length. Allocates.</summary>
+        /// <summary>Calls a function that copies UTF-8 to a buffer and returns the required length. Returns the full text. Allocates.</summary>
         internal static string Text(Copy copy)
         {
             var length = copy(IntPtr.Zero, 0);

@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Bridge
 {
-    /// <summary>The library's functions, on platforms that may have it.</summary>
+    /// <summary>Imports the library's functions, on platforms for which the library can exist.</summary>
     internal static unsafe partial class Shim
     {
         private const string Library = "collektive_shim";

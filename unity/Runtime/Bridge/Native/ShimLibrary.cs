@@ -7,8 +7,8 @@ namespace Collektive.Bridge
     internal static class ShimLibrary
     {
         /// <summary>
-        /// The error of the library with the platform and the fix, or null if the library is usable. Checked once: a process cannot load a library
-        /// after a failed attempt.
+        /// The library's error with the platform and the fix, or null if the library is usable. It is determined once, because a process that failed to
+        /// load a library cannot load it later.
         /// </summary>
         internal static readonly string Problem = FindProblem();
 
@@ -42,7 +42,7 @@ namespace Collektive.Bridge
                 + " (" + reason + "): reinstall the package and restart. If the error remains, the platform is not supported "
                 + "(see Limits in the documentation)";
 
-        /// <summary>The operating system's name; Mono describes all but Windows as Unix.</summary>
+        /// <summary>Returns the operating system's name. Mono describes every system except Windows as Unix.</summary>
         private static string OperatingSystem() =>
             RuntimeInformation.IsOSPlatform(OSPlatform.Linux) ? "Linux"
                 : RuntimeInformation.IsOSPlatform(OSPlatform.OSX) ? "macOS"

@@ -4,7 +4,7 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Stubs for platforms without the native library. Their players can be built, and report the missing library at run time.
+    /// Stubs for platforms without the native library. With them, players for such platforms can be built, and report the missing library at run time.
     /// </summary>
     internal static unsafe partial class Shim
     {

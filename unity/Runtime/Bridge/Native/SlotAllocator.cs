@@ -3,8 +3,8 @@ using Collektive.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// A slot of the shim's pool as the memory of a <see cref="FlatBufferBuilder"/>: frames are built where the JVM reads them.
-    /// Owned by one session; not thread-safe.
+    /// Lets a <see cref="FlatBufferBuilder"/> build frames in a slot of the shim's pool, from which the JVM reads them without a copy. Owned by one
+    /// session; not thread-safe.
     /// </summary>
     internal sealed unsafe class SlotAllocator : NativeMemory
     {
@@ -18,7 +18,7 @@ namespace Collektive.Bridge
             Show(memory.Address, memory.Capacity);
         }
 
-        /// <summary>The handle for the shim.</summary>
+        /// <summary>The shim's handle of the slot.</summary>
         internal ulong Slot { get; private set; }
 
         public override void GrowFront(int newSize)

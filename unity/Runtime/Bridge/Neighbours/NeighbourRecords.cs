@@ -12,7 +12,7 @@ namespace Collektive.Bridge
         internal int Id;
     }
 
-    /// <summary>A point that a search found.</summary>
+    /// <summary>A point found by a search.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal struct NearPoint
     {
@@ -21,11 +21,11 @@ namespace Collektive.Bridge
         internal float Distance;
     }
 
-    /// <summary>A search for the neighbours of a rule.</summary>
+    /// <summary>A search that a neighbourhood rule requests.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal struct RuleSearch
     {
-        /// <summary>Value of <see cref="Nearest"/> for all points within the distance.</summary>
+        /// <summary>Value of <see cref="Nearest"/> that requests all points within the distance.</summary>
         internal const int All = -1;
 
         internal int Rule;
@@ -37,7 +37,7 @@ namespace Collektive.Bridge
         internal int BothWays;
     }
 
-    /// <summary>A neighbour that a rule found.</summary>
+    /// <summary>A neighbour found by a rule.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal struct RuleNeighbour
     {
@@ -46,7 +46,7 @@ namespace Collektive.Bridge
         internal float Attenuation;
     }
 
-    /// <summary>Two nodes and their links. A link exists while its reference count is positive.</summary>
+    /// <summary>Two nodes and the links between them. A link exists while its reference count is positive.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal struct LinkPair
     {
@@ -54,14 +54,14 @@ namespace Collektive.Bridge
         internal int High;
         // Used by the native code only.
         internal int Next;
-        // From the lower id to the higher, and back.
+        // Up is the link from the lower id to the higher; Down is the opposite link.
         internal LinkDirection Up;
         internal LinkDirection Down;
 
         internal bool IsReferenced => Up.References > 0 || Down.References > 0;
     }
 
-    /// <summary>One direction of a pair.</summary>
+    /// <summary>The link of a pair in one direction.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal struct LinkDirection
     {

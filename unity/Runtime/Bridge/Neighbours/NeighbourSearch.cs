@@ -4,15 +4,16 @@ using System.Collections.Generic;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Searches for near nodes and all directed links of a scene with their reference counts, in C (<c>collektive_neighbours.h</c>). A link exists while
-    /// at least one rule or script references it. The native memory is allocated on first use. Results are spans of it, valid until the next call.
+    /// Finds near nodes, and stores all directed links of a scene with their reference counts. The implementation is in C (<c>collektive_neighbours.h</c>).
+    /// A link exists while at least one rule or script references it. The native memory is allocated on first use. Results are spans of this memory and
+    /// valid until the next call.
     /// </summary>
     internal sealed unsafe class NeighbourSearch : IDisposable
     {
-        /// <summary>No rule.</summary>
+        /// <summary>Number of a rule that was not added.</summary>
         internal const int NoRule = -1;
 
-        // Codes of clk_neighbours_error.
+        // Error codes of the native functions, from clk_neighbours_error.
         private const int MemoryCode = -2;
         private const int NotFiniteCode = -3;
 
@@ -20,7 +21,7 @@ namespace Collektive.Bridge
 
         ~NeighbourSearch() => Dispose();
 
-        /// <summary>All pairs, including unused ones, for views.</summary>
+        /// <summary>All pairs for views, including unused pairs.</summary>
         internal Span<LinkPair> Pairs
         {
             get
@@ -33,7 +34,7 @@ namespace Collektive.Bridge
         /// <summary>Number of pairs that fit in the native memory.</summary>
         internal int PairCapacity => All.Capacity;
 
-        /// <summary>Number of links.</summary>
+        /// <summary>Number of directed links.</summary>
         internal int Count => All.Links;
 
         private Shim.LinkPairs All
@@ -58,8 +59,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Replaces the points, whose ids ascend. <paramref name="cell"/> is the side of the grid's cells in metres; 0 for the mean radius of the last
-        /// searches.
+        /// Replaces the points, which must be sorted by id. <paramref name="cell"/> is the side length of the grid's cells in metres; 0 selects the mean
+        /// radius of the last searches.
         /// </summary>
         /// <returns>False if a coordinate is not finite.</returns>
         internal bool TryPlace(Span<NodePoint> points, float cell = 0)
@@ -73,7 +74,7 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Returns the points within <paramref name="radius"/> metres of a place, ascending by id.</summary>
+        /// <summary>Returns the points within <paramref name="radius"/> metres of a position, sorted by id.</summary>
         internal Span<NearPoint> Within(float x, float y, float z, float radius)
         {
             if (native == IntPtr.Zero) return default;
@@ -82,7 +83,10 @@ namespace Collektive.Bridge
             return new Span<NearPoint>(found, count);
         }
 
-        /// <summary>Returns the points nearest to a place, at most <paramref name="limit"/>, by distance and at equal distances by id.</summary>
+        /// <summary>
+        /// Returns at most <paramref name="limit"/> points nearest to a position, sorted by distance and then by id. <paramref name="guess"/> is an
+        /// estimate of the radius that contains them; 0 for none.
+        /// </summary>
         internal Span<NearPoint> Nearest(float x, float y, float z, int limit, float guess)
         {
             if (native == IntPtr.Zero || limit < 1) return default;
@@ -100,23 +104,25 @@ namespace Collektive.Bridge
             if (native != IntPtr.Zero) Shim.clk_neighbours_remove_rule(native, rule);
         }
 
-        /// <summary>Runs searches, and replaces the links of their rules.</summary>
-        /// <returns>The number of searches; if there are more than <paramref name="maxLinks"/> links, that up to the search that exceeded it.</returns>
+        /// <summary>Runs searches, and replaces the links of the rules that requested them.</summary>
+        /// <returns>
+        /// The number of searches. If the links exceed <paramref name="maxLinks"/>, the number of searches up to and including the one that exceeded it.
+        /// </returns>
         internal int Update(Span<RuleSearch> searches, int threads, int maxLinks)
         {
             fixed (RuleSearch* first = searches) return Check(Shim.clk_neighbours_update(Native, first, searches.Length, threads, maxLinks));
         }
 
-        /// <summary>Replaces the links of a rule. If several neighbours have the same id, the first counts.</summary>
+        /// <summary>Replaces the links of a rule. If several neighbours have the same id, only the first is used.</summary>
         internal void Take(int rule, int centre, Span<RuleNeighbour> list, float tolerance, bool bothWays)
         {
             fixed (RuleNeighbour* first = list) Check(Shim.clk_neighbours_take(Native, rule, centre, first, list.Length, tolerance, bothWays ? 1 : 0));
         }
 
-        /// <summary>Adds the scripts' reference to a link, at most once.</summary>
+        /// <summary>Adds a reference for scripts to a link. A link has at most one such reference.</summary>
         internal void Hold(LinkRecord link) => Check(Shim.clk_neighbours_hold(Native, &link));
 
-        /// <summary>Releases the scripts' reference.</summary>
+        /// <summary>Releases the reference that scripts have to a link.</summary>
         /// <returns>False if no script added the link.</returns>
         internal bool Release(int from, int to) => native != IntPtr.Zero && Check(Shim.clk_neighbours_release(native, from, to)) != 0;
 
@@ -134,20 +140,20 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Sets whether a node was sent to the JVM. Links of a node are sent only after the node.</summary>
+        /// <summary>Sets whether the JVM knows a node. Links are sent only once the JVM knows both of their nodes.</summary>
         internal void Know(int id, bool known)
         {
             if (known || native != IntPtr.Zero) Check(Shim.clk_neighbours_know(Native, id, known ? 1 : 0));
         }
 
-        /// <summary>Removes all links of nodes that left; the JVM removes its own with the node.</summary>
+        /// <summary>Removes all links of nodes that left. The JVM removes its copies together with the nodes.</summary>
         internal void Drop(Span<int> ids)
         {
             if (native == IntPtr.Zero) return;
             fixed (int* first = ids) Check(Shim.clk_neighbours_drop(native, first, ids.Length));
         }
 
-        /// <summary>Writes to the request what changed since the last call.</summary>
+        /// <summary>Writes the links that changed since the last call to the request.</summary>
         internal void Flush(StepRequest request)
         {
             if (native == IntPtr.Zero) return;
@@ -157,7 +163,7 @@ namespace Collektive.Bridge
             request.LinksRemoved.AddAll(new ReadOnlySpan<LinkEnds>(changes.Removed, changes.RemovedCount));
         }
 
-        /// <summary>Frees the native memory. Afterwards, there are neither points nor links. A later call allocates it again.</summary>
+        /// <summary>Frees the native memory with all points and links. A later call allocates memory again.</summary>
         public void Dispose()
         {
             if (native != IntPtr.Zero) Shim.clk_neighbours_destroy(native);

@@ -1,8 +1,8 @@
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The counter-based generator Philox4x32-10 (Salmon, Moraes, Dror, Shaw: Parallel random numbers, as easy as 1, 2, 3; SC 2011). The JVM has the same
-    /// generator; both are tested with the authors' test vectors.
+    /// The counter-based generator Philox4x32-10 (Salmon, Moraes, Dror, Shaw: Parallel random numbers, as easy as 1, 2, 3; SC 2011). The JVM uses the same
+    /// generator. Both implementations are tested with the authors' test vectors.
     /// </summary>
     internal static class Philox
     {
@@ -12,7 +12,7 @@ namespace Collektive.Bridge
         private const uint Weyl1 = 0xBB67AE85;
         private const int Rounds = 10;
 
-        /// <summary>Replaces the four words of the counter by four random words.</summary>
+        /// <summary>Replaces the four words of the counter with four random words.</summary>
         public static void Block(ulong key, ref uint c0, ref uint c1, ref uint c2, ref uint c3)
         {
             var k0 = (uint)key;

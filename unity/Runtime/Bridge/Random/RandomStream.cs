@@ -9,15 +9,15 @@ namespace Collektive.Bridge
         Program = 0,
         /// <summary>A node's sensors and actuators.</summary>
         Node = 1,
-        /// <summary>The scene, for example to place nodes.</summary>
+        /// <summary>The scene, for example for positions of nodes.</summary>
         Scene = 2,
-        /// <summary>When a node's rounds are due.</summary>
+        /// <summary>The times of a node's rounds.</summary>
         Schedule = 3,
     }
 
     /// <summary>
-    /// Random numbers that depend only on seed, node and purpose, not on the order of nodes.
-    /// Not thread-safe; allocates nothing after its construction.
+    /// Random numbers that depend only on the seed, the node and the purpose, not on the order in which nodes run. Not thread-safe; allocates only when it
+    /// is created.
     /// </summary>
     public sealed class RandomStream
     {

@@ -4,9 +4,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>
-    /// Reads the actuator data of this tick and of the previous one. Not thread-safe; no allocation once the capacities are reached.
-    /// </summary>
+    /// <summary>Reads the actuator data of this tick and of the previous tick. Not thread-safe; allocates only while its capacity grows.</summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class ActuatorBuffer
     {
@@ -17,16 +15,16 @@ namespace Collektive.Bridge
         /// Points this reader at the table <c>Actuators</c> at <paramref name="position"/> (bytes from the start) of
         /// <paramref name="frame"/>. Valid until the session's next call.
         /// </summary>
-        /// <exception cref="BridgeException">The table does not fit the frame: <see cref="BridgeError.Frame"/>.</exception>
+        /// <exception cref="BridgeException">The table lies outside of the frame: <see cref="BridgeError.Frame"/>.</exception>
         internal abstract void Attach(ByteBuffer frame, int position);
 
         /// <summary>Number of elements in the attached table.</summary>
         internal abstract int Count { get; }
 
-        /// <summary>The element at an index below <see cref="Count"/>, boxed, for tools without the schema's types.</summary>
+        /// <summary>Returns the element at an index below <see cref="Count"/>, boxed, for tools that do not know the schema's types.</summary>
         internal abstract object Get(int index);
 
-        /// <summary>As <see cref="Get"/>, for the previously attached table.</summary>
+        /// <summary>Like <see cref="Get"/>, for the previously attached table.</summary>
         internal abstract object GetPrevious(int index);
 
         /// <summary>
@@ -35,8 +33,8 @@ namespace Collektive.Bridge
         internal abstract void CopyPrevious(int index, ref AnswerCopy kept);
 
         /// <summary>
-        /// Called by a session before the attached frame's memory is overwritten. Until the next <see cref="Attach"/>, the attached elements can still be read,
-        /// but the previous ones cannot. <see cref="Attach"/> then makes them the previous ones.
+        /// Called by a session before the attached frame's memory is overwritten. The elements of that frame remain readable, and become the previous ones
+        /// with the next <see cref="Attach"/>. Until then, the present previous elements cannot be read.
         /// </summary>
         internal abstract void Retain();
     }
@@ -64,7 +62,8 @@ namespace Collektive.Bridge
         internal abstract T this[int index] { get; }
 
         /// <summary>
-        /// An element of the previously attached table, at an index below its count. Valid as long as the elements of the attached table.
+        /// Returns an element of the previously attached table, at an index below that table's count. It is valid as long as the elements of the attached
+        /// table.
         /// </summary>
         internal abstract T Previous(int index);
 
@@ -80,7 +79,7 @@ namespace Collektive.Bridge
         /// <summary>Bytes of an element in the vector.</summary>
         private protected abstract int ElementSize { get; }
 
-        /// <summary>Reads the elements of a vector from <paramref name="first"/> on. The present elements become the previous ones.</summary>
+        /// <summary>Attaches the elements of a vector that begins at <paramref name="first"/>. The elements attached so far become the previous ones.</summary>
         private protected abstract void Show(ByteBuffer frame, int first, int elements);
 
         private protected void Require(int index)

@@ -7,7 +7,7 @@ namespace Collektive.Bridge
         {
         }
 
-        /// <summary>The element, boxed, for tools without the schema's types.</summary>
+        /// <summary>Returns the element, boxed, for tools that do not know the schema's types.</summary>
         public abstract object Get();
     }
 
@@ -18,7 +18,7 @@ namespace Collektive.Bridge
         {
         }
 
-        /// <summary>The element. An element of a table is a view of this object's memory, valid until the next copy.</summary>
+        /// <summary>The element. If it is a table, it is a view of this object's memory, which is valid until the next copy.</summary>
         public abstract T Value { get; }
 
         /// <inheritdoc/>

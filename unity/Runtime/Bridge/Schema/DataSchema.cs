@@ -4,19 +4,19 @@ using System.ComponentModel;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// A user schema: creates buffers for sensor and actuator data whose fields only generated code
-    /// knows. Implemented by <c>./collektive generate</c>; instances are stateless.
+    /// A user's schema. It creates buffers for sensor and actuator data, whose fields only generated code knows. <c>./collektive generate</c> writes the
+    /// implementations, which are stateless.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class DataSchema
     {
-        /// <summary>Name of the schema, the same as in the JVM.</summary>
+        /// <summary>Name of the schema, which is the same on the JVM.</summary>
         public abstract string Name { get; }
 
-        /// <summary>Name of the schema's file without <c>.fbs</c>, after which the jar of its programs is named.</summary>
+        /// <summary>Name of the schema's file without <c>.fbs</c>. The jar of its programs has the same name.</summary>
         public abstract string File { get; }
 
-        /// <summary>Version of the package that generated the class; empty for code of earlier versions.</summary>
+        /// <summary>Version of the package that generated the class; empty for code from versions that did not record it.</summary>
         public virtual string GeneratorVersion => "";
 
         /// <summary>

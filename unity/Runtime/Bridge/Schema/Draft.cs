@@ -3,8 +3,8 @@ using System.ComponentModel;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Staging object of one table. FlatBuffers requires children before their table, and several sensors fill different fields of the same data, so the fields
-    /// are collected here. Reused every tick; not thread-safe.
+    /// Collects the fields of one table before it is written. Several sensors may fill different fields of a table, in any order, but FlatBuffers requires
+    /// the children of a table before the table itself. Reused every tick; not thread-safe.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class Draft
@@ -22,8 +22,8 @@ namespace Collektive.Bridge
     }
 
     /// <summary>
-    /// A <see cref="Draft"/> whose table is stored in the frame as <typeparamref name="TRow"/>, with room for all fields, even absent ones, so that a table is
-    /// one block. Used by generated code.
+    /// A <see cref="Draft"/> whose table is stored in the frame as one block of type <typeparamref name="TRow"/>. The block has room for all fields, even
+    /// absent ones. Used by generated code.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class Draft<TRow> : Draft where TRow : unmanaged
@@ -36,13 +36,13 @@ namespace Collektive.Bridge
 
         internal RowLayout Layout { get; }
 
-        /// <summary>Writes the children of the table and keeps their offsets. Returns a bit mask of the absent slots.</summary>
+        /// <summary>Writes the children of the table and stores their offsets. Returns a bit mask of the absent slots.</summary>
         [EditorBrowsable(EditorBrowsableState.Never)]
         public abstract ulong WriteChildren(DraftWriter writer);
 
         /// <summary>
-        /// Fills the row after <see cref="WriteChildren"/>. <paramref name="vtable"/> and <paramref name="place"/> are the places of the vtable and the row, in
-        /// bytes from the end of the frame.
+        /// Fills the row after <see cref="WriteChildren"/>. <paramref name="vtable"/> and <paramref name="place"/> are the positions of the vtable and the
+        /// row, in bytes from the end of the frame.
         /// </summary>
         [EditorBrowsable(EditorBrowsableState.Never)]
         public abstract void Fill(ref TRow row, int vtable, int place);

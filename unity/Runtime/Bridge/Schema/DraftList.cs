@@ -3,7 +3,7 @@ using System.Runtime.CompilerServices;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A vector of scalars, structs or strings in a <see cref="Draft"/>. Its memory grows, and is not released.</summary>
+    /// <summary>A vector of scalars, structs or strings in a <see cref="Draft"/>. Its memory grows as needed and is never released.</summary>
     public sealed class DraftList<T>
     {
         private T[] items = Array.Empty<T>();
@@ -21,7 +21,7 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>The array behind the list; the elements are its first <see cref="Count"/>.</summary>
+        /// <summary>The underlying array. Only its first <see cref="Count"/> elements belong to the list.</summary>
         internal T[] Items => items;
 
         /// <summary>Adds an element at the end.</summary>

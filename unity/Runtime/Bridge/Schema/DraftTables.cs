@@ -20,7 +20,7 @@ namespace Collektive.Bridge
             }
         }
 
-        /// <summary>Adds a draft with the defaults of the schema at the end and returns it, to be filled.</summary>
+        /// <summary>Appends a draft with the defaults of the schema, and returns it so that the caller can fill it.</summary>
         public T Add()
         {
             if (Count == items.Length) Array.Resize(ref items, Math.Max(4, 2 * Count));

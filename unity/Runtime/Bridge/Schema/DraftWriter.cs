@@ -6,9 +6,9 @@ using Collektive.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Writes drafts and their children: strings, vectors, tables. Everything is written to the writer's own memory first and copied to the frame as one block:
-    /// calling the builder for each part would cost more than writing the part. Places are bytes from the end of the frame to the start of the data, like the
-    /// builder's offsets. Memory is reused every tick. Used by generated code.
+    /// Writes drafts and their children: strings, vectors and tables. The writer fills its own memory first and then copies it to the frame as one block,
+    /// because a call of the builder for each part would cost more than the part itself. Like the builder's offsets, places are the distance in bytes from
+    /// the end of the frame to the start of the data. The memory is reused every tick. Used by generated code.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class DraftWriter
@@ -17,14 +17,14 @@ namespace Collektive.Bridge
         private const int MaxAlignment = 8;
 
         private FlatBufferBuilder builder;
-        // Filled from its end, like the frame.
+        // Filled backwards from its end, like the frame.
         private byte[] memory = new byte[1024];
         private int free;
-        // Where the frame ended when this block began.
+        // Size of the frame when this block began.
         private int origin;
         private int[] offsets = new int[16];
         private int depth;
-        // The vtables of this frame, which tables with the same fields share.
+        // The vtables written to this frame. Tables with the same fields share a vtable.
         private VTablePlace[] vtables = new VTablePlace[8];
         private int vtableCount;
 
@@ -38,7 +38,7 @@ namespace Collektive.Bridge
         /// <summary>Place of the most recently written data.</summary>
         private int Place => origin + memory.Length - free;
 
-        /// <summary>Begins a block; <see cref="End"/> puts it into the frame.</summary>
+        /// <summary>Begins a block, which <see cref="End"/> copies to the frame.</summary>
         internal void Begin(FlatBufferBuilder frame)
         {
             builder = frame;
@@ -58,13 +58,13 @@ namespace Collektive.Bridge
             fixed (byte* first = &memory[free]) builder.Put<byte>((IntPtr)first, bytes);
         }
 
-        /// <summary>Throws for data without a required field.</summary>
+        /// <summary>Throws an exception if a required field is missing.</summary>
         public void Require(bool present, string field)
         {
             if (!present) throw Missing(field + " is required by the schema and was not set");
         }
 
-        /// <summary>Writes a string; 0 for null.</summary>
+        /// <summary>Writes a string, and returns its place; 0 for null.</summary>
         public int String(string text)
         {
             if (text == null) return 0;
@@ -76,7 +76,7 @@ namespace Collektive.Bridge
             return Place;
         }
 
-        /// <summary>Writes a vector of strings; 0 for an empty one that is not required.</summary>
+        /// <summary>Writes a vector of strings, and returns its place; 0 for an empty vector that is not required.</summary>
         public int Strings(DraftList<string> list, bool required, string field)
         {
             if (list.Count == 0 && !required) return 0;
@@ -88,7 +88,7 @@ namespace Collektive.Bridge
             return PopVector(list.Count);
         }
 
-        /// <summary>Writes a vector of tables; 0 for an empty one that is not required.</summary>
+        /// <summary>Writes a vector of tables, and returns its place; 0 for an empty vector that is not required.</summary>
         public int Tables<T>(DraftTables<T> list, bool required) where T : Draft, new()
         {
             if (list.Count == 0 && !required) return 0;
@@ -96,7 +96,7 @@ namespace Collektive.Bridge
             return PopVector(list.Count);
         }
 
-        /// <summary>Writes a vector of scalars, enums or structs; 0 for an empty one that is not required. The alignment is the element's, in bytes.</summary>
+        /// <summary>Writes a vector of scalars, enums or structs, and returns its place; 0 for an empty vector that is not required.</summary>
         public unsafe int Values<T>(DraftList<T> list, bool required, int alignment) where T : unmanaged
         {
             var count = list.Count;
@@ -123,7 +123,7 @@ namespace Collektive.Bridge
             return Place;
         }
 
-        /// <summary>Writes the first <paramref name="count"/> drafts as a vector of tables. Their children are already written.</summary>
+        /// <summary>Writes the first <paramref name="count"/> drafts, whose children have been written, as a vector of tables.</summary>
         internal unsafe int Rows<TDraft, TRow>(TDraft[] drafts, int[] vtables, int count) where TDraft : Draft<TRow> where TRow : unmanaged
         {
             var at = Reserve(drafts[0].Layout.Alignment, count * sizeof(TRow));
@@ -140,7 +140,7 @@ namespace Collektive.Bridge
                 }
             }
             at = Reserve(sizeof(int), count * sizeof(int));
-            // The tables are in the order of the vector, at equal distances.
+            // The tables have the order of the vector and the same size.
             var offset = Place - first;
             fixed (byte* all = memory)
             {
@@ -154,7 +154,7 @@ namespace Collektive.Bridge
             return Length(count);
         }
 
-        /// <summary>The place of the vtable of rows without the slots in <paramref name="absent"/>; written on first use.</summary>
+        /// <summary>Returns the place of the vtable for rows without the slots in <paramref name="absent"/>. The vtable is written on first use.</summary>
         internal int VTable(RowLayout layout, ulong absent)
         {
             for (var i = vtableCount - 1; i >= 0; i--)
@@ -188,7 +188,7 @@ namespace Collektive.Bridge
             offsets[depth++] = offset;
         }
 
-        /// <summary>Writes the last offsets of the stack as a vector, in the order in which they were pushed.</summary>
+        /// <summary>Pops <paramref name="count"/> offsets from the stack, and writes them as a vector in the order in which they were pushed.</summary>
         private int PopVector(int count)
         {
             var at = Reserve(sizeof(int), count * sizeof(int));
@@ -197,14 +197,14 @@ namespace Collektive.Bridge
             return Length(count);
         }
 
-        /// <summary>Ends a vector whose elements were written last.</summary>
+        /// <summary>Ends a vector by writing its length in front of the elements.</summary>
         private int Length(int count)
         {
             PutInt(Reserve(sizeof(int), sizeof(int)), count);
             return Place;
         }
 
-        /// <summary>Reserves aligned space before the written bytes. Returns the index of its first byte.</summary>
+        /// <summary>Reserves aligned space in front of the bytes written so far, and returns the index of its first byte.</summary>
         private int Reserve(int alignment, int bytes)
         {
             var padding = -(Place + bytes) & (alignment - 1);

@@ -3,7 +3,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>The tables <c>Sensors</c> and <c>Actuators</c> of a frame: one field, the vector <c>data</c>.</summary>
+    /// <summary>Reads the tables <c>Sensors</c> and <c>Actuators</c> of a frame, which have a single field, the vector <c>data</c>.</summary>
     internal static class FrameTable
     {
         private const int DataSlot = 0;
@@ -16,7 +16,7 @@ namespace Collektive.Bridge
             return builder.EndTable();
         }
 
-        /// <summary>Position of the first element of <c>data</c>.</summary>
+        /// <summary>Returns the position of the first element of <c>data</c>.</summary>
         internal static int FindData(ByteBuffer frame, int position, int elementSize, out int count)
         {
             try

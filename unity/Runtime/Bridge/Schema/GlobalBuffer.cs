@@ -4,7 +4,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Buffer for the global data. Not thread-safe; no allocation once the capacities are reached.</summary>
+    /// <summary>Buffer for the global data. Not thread-safe; allocates only while its capacity grows.</summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class GlobalBuffer
     {

@@ -2,7 +2,7 @@ using System.ComponentModel;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A C# struct with exactly the memory layout of a struct of the schema.</summary>
+    /// <summary>A C# struct, called a mirror, that has exactly the memory layout of a struct in the schema.</summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public interface IMirror
     {

@@ -4,8 +4,8 @@ using System.ComponentModel;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Keeps a class without references in code, such as a generated schema, in players with code stripping. Unity recognises the attribute by its
-    /// name; this one is for code that does not refer to the engine.
+    /// Prevents code stripping from removing a class that no code references, such as a generated schema. Unity recognises the attribute by its name, so
+    /// this class replaces Unity's in code that does not reference the engine.
     /// </summary>
     [AttributeUsage(AttributeTargets.Class)]
     [EditorBrowsable(EditorBrowsableState.Never)]

@@ -7,7 +7,7 @@ namespace Collektive.Bridge
     public sealed class RowLayout
     {
         /// <summary>
-        /// Creates a layout from the row's alignment, its size, and the offset of each slot of the schema in bytes; 0 for deprecated slots.
+        /// Creates a layout from the row's alignment, the row's size, and the offset of each slot of the schema, all in bytes. Deprecated slots have offset 0.
         /// </summary>
         public RowLayout(int alignment, int bytes, params ushort[] offsets)
         {

@@ -5,8 +5,7 @@ using Collektive.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Buffer for one tick's sensor data: element i belongs to the i-th due node. Not thread-safe; no allocation once the
-    /// capacities are reached.
+    /// Buffer for the sensor data of one tick. Element i belongs to the i-th due node. Not thread-safe; allocates only while its capacity grows.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public abstract class SensorBuffer
@@ -17,15 +16,15 @@ namespace Collektive.Bridge
         /// <summary>Ensures capacity for at least this many elements. Never shrinks.</summary>
         internal abstract void EnsureCapacity(int count);
 
-        /// <summary>An element, boxed, for tools without the schema's types.</summary>
+        /// <summary>Returns an element, boxed, for tools that do not know the schema's types.</summary>
         internal abstract object Get(int index);
 
         /// <summary>Sets an element to the defaults of the schema.</summary>
         internal abstract void Clear(int index);
 
         /// <summary>
-        /// Path of the element's first field that is NaN or infinite, such as <c>points[2].x</c>, else null. A field whose
-        /// default in the schema is not finite may contain such values and is not checked.
+        /// Returns the path of the element's first field that is NaN or infinite, such as <c>points[2].x</c>, or null. A field whose default in the schema
+        /// is not finite may contain such values and is not checked.
         /// </summary>
         internal abstract string FindNotFinite(int index);
 

@@ -6,8 +6,8 @@ using Collektive.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Actuator data that is a struct in the schema. All elements are copied out of the frame as one block: looking up each one in the frame's memory takes ten
-    /// times as long on Mono.
+    /// Actuator data that is a struct in the schema. All elements are copied from the frame as one block. Reading each element from the frame's memory
+    /// would take ten times as long on Mono.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class StructActuatorBuffer<T> : ActuatorBuffer<T> where T : unmanaged, IMirror

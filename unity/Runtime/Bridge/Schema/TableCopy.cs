@@ -3,7 +3,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A copy of a table of a frame with its children. No allocation once the capacity is reached.</summary>
+    /// <summary>A copy of a frame's table with its children. Allocates only while its capacity grows.</summary>
     internal sealed class TableCopy
     {
         /// <summary>The largest alignment of a FlatBuffers number.</summary>
@@ -17,7 +17,7 @@ namespace Collektive.Bridge
             Buffer = new ByteBuffer(bytes);
         }
 
-        /// <summary>The copied bytes, for readers.</summary>
+        /// <summary>The copied bytes.</summary>
         internal ByteBuffer Buffer { get; private set; }
 
         internal void Clear() => used = 0;

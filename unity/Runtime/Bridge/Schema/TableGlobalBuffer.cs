@@ -3,7 +3,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Global data, which is always a table: staged in one reused draft.</summary>
+    /// <summary>Buffer for global data, which is always a table. It reuses one draft.</summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class TableGlobalBuffer<T> : GlobalBuffer<T> where T : Draft, new()
     {

@@ -4,7 +4,7 @@ using Collektive.FlatBuffers;
 
 namespace Collektive.Bridge
 {
-    /// <summary>Sensor data that is a table in the schema: staged in one reused draft per element. All tables are copied into the frame as one block.</summary>
+    /// <summary>Sensor data that is a table in the schema. Each element has a draft that is reused. All tables are copied to the frame as one block.</summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class TableSensorBuffer<TDraft, TRow> : SensorBuffer<TDraft> where TDraft : Draft<TRow>, new() where TRow : unmanaged
     {

@@ -6,8 +6,8 @@ using Collektive.FlatBuffers;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The fields of a table that are stored outside of it, to copy tables. Used by generated code, which adds the fields once;
-    /// slots are the places of fields in the table's declaration. Deprecated fields are not copied.
+    /// Lists the fields of a table that are stored outside of the table, so that tables can be copied. Generated code adds the fields once. A slot is the
+    /// index of a field in the table's declaration. Deprecated fields are not copied.
     /// </summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class TableShape
@@ -40,7 +40,7 @@ namespace Collektive.Bridge
             Tables,
         }
 
-        /// <summary>Copies the table at <paramref name="table"/> with its children, and returns its place in the copy.</summary>
+        /// <summary>Copies the table at <paramref name="table"/> with its children, and returns its position in the copy.</summary>
         internal int Copy(ByteBuffer from, int table, TableCopy to)
         {
             var vtable = table - from.GetInt(table);

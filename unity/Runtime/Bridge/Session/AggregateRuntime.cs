@@ -1,6 +1,6 @@
 namespace Collektive.Bridge
 {
-    /// <summary>Runtimes of programs: a DSL, its standard library and their implementation.</summary>
+    /// <summary>The runtimes that can run programs. A runtime consists of a DSL, its standard library and their implementation.</summary>
     public enum AggregateRuntime : byte
     {
         /// <summary>The built-in runtime, for many nodes in one process.</summary>

@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A list with access to its array, to write it as one block. Clearing keeps the memory.</summary>
+    /// <summary>A list whose underlying array is accessible, so that it can be written as one block. Clearing keeps the memory.</summary>
     internal sealed class GrowingArray<T>
     {
         private T[] items = new T[16];
@@ -16,7 +16,7 @@ namespace Collektive.Bridge
         /// <summary>Appends an element.</summary>
         public void Add(T item) => Add() = item;
 
-        /// <summary>Appends an element with its previous content. The reference is valid until the next element is appended.</summary>
+        /// <summary>Appends an element without initialising it, and returns a reference that is valid until the next element is appended.</summary>
         public ref T Add()
         {
             if (Count == items.Length) Array.Resize(ref items, Count * 2);

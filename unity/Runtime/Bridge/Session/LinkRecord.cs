@@ -2,7 +2,7 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Bridge
 {
-    /// <summary>A directed link: <see cref="To"/> receives messages of <see cref="From"/>.</summary>
+    /// <summary>A directed link, on which <see cref="To"/> receives messages from <see cref="From"/>.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct LinkRecord
     {

@@ -3,8 +3,8 @@ using System;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Loss, delay and retention of messages, in simulated seconds. By default no message is lost, and a
-    /// message can be read until the next one replaces it.
+    /// Loss, delay and retention of messages, in simulated seconds. By default, no message is lost, and each message can be read until the next one
+    /// replaces it.
     /// </summary>
     [Serializable]
     public sealed class NetworkModel
@@ -24,10 +24,12 @@ namespace Collektive.Bridge
         /// <summary>Largest additional random delay in seconds, uniformly distributed, 0 or greater.</summary>
         public double jitter;
 
-        /// <summary>Seconds until a received message expires; 0: until the next one replaces it.</summary>
+        /// <summary>Seconds until a received message expires; 0: it is kept until the next one replaces it.</summary>
         public double retention;
 
-        /// <summary>Share of a link's messages that are sent in its bad state (Gilbert-Elliott), 0 or greater and less than 1; 0: no bursts.</summary>
+        /// <summary>
+        /// Share of messages that are sent while their link is in the bad state of the Gilbert-Elliott model, 0 or greater and less than 1; 0: no bursts.
+        /// </summary>
         public double burstShare;
 
         /// <summary>Mean number of successive messages in the bad state, at least 1 and at least share / (1 - share).</summary>
@@ -70,16 +72,16 @@ namespace Collektive.Bridge
             Expired = expired;
         }
 
-        /// <summary>Sent messages, one per link.</summary>
+        /// <summary>Number of sent messages, one per link.</summary>
         public int Sent { get; }
 
-        /// <summary>Lost messages of <see cref="Sent"/>.</summary>
+        /// <summary>Number of <see cref="Sent"/> messages that were lost.</summary>
         public int Dropped { get; }
 
-        /// <summary>Messages of <see cref="Sent"/> that arrive later than in an ideal network.</summary>
+        /// <summary>Number of <see cref="Sent"/> messages that arrive later than in an ideal network.</summary>
         public int Delayed { get; }
 
-        /// <summary>Received messages whose retention ended.</summary>
+        /// <summary>Number of received messages that expired.</summary>
         public int Expired { get; }
     }
 }

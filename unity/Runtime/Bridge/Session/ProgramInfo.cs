@@ -12,7 +12,7 @@ namespace Collektive.Bridge
             Parameters = parameters;
         }
 
-        /// <summary>The name in its <c>@Program</c> annotation.</summary>
+        /// <summary>The name in the program's <c>@Program</c> annotation.</summary>
         public string Name { get; }
 
         /// <summary>The parameters that nodes can set.</summary>

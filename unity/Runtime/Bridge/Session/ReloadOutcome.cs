@@ -10,10 +10,10 @@ namespace Collektive.Bridge
             Kept = kept;
         }
 
-        /// <summary>Why the nodes keep their previous programs; empty when they have the new ones.</summary>
+        /// <summary>The reason why the nodes keep their previous programs; empty if they run the new ones.</summary>
         public string Error { get; }
 
-        /// <summary>Number of values that nodes had stored, one for each node and path.</summary>
+        /// <summary>Number of values that the nodes had stored, counted once for each node and path.</summary>
         public int Stored { get; }
 
         /// <summary>Number of these values that the new programs can read.</summary>

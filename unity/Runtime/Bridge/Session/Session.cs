@@ -6,8 +6,8 @@ using Frame = org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// One simulation on the JVM: a set of nodes, their links and their programs. <see cref="Step"/> makes exactly one call
-    /// across the boundary. Used from one thread at a time; no managed allocation per step in steady state.
+    /// One simulation on the JVM, with its nodes, links and programs. <see cref="Step"/> makes exactly one call into the JVM. Not thread-safe; steps
+    /// allocate no managed memory in steady state.
     /// </summary>
     internal sealed unsafe class Session : IDisposable
     {
@@ -63,7 +63,10 @@ namespace Collektive.Bridge
             return session;
         }
 
-        /// <summary>Like <see cref="Open"/>, but if a debugger is attached, the session may not be open until <see cref="TryFinish"/> returns true.</summary>
+        /// <summary>
+        /// Like <see cref="Open"/>, but does not wait for a debugger. If one is attached, the session is open only after <see cref="TryFinish"/> returned
+        /// true.
+        /// </summary>
         public static Session BeginOpen(SessionSettings settings, DataSchema schema)
         {
             var session = new Session(settings, schema);
@@ -83,7 +86,7 @@ namespace Collektive.Bridge
         /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with <see cref="Request"/>, and clears
         /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is unchanged.
         /// </summary>
-        /// <returns>Whether the tick has ended. Otherwise a debugger is attached to the JVM: <see cref="TryFinish"/> ends the tick.</returns>
+        /// <returns>Whether the tick has ended. If not, a debugger is attached to the JVM, and <see cref="TryFinish"/> completes the tick.</returns>
         /// <exception cref="BridgeException">The step failed; see <see cref="BridgeException.Error"/>.</exception>
         public bool Step(double deltaTime, int limitMs)
         {
@@ -98,9 +101,9 @@ namespace Collektive.Bridge
             return TryTake(Shim.clk_step(handle, slot.Slot, offset, length, limitMs, &answer), answer);
         }
 
-        /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for an opening or a step that has not ended.</summary>
-        /// <returns>Whether it has ended, or none was pending.</returns>
-        /// <exception cref="BridgeException">It failed. A session that did not open has ended.</exception>
+        /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for the pending opening or step.</summary>
+        /// <returns>Whether nothing is pending any more.</returns>
+        /// <exception cref="BridgeException">The opening or the step failed. A session that failed to open is closed.</exception>
         public bool TryFinish(int waitMs)
         {
             if (!isPending) return true;
@@ -132,7 +135,7 @@ namespace Collektive.Bridge
             if (isPending) return false;
             Shim.Check(code);
             Tick++;
-            // Removes the rounding errors of the sum.
+            // Without rounding, errors of the sum would accumulate.
             Time = Math.Round(Time + pendingDelta, TimeDecimals);
             Request.Clear();
             Point(answer);

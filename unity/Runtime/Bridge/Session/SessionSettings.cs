@@ -7,13 +7,13 @@ namespace Collektive.Bridge
     /// <summary>Settings of a session.</summary>
     internal sealed class SessionSettings
     {
-        /// <summary>Version of <c>frame.fbs</c> that both sides must share.</summary>
+        /// <summary>Version of <c>frame.fbs</c>, which must be the same in C# and on the JVM.</summary>
         private const uint Protocol = 1;
 
         /// <summary>Seed of all random numbers.</summary>
         public ulong Seed { get; set; }
 
-        /// <summary>Threads of the JVM that run rounds, 1..256. The results do not depend on it.</summary>
+        /// <summary>Number of JVM threads that run rounds, 1..256. It does not affect results.</summary>
         public int Threads { get; set; } = 1;
 
         /// <summary>Order of rounds, and the messages that a round receives.</summary>
@@ -25,10 +25,12 @@ namespace Collektive.Bridge
         /// <summary>Paths of the jars with programs; read into memory when the session opens, and then closed.</summary>
         public IReadOnlyList<string> Jars { get; set; } = new string[0];
 
-        /// <summary>Program of nodes without their own.</summary>
+        /// <summary>Program of the nodes that do not select one.</summary>
         public string Program { get; set; } = "";
 
-        /// <summary>Path of the file to record all frames in, for <c>./collektive replay</c>; overwritten. Empty: no record.</summary>
+        /// <summary>
+        /// Path of the file in which all frames are recorded, for <c>./collektive replay</c>. An existing file is overwritten. Empty: no record.
+        /// </summary>
         public string Record { get; set; } = "";
 
         /// <summary>Runtime of the programs.</summary>
@@ -40,7 +42,7 @@ namespace Collektive.Bridge
         /// <summary>Names of the metrics of programs that <see cref="StepRequest.Measures"/> requests.</summary>
         public IReadOnlyList<string> Metrics { get; set; } = new string[0];
 
-        /// <summary>Limit for opening and closing in milliseconds.</summary>
+        /// <summary>Time limit for opening and closing the session, in milliseconds.</summary>
         public int OpenLimitMs { get; set; } = 30000;
 
         /// <summary>Writes the request that opens a session.</summary>

@@ -25,7 +25,7 @@ namespace Collektive.Bridge
             Actuators = actuators;
         }
 
-        /// <summary>The actuator data; element i belongs to node i of <see cref="Nodes"/>.</summary>
+        /// <summary>The actuator data. Element i belongs to the i-th of the <see cref="Nodes"/>.</summary>
         public ActuatorBuffer Actuators { get; }
 
         /// <summary>Number of rounds that produced an answer.</summary>
@@ -49,7 +49,7 @@ namespace Collektive.Bridge
         /// <summary>Microseconds that the JVM spent on the step.</summary>
         public int HostMicros => response.HostMicros;
 
-        /// <summary>Microseconds of these that the rounds took.</summary>
+        /// <summary>Microseconds of <see cref="HostMicros"/> that the rounds took.</summary>
         public int RoundMicros => response.RoundMicros;
 
         /// <summary>Message counts of the step.</summary>
@@ -74,13 +74,13 @@ namespace Collektive.Bridge
         /// <summary>Sizes of the messages of <see cref="Nodes"/>; empty unless requested.</summary>
         public Span<MessageSize> Messages => Vector<MessageSize>(MessagesField);
 
-        /// <summary>Ids of the nodes with an answer, ascending. As a block, because a call for each one takes longer on Mono.</summary>
+        /// <summary>Ids of the nodes with an answer, ascending. They are returned as a block, because a call for each id would take longer on Mono.</summary>
         public Span<int> Nodes => Vector<int>(NodesField);
 
-        /// <summary>Number of <see cref="Metric"/>s: those of the session if requested, otherwise none.</summary>
+        /// <summary>Number of metrics that <see cref="Metric"/> returns; 0 if the step did not request them.</summary>
         public int MetricCount => response.MetricsLength;
 
-        /// <summary>The value of a metric after the step, or NaN and why it failed. Allocates.</summary>
+        /// <summary>Returns the value of a metric after the step. If the metric failed, the value is NaN and the error is set. Allocates.</summary>
         public (double Value, string Error) Metric(int index)
         {
             var metric = response.Metrics(index).GetValueOrDefault();
@@ -90,20 +90,22 @@ namespace Collektive.Bridge
         /// <summary>Id of the node that the step inspected, or -1.</summary>
         public int InspectedNode => response.Inspection?.Node ?? -1;
 
-        /// <summary>Nanoseconds of the last round of <see cref="InspectedNode"/>, or 0 if it had none since it is inspected.</summary>
+        /// <summary>
+        /// Nanoseconds that the last round of <see cref="InspectedNode"/> took, or 0 if the node has had no round since its inspection began.
+        /// </summary>
         public long InspectedRoundNanos => response.Inspection.GetValueOrDefault().RoundNanos;
 
         /// <summary>Number of stored values of <see cref="InspectedNode"/>, which is not -1.</summary>
         public int StateCount => response.Inspection.GetValueOrDefault().StateLength;
 
-        /// <summary>Path and text of a stored value of <see cref="InspectedNode"/>; ascending by path. Allocates.</summary>
+        /// <summary>Returns the path and the text of a stored value of <see cref="InspectedNode"/>. Values are sorted by path. Allocates.</summary>
         public (string Path, string Value) State(int index)
         {
             var entry = response.Inspection.GetValueOrDefault().State(index).GetValueOrDefault();
             return (entry.Path, entry.Value);
         }
 
-        /// <summary>The node, the program and the text of a failed round. Allocates.</summary>
+        /// <summary>Returns the node, the program and the error message of a failed round. Allocates.</summary>
         public (int Node, string Program, string Message) Error(int index)
         {
             var error = response.Errors(index).GetValueOrDefault();
@@ -131,7 +133,7 @@ namespace Collektive.Bridge
         }
     }
 
-    /// <summary>Number of values in a node's message to its neighbours, and their size in bytes; as <c>MessageSizes</c> of the schema.</summary>
+    /// <summary>Number of values in a node's message to its neighbours, and their size in bytes. Has the layout of <c>MessageSizes</c> in the schema.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal struct MessageSize
     {

@@ -6,8 +6,8 @@ using Frame = org.collektive.frame;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// The changes since the last tick, and the due nodes. Filled by the owner of the session, written to the request slot by
-    /// <see cref="Session.Step"/>, emptied when the step succeeded. Not thread-safe; no allocation in steady state.
+    /// The changes since the last tick, and the due nodes. The owner of the session fills the request. <see cref="Session.Step"/> writes it to the request
+    /// slot, and clears it when the step succeeds. Not thread-safe; no allocation in steady state.
     /// </summary>
     internal sealed class StepRequest
     {
@@ -24,13 +24,13 @@ namespace Collektive.Bridge
             Globals = globals;
         }
 
-        /// <summary>Sensor data of the due nodes, element i for the i-th call of <see cref="AddDue"/>.</summary>
+        /// <summary>Sensor data of the due nodes. Element i belongs to the node of the i-th call of <see cref="AddDue"/>.</summary>
         public SensorBuffer Sensors { get; }
 
-        /// <summary>Global data, or null when the schema has none.</summary>
+        /// <summary>Global data, or null if the schema has none.</summary>
         public GlobalBuffer Globals { get; }
 
-        /// <summary>Whether <see cref="Globals"/> goes out with the next step.</summary>
+        /// <summary>Whether the next step sends <see cref="Globals"/>.</summary>
         public bool GlobalsChanged { get; set; }
 
         /// <summary>Whether answers contain the sizes of messages.</summary>
@@ -42,19 +42,19 @@ namespace Collektive.Bridge
         /// <summary>Id of the node that <see cref="StepAnswer.InspectedNode"/> describes, or -1.</summary>
         public int Inspected { get; set; } = -1;
 
-        /// <summary>Directed links made or changed since the last step.</summary>
+        /// <summary>Directed links added or changed since the last step.</summary>
         internal GrowingArray<LinkRecord> Links { get; } = new GrowingArray<LinkRecord>();
 
         /// <summary>Directed links removed since the last step.</summary>
         internal GrowingArray<LinkEnds> LinksRemoved { get; } = new GrowingArray<LinkEnds>();
 
-        /// <summary>Nodes due in the next step.</summary>
+        /// <summary>Number of nodes that are due in the next step.</summary>
         public int DueCount => due.Count;
 
-        /// <summary>The id of a due node.</summary>
+        /// <summary>Returns the id of a due node.</summary>
         public int Due(int index) => due.Items[index];
 
-        /// <summary>Adds a node; its parameters are kept by reference until the step.</summary>
+        /// <summary>Adds a node. The request refers to <paramref name="parameters"/> until the step.</summary>
         public void AddNode(int id, string program, IReadOnlyList<KeyValuePair<string, string>> parameters)
         {
             nodesAdded.Add(new NewNode(id, program, parameters));
@@ -66,7 +66,7 @@ namespace Collektive.Bridge
             nodesChanged.Add(new NewNode(id, program, parameters));
         }
 
-        /// <summary>Removes a node and its links. Removals come before additions.</summary>
+        /// <summary>Removes a node and its links. The step applies removals before additions.</summary>
         public void RemoveNode(int id)
         {
             nodesRemoved.Add(id);
@@ -78,17 +78,17 @@ namespace Collektive.Bridge
             Links.Add(link);
         }
 
-        /// <summary>Removes a directed link between nodes that stay.</summary>
+        /// <summary>Removes a directed link between two nodes that remain in the session.</summary>
         public void RemoveLink(LinkEnds link)
         {
             LinksRemoved.Add(link);
         }
 
-        /// <summary>Replaces the programs of all nodes with those in the jars at the paths <paramref name="jars"/>, before the next step.</summary>
+        /// <summary>Replaces the programs of all nodes before the next step, with the programs in the jars at the given paths.</summary>
         public void Reload(IReadOnlyList<string> jars)
         {
             reloadedJars = jars;
-            // The new programs read the global data with new classes.
+            // The new programs read the global data with new classes, so it must be sent again.
             GlobalsChanged |= hasSentGlobals;
         }
 
