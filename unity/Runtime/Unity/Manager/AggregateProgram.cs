@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>A program of a <see cref="ProgramLibrary"/>, which the Simulation Manager and nodes refer to.</summary>
+    /// <summary>A program of a <see cref="ProgramLibrary"/>. The Simulation Manager and nodes refer to it.</summary>
     [HelpPage("programs.md#select-programs")]
     public sealed class AggregateProgram : ScriptableObject
     {
@@ -21,7 +21,7 @@ namespace Collektive.Unity
         [Tooltip("The library that contains the program.")]
         private ProgramLibrary library;
 
-        /// <summary>The name in its <c>@Program</c> annotation.</summary>
+        /// <summary>The name in the program's <c>@Program</c> annotation.</summary>
         public string Name => programName;
 
         /// <summary>The library that contains the program.</summary>

@@ -3,8 +3,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A player that was started with <c>-batchmode</c> for a run with an end, <see cref="SimulationSettings.stopAfter"/>: it plays one tick in each frame,
-    /// as fast as the machine can, and the process ends with the run.
+    /// Support for players that are started with <c>-batchmode</c> and a duration, <see cref="SimulationSettings.stopAfter"/>. Such a player runs one tick
+    /// per frame as fast as it can, and quits at the end of the run.
     /// </summary>
     internal static class BatchPlayer
     {
@@ -15,7 +15,7 @@ namespace Collektive.Unity
             Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, settings.deltaTime);
         }
 
-        /// <param name="isGood">Whether the run reached its end without an error; the process ends with 0 then, else with 1.</param>
+        /// <param name="isGood">Whether the run reached its end without an error. The exit code is then 0, otherwise 1.</param>
         internal static void End(SimulationSettings settings, bool isGood)
         {
             if (IsBatchRun(settings)) Application.Quit(isGood ? 0 : 1);

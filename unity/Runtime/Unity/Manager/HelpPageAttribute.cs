@@ -3,7 +3,9 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The page of the manual that the help button of a component opens, such as <c>programs.md#build</c>. Derived components inherit it.</summary>
+    /// <summary>
+    /// Sets the page of the manual that a component's help button opens, such as <c>programs.md#build</c>. Derived components inherit the page.
+    /// </summary>
     [AttributeUsage(AttributeTargets.Class)]
     internal sealed class HelpPageAttribute : HelpURLAttribute
     {
@@ -11,7 +13,7 @@ namespace Collektive.Unity
         {
         }
 
-        /// <summary>The page from the folder of the manual.</summary>
+        /// <summary>The page, relative to the folder of the manual.</summary>
         internal string Page => base.URL;
 
         /// <inheritdoc/>

@@ -12,16 +12,19 @@ namespace Collektive.Unity
     {
         private const string Package = "Packages/org.collektive.unity";
 
-        /// <summary>Returns the real path of a file relative to the project's folder. The editor replaces it, because packages are stored elsewhere.</summary>
+        /// <summary>
+        /// Returns the real path of a file that is named relative to the project's folder. The editor replaces this function, because it stores packages
+        /// elsewhere.
+        /// </summary>
         internal static Func<string, string> ToPhysical { get; set; } = InPlayer;
 
-        /// <summary>Returns the path of the asset with a GUID, from the project's folder. Set by the editor; null in a player.</summary>
+        /// <summary>Returns the path of the asset with a GUID, relative to the project's folder. Set by the editor; null in a player.</summary>
         internal static Func<string, string> ToAssetPath { get; set; }
 
         private static string hostJar;
         private static string javaHome;
 
-        /// <summary>Path of the host's jar: the one that was set, or the package's.</summary>
+        /// <summary>Path of the host's jar. The default is the package's jar.</summary>
         internal static string HostJar
         {
             get => hostJar ?? PathOf(OwnFile("collektive-host.jar"));
@@ -31,7 +34,7 @@ namespace Collektive.Unity
         /// <summary>Path of the jar with the DSL and the standard library, for compiling programs.</summary>
         internal static string LibraryJar => Path.Combine(Path.GetDirectoryName(HostJar), "collektive-library.jar");
 
-        /// <summary>Root of the JVM for the location Automatic: the one that was set, the JVM package, or <c>JAVA_HOME</c>; otherwise empty.</summary>
+        /// <summary>Root of the JVM for the location Automatic. The default is the JVM package, otherwise <c>JAVA_HOME</c>, otherwise empty.</summary>
         internal static string JavaHome
         {
             get => javaHome ?? (Directory.Exists(Bundled) ? Bundled : FromEnvironment);
@@ -41,19 +44,19 @@ namespace Collektive.Unity
         /// <summary>The package's name for the platform that this process runs on, such as <c>linux-x64</c> or <c>mac-arm64</c>.</summary>
         internal static string Platform { get; } = NameOfPlatform();
 
-        /// <summary>Root of the JVM in the package, or in the JVM package of this platform. It may not exist.</summary>
+        /// <summary>Root of the JVM that is installed with this package or with the JVM package of this platform. The folder may not exist.</summary>
         internal static string Bundled => BundledFor(Platform);
 
         private static string FromEnvironment => Environment.GetEnvironmentVariable("JAVA_HOME") ?? "";
 
-        /// <summary>The same as <see cref="Bundled"/>, for another platform.</summary>
+        /// <summary>Returns the same as <see cref="Bundled"/> for another platform.</summary>
         internal static string BundledFor(string platform)
         {
             var own = PathOf(OwnFile(platform));
             return Directory.Exists(own) ? own : ToPhysical(Package + ".jvm." + platform + "/Jvm~/" + platform);
         }
 
-        /// <summary>Path of a file in the package's <c>Jvm~</c>, relative to the project's folder.</summary>
+        /// <summary>Returns the path of a file in the package's folder <c>Jvm~</c>, relative to the project's folder.</summary>
         internal static string OwnFile(string name) => Package + "/Jvm~/" + name;
 
         /// <summary>Returns the options that start the JVM of <paramref name="settings"/> on this machine.</summary>
@@ -70,8 +73,9 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// The full path of a file named from the project's folder. Names below <c>Packages/org.collektive.unity</c> are the package's own files, wherever it
-        /// is installed: a tarball has its content below <c>unity</c>, a git URL with <c>?path=/unity</c> does not.
+        /// Returns the full path of a file that is named relative to the project's folder. Names below <c>Packages/org.collektive.unity</c> are resolved in
+        /// the package, wherever it is installed. A tarball has the package's content in a folder <c>unity</c>; a git URL with <c>?path=/unity</c> does
+        /// not.
         /// </summary>
         internal static string PathOf(string file)
         {
@@ -80,7 +84,9 @@ namespace Collektive.Unity
             return Directory.Exists(content) ? Path.Combine(content, file.Substring(Package.Length + 1)) : ToPhysical(file);
         }
 
-        /// <summary>Returns the address of a page of the manual: in the repository of a release, otherwise the package's own file.</summary>
+        /// <summary>
+        /// Returns the address of a page of the manual. For a release, the page is in the repository; otherwise it is the package's own file.
+        /// </summary>
         internal static string AddressOf(string page)
         {
             var manifest = ToPhysical(Package + "/package.json");
@@ -91,14 +97,14 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Path, below a player's streaming assets, of a file that the settings name relative to the project's folder. Files outside of that folder get a
-        /// name derived from their path.
+        /// Returns the path below a player's streaming assets for a file that the settings name relative to the project's folder. A file outside of that
+        /// folder gets a name that is derived from its path.
         /// </summary>
         internal static string NameInPlayer(string file)
         {
             var name = file.Replace('\\', '/');
             var isOutside = name.StartsWith("/", StringComparison.Ordinal) || name.Contains(":") || Array.IndexOf(name.Split('/'), "..") >= 0;
-            // Unity leaves out folders whose names end with ~.
+            // Unity omits folders whose names end with ~.
             return "Collektive/" + (isOutside ? "Elsewhere/" + Uri.EscapeDataString(name) : name.Replace("~/", "/"));
         }
 

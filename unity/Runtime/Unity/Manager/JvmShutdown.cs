@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Stops the JVM when the process quits, before the managed runtime ends: this saves flight recordings, and Java threads must not outlive the
-    /// runtime's signal handlers. Leaving play mode in the editor does not stop it.
+    /// Stops the JVM when the process quits, before the managed runtime ends. This saves flight recordings, and ends the Java threads while the runtime's
+    /// signal handlers still exist. Leaving play mode in the editor does not stop the JVM.
     /// </summary>
     internal static class JvmShutdown
     {

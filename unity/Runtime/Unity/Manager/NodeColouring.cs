@@ -7,15 +7,17 @@ namespace Collektive.Unity
     public sealed class NodeColouring
     {
         /// <summary>Creates a colouring by numbers, or by categories if <see cref="IsCategory"/> is set.</summary>
-        /// <param name="name">Shown in the legend; different for each colouring of a scene.</param>
-        /// <param name="read">Returns the node's value, or NaN without one. Called between ticks, on the main thread, for each recorded frame.</param>
+        /// <param name="name">The name in the legend, unique among the colourings of a scene.</param>
+        /// <param name="read">
+        /// Returns the node's value, or NaN if it has none. Called between ticks on the main thread, once per node and recorded frame.
+        /// </param>
         public NodeColouring(string name, Func<Node, double> read)
         {
             Name = name ?? throw new ArgumentNullException(nameof(name));
             Read = read ?? throw new ArgumentNullException(nameof(read));
         }
 
-        /// <summary>Shown in the legend.</summary>
+        /// <summary>The name in the legend.</summary>
         public string Name { get; }
 
         /// <summary>Returns the node's value, or NaN without one.</summary>
@@ -25,8 +27,8 @@ namespace Collektive.Unity
         public string Unit { get; set; }
 
         /// <summary>
-        /// Whether the values are whole numbers between -2^30 and 2^30 that name something, such as ids of leaders: each gets its own colour
-        /// instead of a place on a scale. Default: false.
+        /// Whether the values are identifiers, such as ids of leaders, rather than quantities. They must be whole numbers between -2^30 and 2^30, and each
+        /// gets its own colour instead of a colour on a scale. Default: false.
         /// </summary>
         public bool IsCategory { get; set; }
 

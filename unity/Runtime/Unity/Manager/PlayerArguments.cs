@@ -8,8 +8,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Settings from the command line of a player, for batch runs: <c>-collektive-seed 7 -collektive-jvm.placement OwnProcess</c>. Each number, text or choice
-    /// can be set by its name in scenario files. In the editor, use the inspector.
+    /// Reads settings from the command line of a player, for batch runs: <c>-collektive-seed 7 -collektive-jvm.placement OwnProcess</c>. Options have the
+    /// names of the settings in scenario files, and exist for all numbers, texts and choices. The editor ignores them.
     /// </summary>
     internal static class PlayerArguments
     {
@@ -71,7 +71,7 @@ namespace Collektive.Unity
             if (type == typeof(string)) return true;
             try
             {
-                // By its name only, as in scenario files.
+                // Accept names only, as in scenario files.
                 if (type.IsEnum) return Array.IndexOf(Enum.GetNames(type), text) >= 0 && (value = Enum.Parse(type, text)) != null;
                 value = Convert.ChangeType(text, type, CultureInfo.InvariantCulture);
                 return true;

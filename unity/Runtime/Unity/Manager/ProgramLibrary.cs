@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A jar with compiled programs, imported from a <c>.clkprograms</c> file. The Simulation Manager lists the libraries whose programs nodes
-    /// can run, and players contain the libraries that their scenes refer to.
+    /// A jar with compiled programs, imported from a <c>.clkprograms</c> file. Nodes can run the programs of the libraries that the Simulation Manager
+    /// lists. Players contain the libraries that their scenes refer to.
     /// </summary>
     [HelpPage("programs.md#select-programs")]
     public sealed class ProgramLibrary : ScriptableObject
@@ -38,7 +38,7 @@ namespace Collektive.Unity
         [Tooltip("The programs of the library.")]
         private AggregateProgram[] programs = new AggregateProgram[0];
 
-        /// <summary>The programs, by name in ordinal order; empty if the file could not be imported.</summary>
+        /// <summary>The programs, in ordinal order of their names; empty if the file could not be imported.</summary>
         public IReadOnlyList<AggregateProgram> Programs => programs;
 
         /// <summary>Full name of the schema class that the programs were compiled with, such as <c>swarm.SwarmSchema</c>.</summary>
@@ -53,10 +53,10 @@ namespace Collektive.Unity
         /// <summary>SHA-256 of the schema and the Kotlin files, in hexadecimal; empty if the build tool did not record it.</summary>
         public string SourcesHash => sourcesHash;
 
-        /// <summary>Path of the file from the project's folder. In a player, its name among the files that the build added.</summary>
+        /// <summary>Path of the file, relative to the project's folder. In a player, its path among the files that the build added.</summary>
         internal string File => Installation.ToAssetPath == null ? NameInPlayer : Installation.ToAssetPath(guid);
 
-        /// <summary>The name by which a player finds the file. It contains the GUID, because two folders may contain files with the same name.</summary>
+        /// <summary>The path by which a player finds the file. It contains the GUID, because two folders may contain files with the same name.</summary>
         internal string NameInPlayer => "Programs/" + guid + "/" + name + "." + Extension;
 
         /// <summary>Returns the program of that name, or null.</summary>

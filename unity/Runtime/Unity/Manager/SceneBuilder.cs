@@ -5,9 +5,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Builds a scene from code; the same scene runs in the editor and without it. Its public fields can be set in the
-    /// inspector, in a scenario file and on the command line. The scene needs a <see cref="SimulationManager"/>.
-    /// A subclass with its own <c>Awake</c> overrides this one and calls it.
+    /// Builds a scene from code, which runs both in Unity and without it. The public fields of a subclass can be set in the inspector, in a scenario file
+    /// and on the command line. The scene needs a <see cref="SimulationManager"/>. A subclass with its own <c>Awake</c> must override this class's
+    /// <c>Awake</c> and call it.
     /// </summary>
     [HelpPage("tutorial-scene-builder.md")]
     public abstract class SceneBuilder : MonoBehaviour
@@ -15,12 +15,12 @@ namespace Collektive.Unity
         /// <summary>Names of the scene's metrics.</summary>
         public virtual IReadOnlyList<string> MetricNames => Array.Empty<string>();
 
-        /// <summary>Name of <see cref="GetColouringValue"/> in the legend of a replay, or null without colourings.</summary>
+        /// <summary>Name of <see cref="GetColouringValue"/> in the legend of a replay, or null if nodes have no such value.</summary>
         public virtual string ColouringName => null;
 
         /// <summary>
-        /// The values by which a replay can colour nodes; the first is the default. Read once, at the start of the run.
-        /// Default: <see cref="GetColouringValue"/> alone, if it has a name.
+        /// The values by which a replay can colour nodes. The replay starts with the first one. Read once, when the run starts. By default, the list
+        /// contains <see cref="GetColouringValue"/>, if <see cref="ColouringName"/> is set.
         /// </summary>
         public virtual IReadOnlyList<NodeColouring> Colourings =>
             ColouringName == null ? Array.Empty<NodeColouring>() : new[] { new NodeColouring(ColouringName, node => GetColouringValue(node)) };
@@ -29,8 +29,8 @@ namespace Collektive.Unity
         public virtual IReadOnlyList<KeyValuePair<string, Vector3>> Landmarks => Array.Empty<KeyValuePair<string, Vector3>>();
 
         /// <summary>
-        /// Returns the problem with the fields, or null. Called before a run without Unity builds the scene. If the message begins with a field in
-        /// single quotes, such as <c>'range' must be positive</c> or <c>'zones[2].radius'</c>, the error contains its line in the scenario file.
+        /// Returns an error of the fields, or null. Runs without Unity call it before they build the scene. If the message begins with a field in single
+        /// quotes, such as <c>'range' must be positive</c> or <c>'zones[2].radius'</c>, the reported error contains the field's line in the scenario file.
         /// </summary>
         public virtual string FindProblem() => null;
 
@@ -71,7 +71,7 @@ namespace Collektive.Unity
             }
             catch (Exception error)
             {
-                // A partly built scene would give wrong results.
+                // An incomplete scene would give wrong results.
                 Debug.LogException(error, this);
                 SimulationManager.Current.Fail("the scene " + GetType().Name + " could not be built: " + error.Message, this);
             }

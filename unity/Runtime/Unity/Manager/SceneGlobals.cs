@@ -4,7 +4,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity
 {
-    /// <summary>Global data for the next tick. It is written once the session is open.</summary>
+    /// <summary>Collects global data for the next tick. The data is written once the session is open.</summary>
     internal sealed class SceneGlobals
     {
         private List<Func<GlobalBuffer, string>> pending = new List<Func<GlobalBuffer, string>>();
@@ -14,11 +14,11 @@ namespace Collektive.Unity
 
         internal void Clear() => pending.Clear();
 
-        /// <summary>Writes the data set since the last tick to the request, and returns its error or null.</summary>
+        /// <summary>Writes the data that was set since the last tick to the request. Returns the error of the data, or null.</summary>
         internal string Flush(StepRequest request)
         {
             if (pending.Count == 0) return null;
-            // The user's code may set more data, for the next tick.
+            // The user's code may set more data here, for the next tick.
             (pending, writing) = (writing, pending);
             request.GlobalsChanged = true;
             string problem = null;

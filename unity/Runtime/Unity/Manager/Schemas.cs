@@ -7,7 +7,7 @@ namespace Collektive.Unity
     /// <summary>Finds generated schema classes among the loaded assemblies.</summary>
     internal static class Schemas
     {
-        /// <summary>Returns the schema with that name, or the only one for an empty name.</summary>
+        /// <summary>Returns the schema with the given name, or the only schema if the name is empty.</summary>
         /// <exception cref="BridgeException">No schema, or several schemas, match.</exception>
         internal static DataSchema Find(string name)
         {
@@ -27,7 +27,7 @@ namespace Collektive.Unity
         private static DataSchema Choose(List<DataSchema> all, string name) =>
             string.IsNullOrEmpty(name) ? all.Count == 1 ? all[0] : null : all.Find(schema => schema.Name == name);
 
-        /// <summary>Returns the types of schemas. The editor replaces it, because it knows them without a search.</summary>
+        /// <summary>Returns the types of all schemas. The editor replaces this function, because it has an index of types.</summary>
         internal static Func<IEnumerable<Type>> FindTypes { get; set; } = ExportedTypes;
 
         /// <summary>All schemas, in no particular order.</summary>
@@ -50,7 +50,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>On CoreCLR the domain also lists assemblies of unloaded code.</summary>
+        /// <summary>Returns the loaded assemblies. On CoreCLR, the domain also lists assemblies that were unloaded.</summary>
         private static IEnumerable<System.Reflection.Assembly> LoadedAssemblies() =>
 #if UNITY_6000_5_OR_NEWER
             UnityEngine.Assemblies.CurrentAssemblies.GetLoadedAssemblies();

@@ -6,12 +6,12 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Runs the simulation of a scene: decides when a tick is due, runs the sensors, makes one call into the JVM, runs the actuators, and advances physics.
-    /// While paused, it runs no ticks. Call all members from the main thread.
+    /// Runs the simulation of a scene. In each tick, it runs the sensors, makes one call into the JVM, runs the actuators, and advances physics. While it
+    /// is paused, it runs no ticks. Call all members from the main thread.
     ///
-    /// One manager serves all loaded scenes; a second one, for instance in an additive scene, disables itself with an error. Nodes of all loaded scenes take
-    /// part. When a scene is loaded later, its nodes join; when it is unloaded, they leave. The simulation ends with the manager's own scene; remaining nodes
-    /// wait for the next manager and start afresh.
+    /// One manager serves all loaded scenes, and the nodes of all loaded scenes take part. Nodes join when their scene is loaded, and leave when it is
+    /// unloaded. A second manager, for instance in an additive scene, disables itself with an error. The simulation ends when the manager's own scene is
+    /// unloaded. The remaining nodes then wait for the next manager and start afresh.
     /// </summary>
     [AddComponentMenu("Collektive/Simulation Manager")]
     [DisallowMultipleComponent]
@@ -19,10 +19,10 @@ namespace Collektive.Unity
     [HelpPage("way-of-a-tick.md")]
     public sealed class SimulationManager : MonoBehaviour
     {
-        /// <summary>Limit of ticks per frame. The remaining time is dropped.</summary>
+        /// <summary>Maximum number of ticks per frame. Time that would need more ticks is dropped.</summary>
         private const int MaxTicksPerFrame = 4;
 
-        /// <summary>Tolerance for rounded frame times: ten of 0.02 s must run two ticks of 0.1 s.</summary>
+        /// <summary>Tolerance for rounded frame times. For example, ten frames of 0.02 s must run two ticks of 0.1 s.</summary>
         private const double RoundingTolerance = 1 - 1e-6;
 
         [SerializeField]
@@ -41,8 +41,8 @@ namespace Collektive.Unity
         private bool stepping;
 
         /// <summary>
-        /// Evaluated after each tick; true pauses the simulation. To continue, set <see cref="Paused"/> to false. An exception counts as an error, and
-        /// the simulation goes on.
+        /// A function that is called after each tick and pauses the simulation by returning true. To continue, set <see cref="Paused"/> to false. An
+        /// exception counts as an error, and the simulation continues.
         /// </summary>
         public Func<SimulationManager, bool> StopCondition { get; set; }
 
@@ -50,8 +50,8 @@ namespace Collektive.Unity
         public bool Finished { get; private set; }
 
         /// <summary>
-        /// Called after each tick, after physics has advanced. An exception in a handler counts as an error, and the simulation goes on. A handler that fails
-        /// 10 times in a row is removed. Add handlers in <c>OnEnable</c>: they are lost when scripts are compiled during play.
+        /// Raised after each tick, when physics has advanced. An exception in a handler counts as an error, and the simulation continues. A handler that
+        /// fails 10 times in a row is removed. Add handlers in <c>OnEnable</c>, because they are lost when scripts are compiled during play.
         /// </summary>
         public event Action<SimulationManager> Ticked
         {
@@ -59,7 +59,7 @@ namespace Collektive.Unity
             remove => handlers.Remove(value);
         }
 
-        /// <summary>Raised for each line of the JVM's log after it was written to Unity's log. An exception in a handler is logged.</summary>
+        /// <summary>Raised for each line of the JVM's log, after the line was written to Unity's log. An exception in a handler is logged.</summary>
         public event Action<HostLogLevel, string> Logged;
 
         /// <summary>The scene's manager, or null.</summary>
@@ -75,7 +75,7 @@ namespace Collektive.Unity
             set => paused = value;
         }
 
-        /// <summary>The error that stopped the simulation, or an empty text.</summary>
+        /// <summary>The error that stopped the simulation, or an empty string.</summary>
         public string Failure => Simulation.Failure;
 
         /// <summary>Random numbers for the scene. They depend only on the seed.</summary>
@@ -90,19 +90,19 @@ namespace Collektive.Unity
         /// <summary>Number of completed ticks.</summary>
         public ulong Tick => Simulation.Tick;
 
-        /// <summary>Simulated seconds.</summary>
+        /// <summary>Simulated time in seconds.</summary>
         public double SimulatedTime => Simulation.Time;
 
         /// <summary>
-        /// For drawing between ticks: the part of the delta time that has passed since the last tick, 0 to 1. While paused, it is 1, so that the state after
-        /// the last tick is drawn.
+        /// The fraction of the delta time that has passed since the last tick, 0 to 1, for drawing between ticks. While the simulation is paused, the
+        /// fraction is 1, so that the state after the last tick is drawn.
         /// </summary>
         public float TickFraction => paused ? 1 : (float)Math.Min(accumulated / settings.deltaTime, 1);
 
         /// <summary>First 8 bytes of the digest over all rounds so far.</summary>
         public ulong Digest => Simulation.Digest;
 
-        /// <summary>Directed links.</summary>
+        /// <summary>Number of directed links.</summary>
         public int LinkCount => Simulation.PresentLinks.Count;
 
         /// <summary>Errors of rounds, sensors, actuators, rules and handlers of <see cref="Ticked"/> so far.</summary>
@@ -120,27 +120,30 @@ namespace Collektive.Unity
         /// <summary>Message counts of the last tick.</summary>
         public NetworkCounts Network => Simulation.Network;
 
-        /// <summary>The simulation since the manager was last enabled. A disabled manager keeps it with its errors.</summary>
+        /// <summary>The simulation that began when the manager was last enabled. A disabled manager keeps it, so that its errors can still be read.</summary>
         internal Simulation Simulation => simulation ?? (simulation = new Simulation(settings, globals, this));
 
         /// <summary>
-        /// Links two nodes until <see cref="RemoveLink"/>: <paramref name="b"/> receives messages from <paramref name="a"/>, and vice versa unless <paramref
-        /// name="directed"/>. The length is the distance now. May be called from any script's message method, for instance <c>OnTriggerEnter</c>; it takes
-        /// effect at the next tick. If a node is not in the simulation, the call only logs one warning.
+        /// Links two nodes until <see cref="RemoveLink"/>. Node <paramref name="b"/> receives messages from <paramref name="a"/>, and vice versa unless
+        /// <paramref name="directed"/> is true. The link keeps the present distance of the nodes as its length. Scripts may call this from any message
+        /// method, for instance <c>OnTriggerEnter</c>; the link takes effect at the next tick. If a node is not in the simulation, the call is ignored,
+        /// with one warning per node.
         /// </summary>
         public void AddLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Add(a, b, directed);
 
-        /// <summary>Removes a link added by <see cref="AddLink"/>. Links of neighbourhood rules stay; links of nodes that left are already removed.</summary>
+        /// <summary>
+        /// Removes a link added by <see cref="AddLink"/>. Links of neighbourhood rules are not affected. Links of nodes that left were already removed.
+        /// </summary>
         public void RemoveLink(int a, int b, bool directed = false) => Simulation.ScriptLinks.Remove(a, b, directed);
 
         /// <summary>
-        /// Writes the scene's global data, which programs see as <c>device.globals</c> from the next tick on. May be called at any time, and
-        /// several times in a tick; <paramref name="write"/> runs when the next tick begins, and sees the data written before.
+        /// Changes the scene's global data, which programs read as <c>device.globals</c> from the next tick on. May be called at any time, also several
+        /// times in a tick. When the next tick begins, <paramref name="write"/> is called with the data of earlier calls.
         /// </summary>
-        /// <typeparam name="T">The draft that generated code has for the schema's <c>GlobalData</c>.</typeparam>
+        /// <typeparam name="T">The generated draft class of the schema's <c>GlobalData</c>.</typeparam>
         public void SetGlobals<T>(Action<T> write) => globals.Set(write ?? throw new ArgumentNullException(nameof(write)));
 
-        /// <summary>Whether <paramref name="to"/> receives messages from <paramref name="from"/>.</summary>
+        /// <summary>Returns whether <paramref name="to"/> receives messages from <paramref name="from"/>.</summary>
         public bool HasLink(int from, int to) => Simulation.PresentLinks.Has(from, to);
 
         /// <summary>Replaces the content of <paramref name="target"/> with all directed links.</summary>
@@ -150,15 +153,15 @@ namespace Collektive.Unity
         public Node Find(int id) => Simulation.Find(id);
 
         /// <summary>
-        /// The nodes within <paramref name="radius"/> metres of a point at the beginning of this tick, with their distances, ascending by id.
-        /// Up to date while neighbourhood rules run.
+        /// Finds the nodes within <paramref name="radius"/> metres of a point, sorted by id, with their distances. The search uses the positions at the
+        /// beginning of this tick, and is up to date while neighbourhood rules run.
         /// </summary>
         public void FindNodes(Vector3 centre, float radius, List<Node> found, List<float> distances) =>
             Simulation.Context.Grid.Copy(Simulation.Context.Grid.Find(centre, radius), found, distances);
 
         /// <summary>
-        /// The <paramref name="count"/> nodes nearest to a point at the beginning of this tick, or all if there are fewer, the nearest first and
-        /// by id at equal distances. Up to date while neighbourhood rules run.
+        /// Finds at most <paramref name="count"/> nodes nearest to a point, sorted by distance and then by id. The search uses the positions at the
+        /// beginning of this tick, and is up to date while neighbourhood rules run.
         /// </summary>
         public void FindNearestNodes(Vector3 centre, int count, List<Node> found, List<float> distances)
         {
@@ -192,15 +195,15 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Loads the programs again before the next tick, for example after their jars were rebuilt. A node keeps state and messages at each path that its old
-        /// and new program share, unless a value's class is in the jars and cannot be copied by Java serialization. If its first round fails, it starts afresh.
-        /// The outcome is logged. If the new programs are invalid, the previous ones continue.
+        /// Loads the programs again before the next tick, for example after their jars were rebuilt. A node keeps its state and messages at each path that
+        /// the old and the new program share, unless a value's class is in the jars and cannot be copied by Java serialization. A node whose first round
+        /// with the new program fails starts afresh. The outcome is logged. If the new programs are invalid, the nodes continue with the previous ones.
         /// </summary>
         public void ReloadPrograms() => Simulation.ReloadPrograms();
 
         /// <summary>
-        /// Stops the simulation with an error and disables the manager. The editor and the JVM go on. A click on the message selects
-        /// <paramref name="context"/>, or the manager.
+        /// Stops the simulation with an error, and disables the manager. The editor and the JVM keep running. Clicking the message selects <paramref
+        /// name="context"/>, or the manager if that is null.
         /// </summary>
         public void Fail(string message, UnityEngine.Object context = null) => Simulation.Fail(message, context);
 

@@ -10,29 +10,29 @@ namespace Collektive.Unity
     [Serializable]
     public sealed class SimulationSettings
     {
-        /// <summary>Limit of physics sub-steps per tick.</summary>
+        /// <summary>Maximum number of physics sub-steps per tick.</summary>
         private const double MaxSubSteps = 1e6;
 
-        /// <summary>Shorter ticks would have no physics.</summary>
+        /// <summary>Minimum delta time in seconds. In shorter ticks, physics would not advance.</summary>
         private const float MinDeltaTime = 1e-6f;
 
         /// <summary>Libraries with the programs that nodes can run, all compiled with one schema. Ignored if <see cref="jars"/> has entries.</summary>
         [Tooltip("Libraries (.clkprograms) with the programs that nodes can run, all compiled with one schema.")]
         public List<ProgramLibrary> libraries = new List<ProgramLibrary>();
 
-        /// <summary>Program of nodes without their own. Its library need not be listed. Ignored if <see cref="program"/> is not empty.</summary>
+        /// <summary>Program of the nodes that do not select one. Its library need not be listed. Ignored if <see cref="program"/> is not empty.</summary>
         [Tooltip("Program of nodes without their own.")]
         public AggregateProgram defaultProgram;
 
-        /// <summary>For scripts: full name of the generated schema class. Empty: the schema of the libraries.</summary>
+        /// <summary>Full name of the generated schema class, to be set by scripts. Empty: the schema of the libraries.</summary>
         [HideInInspector]
         public string schema = "";
 
-        /// <summary>For scripts: paths of jars, relative to the project's folder, instead of the libraries.</summary>
+        /// <summary>Paths of jars that replace the libraries, relative to the project's folder, to be set by scripts.</summary>
         [HideInInspector]
         public List<string> jars = new List<string>();
 
-        /// <summary>For scripts: name of the program of nodes without their own. Empty: <see cref="defaultProgram"/>.</summary>
+        /// <summary>Name of the program of the nodes that do not select one, to be set by scripts. Empty: <see cref="defaultProgram"/>.</summary>
         [HideInInspector]
         public string program = "";
 
@@ -72,7 +72,7 @@ namespace Collektive.Unity
             "Asynchronous: each node has its own period and phase.")]
         public Schedule schedule = Schedule.Lockstep;
 
-        /// <summary>When nodes without their own timing run under the asynchronous schedule.</summary>
+        /// <summary>The timing of rounds under the asynchronous schedule, for nodes without their own timing.</summary>
         [Tooltip("Asynchronous schedule only: when nodes without their own timing run.")]
         public RoundTiming timing = new RoundTiming();
 
@@ -86,20 +86,20 @@ namespace Collektive.Unity
         [Range(1, 256)]
         public int threads = 1;
 
-        /// <summary>Milliseconds after which a tick counts as hung.</summary>
+        /// <summary>Milliseconds after which a tick counts as hung, and the simulation stops with an error.</summary>
         [Tooltip("Milliseconds after which a tick counts as hung and the simulation stops with an error.")]
         [Min(1)]
         public int stepLimitMs = 10000;
 
         /// <summary>
-        /// File to record all frames in, overwritten at each start; empty for none. Relative paths start at the project's folder or, in a player, at its
-        /// working directory.
+        /// File in which all frames are recorded, overwritten at each start; empty: no record. A relative path starts at the project's folder or, in a
+        /// player, at the working directory.
         /// </summary>
         [Tooltip("File for a record of all frames, for ./collektive replay and diff. Overwritten at each start. " +
             "Empty: no record. Relative to the project's folder, or to the player's working directory.")]
         public string record = "";
 
-        /// <summary>Settings of the JVM, used when it starts; null for the defaults.</summary>
+        /// <summary>Settings with which the JVM is started; null: the defaults.</summary>
         [Tooltip("Settings of the JVM: heap, collector, compiler. They take effect when the JVM starts: once per editor session, " +
             "or at each Play with the placement OwnProcess. None: the defaults.")]
         public JvmSettingsAsset jvm;
@@ -107,7 +107,7 @@ namespace Collektive.Unity
         /// <summary>The error of the command line, or null.</summary>
         internal string ArgumentProblem { get; set; }
 
-        /// <summary>Name of the program of nodes without their own; empty if none is selected.</summary>
+        /// <summary>Name of the program of the nodes that do not select one; empty if it is not set.</summary>
         internal string ProgramName => program.Length > 0 ? program : defaultProgram != null ? defaultProgram.Name : "";
 
         /// <summary>Name of the schema; empty for the project's only schema.</summary>
@@ -123,16 +123,16 @@ namespace Collektive.Unity
         /// <summary>Paths of the jars with programs, relative to the project's folder.</summary>
         internal List<string> JarPaths => jars.Count > 0 ? jars : Libraries().FindAll(library => library != null).ConvertAll(library => library.File);
 
-        /// <summary>By program, values of its parameters for nodes without their own values.</summary>
+        /// <summary>The values of parameters for nodes without their own values, by the name of the program.</summary>
         internal Dictionary<string, List<NodeParameter>> ProgramParameters { get; } = new Dictionary<string, List<NodeParameter>>();
 
-        /// <summary>Names of the metrics defined in the jars, which a tick measures on request.</summary>
+        /// <summary>Names of the metrics to measure, which the jars define. A tick measures them on request.</summary>
         internal IReadOnlyList<string> Metrics { get; set; } = new string[0];
 
         /// <summary>Returns the name of the program that a node runs.</summary>
         internal string ProgramOf(Node node) => node.Program.Length > 0 ? node.Program : ProgramName;
 
-        /// <summary>Returns the program of that name in the libraries, or null.</summary>
+        /// <summary>Returns the program with the given name in the libraries, or null.</summary>
         internal AggregateProgram FindProgram(string name)
         {
             foreach (var library in Libraries())
@@ -143,7 +143,7 @@ namespace Collektive.Unity
             return null;
         }
 
-        /// <summary>Returns the libraries of the list, and the default program's.</summary>
+        /// <summary>Returns the listed libraries and the library of the default program.</summary>
         internal List<ProgramLibrary> Libraries()
         {
             var all = new List<ProgramLibrary>(libraries);
@@ -151,7 +151,7 @@ namespace Collektive.Unity
             return all;
         }
 
-        /// <summary>Returns the parameters of a node: its own, and the manager's for parameters without a value.</summary>
+        /// <summary>Returns the parameters of a node. The manager's values are used for parameters that the node does not set.</summary>
         internal List<NodeParameter> ParametersOf(Node node)
         {
             if (!ProgramParameters.TryGetValue(ProgramOf(node), out var common)) return node.Parameters;
@@ -197,7 +197,9 @@ namespace Collektive.Unity
             return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
         }
 
-        /// <summary>Returns the error of a node's program, or null. The name is not enough: another library may have a program of that name.</summary>
+        /// <summary>
+        /// Returns the error of a node's program, or null. The check compares libraries too, because another library may have a program with the same name.
+        /// </summary>
         internal string FindProblem(Node node)
         {
             var library = jars.Count > 0 || node.OwnProgram == null ? null : node.OwnProgram.Library;
