@@ -205,13 +205,13 @@ namespace Collektive.Bridge
         /// <returns>The reason why no archive is used, or an empty string.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
-            var place = "classes-" + Hash(javaHome + "\n" + hostJar + "\n" + collector) + "-";
+            var namePrefix = "classes-" + Hash(javaHome + "\n" + hostJar + "\n" + collector) + "-";
             var host = new FileInfo(hostJar);
-            var file = Path.Combine(cacheFolder, place + Hash(host.Exists ? host.LastWriteTimeUtc.Ticks + "\n" + host.Length : "") + ".jsa");
+            var file = Path.Combine(cacheFolder, namePrefix + Hash(host.Exists ? host.LastWriteTimeUtc.Ticks + "\n" + host.Length : "") + ".jsa");
             try
             {
                 Directory.CreateDirectory(cacheFolder);
-                foreach (var archive in Directory.GetFiles(cacheFolder, place + "*.jsa")) RemoveUnusable(archive, file);
+                foreach (var archive in Directory.GetFiles(cacheFolder, namePrefix + "*.jsa")) RemoveUnusable(archive, file);
             }
             catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
             {

@@ -28,9 +28,9 @@ namespace Collektive.Bridge
         internal abstract object GetPrevious(int index);
 
         /// <summary>
-        /// Copies an element of the previously attached table. Reuses the memory of <paramref name="kept"/> unless it is null.
+        /// Copies an element of the previously attached table. Reuses the memory of <paramref name="copy"/> unless it is null.
         /// </summary>
-        internal abstract void CopyPrevious(int index, ref AnswerCopy kept);
+        internal abstract void CopyPrevious(int index, ref AnswerCopy copy);
 
         /// <summary>
         /// Called by a session before the attached frame's memory is overwritten. The elements of that frame remain readable, and become the previous ones

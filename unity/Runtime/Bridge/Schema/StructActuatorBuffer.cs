@@ -33,10 +33,10 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        internal override void CopyPrevious(int index, ref AnswerCopy kept)
+        internal override void CopyPrevious(int index, ref AnswerCopy copy)
         {
-            if (kept == null) kept = new StructCopy();
-            ((StructCopy)kept).Item = Previous(index);
+            if (copy == null) copy = new StructCopy();
+            ((StructCopy)copy).Item = Previous(index);
         }
 
         /// <summary>Does nothing, because elements are copies.</summary>

@@ -77,24 +77,24 @@ namespace Collektive.Bridge
 
         private int Place(ByteBuffer buffer, int vector, int index) => Table.__indirect(vector + index * ElementSize, buffer);
 
-        private static T Reader(ByteBuffer buffer, int place)
+        private static T Reader(ByteBuffer buffer, int position)
         {
             var reader = default(T);
-            reader.__init(place, buffer);
+            reader.__init(position, buffer);
             return reader;
         }
 
         private sealed class TableAnswerCopy : AnswerCopy<T>
         {
             private readonly TableCopy copy = new TableCopy();
-            private int place;
+            private int position;
 
-            public override T Value => Reader(copy.Buffer, place);
+            public override T Value => Reader(copy.Buffer, position);
 
             internal void Take(TableShape shape, ByteBuffer from, int table)
             {
                 copy.Clear();
-                place = shape.Copy(from, table, copy);
+                position = shape.Copy(from, table, copy);
             }
         }
     }

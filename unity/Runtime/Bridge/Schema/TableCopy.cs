@@ -25,15 +25,15 @@ namespace Collektive.Bridge
         /// <summary>Appends a copy of bytes with the same alignment, and returns its position.</summary>
         internal int Add(ByteBuffer from, int start, int length)
         {
-            var place = used + (start - used & Alignment - 1);
-            used = checked(place + length);
+            var position = used + (start - used & Alignment - 1);
+            used = checked(position + length);
             if (used > bytes.Length)
             {
                 Array.Resize(ref bytes, Math.Max(used, 2 * bytes.Length));
                 Buffer = new ByteBuffer(bytes);
             }
-            from.ToSpan(start, length).CopyTo(new Span<byte>(bytes, place, length));
-            return place;
+            from.ToSpan(start, length).CopyTo(new Span<byte>(bytes, position, length));
+            return position;
         }
     }
 }

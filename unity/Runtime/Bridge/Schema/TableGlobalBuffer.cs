@@ -28,9 +28,9 @@ namespace Collektive.Bridge
         internal override int Write(FlatBufferBuilder builder)
         {
             writer.Begin(builder);
-            var place = Data.Write(writer);
+            var offset = Data.Write(writer);
             writer.End();
-            return place;
+            return offset;
         }
     }
 }

@@ -128,8 +128,8 @@ namespace Collektive.Bridge
 
         private unsafe Span<T> Vector<T>(int field) where T : unmanaged
         {
-            var place = table.__offset(field);
-            return place == 0 ? default : MemoryMarshal.Cast<byte, T>(table.bb.ToSpan(table.__vector(place), table.__vector_len(place) * sizeof(T)));
+            var fieldOffset = table.__offset(field);
+            return fieldOffset == 0 ? default : MemoryMarshal.Cast<byte, T>(table.bb.ToSpan(table.__vector(fieldOffset), table.__vector_len(fieldOffset) * sizeof(T)));
         }
     }
 

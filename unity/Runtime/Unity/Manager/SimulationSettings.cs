@@ -198,7 +198,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Returns the error of a node's program, or null. The check compares libraries too, because another library may have a program with the same name.
+        /// Returns the error of a node's program, or null. The check compares the libraries, because another library may have a program with the same name.
         /// </summary>
         internal string FindProblem(Node node)
         {

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Neighbours are the nodes of a list, at any distance. Nodes outside the simulation are ignored.</summary>
+    /// <summary>Selects the nodes of a list as neighbours, at any distance. Nodes outside the simulation are ignored.</summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Explicit Neighbourhood")]
     public sealed class ExplicitNeighbourhood : NeighbourhoodRule
     {

@@ -3,8 +3,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Neighbours are the nodes nearest to this one, at any distance; at equal distances the smaller id comes first. The relation is not symmetric. Unless the
-    /// rule is directed, links go both ways, so a node can have more than <see cref="Count"/> neighbours.
+    /// Selects the nodes nearest to this one as neighbours, at any distance. At equal distances, lower ids come first. The relation is not symmetric:
+    /// unless the rule is directed, links also lead back, so a node can have more than <see cref="Count"/> neighbours.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/K Nearest Neighbourhood")]
     public sealed class KNearestNeighbourhood : NeighbourhoodRule

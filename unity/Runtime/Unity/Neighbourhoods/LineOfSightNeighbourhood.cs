@@ -4,9 +4,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Neighbours are the nodes within a radius; each collider on the straight line between the two centres adds to the link's attenuation, or prevents the
-    /// link. The two nodes' own colliders and triggers do not count; bodies of other nodes do, unless their layer is excluded. It casts one ray per pair of
-    /// nodes and tick.
+    /// Selects the nodes within a radius as neighbours. Each collider on the straight line between the two centres increases the link's attenuation, or
+    /// prevents the link. Triggers and the colliders of the two nodes do not obstruct the line, but bodies of other nodes do, unless their layer is
+    /// excluded. The rule casts one ray per pair of nodes and tick.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Line Of Sight Neighbourhood")]
     public sealed class LineOfSightNeighbourhood : NeighbourhoodRule
@@ -29,7 +29,7 @@ namespace Collektive.Unity
         [Tooltip("Increase of the link's attenuation for each obstructing collider. Without colliders the attenuation is 0.")]
         private float attenuation = 1;
 
-        // The near nodes, with the lines to them (set when the queries begin) and the obstacles on these lines (set when the rule is called).
+        // The near nodes with the lines to them, which are set when the queries begin, and the obstacles on these lines, which are set when the rule is called.
         private readonly GrowingArray<(NearNode Near, int Line, int Obstacles)> near = new GrowingArray<(NearNode Near, int Line, int Obstacles)>();
 
         /// <summary>The radius in metres, 0 or greater.</summary>
@@ -82,7 +82,7 @@ namespace Collektive.Unity
 
         internal override void Prepare(TickContext tick)
         {
-            // A rule is not in the batch of the tick that added it.
+            // A rule is not yet in the batch in the tick that added it.
             var isBatched = tick.SightLines.Rules.Has(this);
             if (!isBatched) FindNear(tick);
             for (var i = 0; i < near.Count; i++)

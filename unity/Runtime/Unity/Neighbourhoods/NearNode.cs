@@ -2,19 +2,19 @@ using System.Runtime.InteropServices;
 
 namespace Collektive.Unity
 {
-    /// <summary>A node near a point at the beginning of this tick.</summary>
+    /// <summary>A node that a search found near a point.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public struct NearNode
     {
-        // Same layout as NearPoint.
+        // The fields must have the layout of NearPoint.
         internal int Place;
         internal int IdOfNode;
         internal float Metres;
 
-        /// <summary>Its id.</summary>
+        /// <summary>The node's id.</summary>
         public int Id => IdOfNode;
 
-        /// <summary>Metres from the point.</summary>
+        /// <summary>Distance from the point in metres, at the beginning of this tick.</summary>
         public float Distance => Metres;
     }
 }

@@ -6,9 +6,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Collects the neighbours of a node from a rule, and finds near nodes. For use in <see cref="NeighbourhoodRule.FindNeighbours"/>
-    /// only. The node itself, nodes outside the simulation and nodes added before are ignored.
-    /// Allocates nothing once its capacity is reached.
+    /// Collects the neighbours that a rule selects for a node, and finds near nodes for the rule. Use it only in <see
+    /// cref="NeighbourhoodRule.FindNeighbours"/>. The node itself, nodes outside the simulation and nodes that were already added are ignored. Allocates
+    /// only while its capacity grows.
     /// </summary>
     public sealed class NeighbourCollector
     {
@@ -19,7 +19,7 @@ namespace Collektive.Unity
         private int self;
 
         /// <param name="nodes">Participating nodes, ascending by id.</param>
-        /// <param name="grid">Their positions in this tick.</param>
+        /// <param name="grid">The positions of the nodes in this tick.</param>
         internal NeighbourCollector(IReadOnlyList<Node> nodes, NodeGrid grid)
         {
             Nodes = nodes;
@@ -29,13 +29,13 @@ namespace Collektive.Unity
         /// <summary>All participating nodes, ascending by id.</summary>
         public IReadOnlyList<Node> Nodes { get; }
 
-        /// <summary>The nodes that the rule added, possibly several times.</summary>
+        /// <summary>The nodes that the rule added. A node can occur several times.</summary>
         internal Span<RuleNeighbour> All => new Span<RuleNeighbour>(all.Items, 0, all.Count);
 
-        /// <summary>The searches of ready rules in this tick.</summary>
+        /// <summary>The searches that ready-made rules requested in this tick.</summary>
         internal GrowingArray<RuleSearch> Searches { get; } = new GrowingArray<RuleSearch>();
 
-        /// <summary>Adds a node. The link's length is the distance of the nodes, and its attenuation 0.</summary>
+        /// <summary>Adds a node. The link's length is the distance between the nodes, and its attenuation is 0.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public void Add(Node other)
         {
@@ -44,7 +44,7 @@ namespace Collektive.Unity
             if (other.Id >= 0) Add(other.Id, Vector3.Distance(node.Position, other.Position), 0);
         }
 
-        /// <summary>Adds a node with the link's length in metres and attenuation (0: none).</summary>
+        /// <summary>Adds a node, with the length of the link in metres and its attenuation (0: none).</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         /// <exception cref="ArgumentOutOfRangeException">Length or attenuation is negative, infinite or NaN.</exception>
         public void Add(Node other, float length, float attenuation)
@@ -55,7 +55,7 @@ namespace Collektive.Unity
             Add(other.Id, length, attenuation);
         }
 
-        /// <summary>Adds a node that a search found; the link's length is its distance.</summary>
+        /// <summary>Adds a node that a search found. The link's length is the distance that the search returned.</summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         /// <exception cref="ArgumentOutOfRangeException">The attenuation is negative, infinite or NaN.</exception>
         public void Add(in NearNode near, float attenuation = 0)
@@ -73,7 +73,9 @@ namespace Collektive.Unity
             for (var i = 0; i < found.Length; i++) Add(found[i].IdOfNode, found[i].Metres, 0);
         }
 
-        /// <summary>Returns the nodes within <paramref name="radius"/> metres, itself included, ascending by id. Valid until the next search.</summary>
+        /// <summary>
+        /// Returns the nodes within <paramref name="radius"/> metres, including the node itself, sorted by id. The result is valid until the next search.
+        /// </summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindWithin(float radius)
         {
@@ -82,8 +84,9 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Returns at most <paramref name="count"/> nearest nodes, including the node itself, sorted by distance and then by id. The result is valid until the
-        /// next search. The search is fastest if a radius of <paramref name="guess"/> metres contains a few more nodes than that; 0 for no guess.
+        /// Returns at most <paramref name="count"/> nearest nodes, including the node itself, sorted by distance and then by id. The result is valid until
+        /// the next search. <paramref name="guess"/> is an estimate of the radius that contains the result, in metres; 0 for none. The search is fastest if
+        /// the estimate is slightly too large.
         /// </summary>
         /// <exception cref="InvalidOperationException">Called outside of <see cref="NeighbourhoodRule.FindNeighbours"/>.</exception>
         public Span<NearNode> FindNearest(int count, float guess = 0)
@@ -92,7 +95,7 @@ namespace Collektive.Unity
             return grid.FindNearest(node.Position, count, guess);
         }
 
-        /// <summary>The node that a search found.</summary>
+        /// <summary>Returns the node that a search found.</summary>
         public Node NodeOf(in NearNode near) => grid.NodeAt(near);
 
         internal void Begin(Node collecting)
@@ -124,7 +127,7 @@ namespace Collektive.Unity
             search.Outer = radius;
         }
 
-        /// <summary>Requests a search for the nearest nodes; none if the number is below 1.</summary>
+        /// <summary>Requests a search for the nearest nodes. A count below 1 finds none.</summary>
         internal void SearchNearest(int count) => Searches.Items[Searches.Count - 1].Nearest = Math.Max(count, 0);
 
         private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);

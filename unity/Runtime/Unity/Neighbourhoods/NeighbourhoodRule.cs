@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Decides which nodes receive a node's messages. Before each tick <see cref="FindNeighbours"/> collects the neighbours; the rule adds
-    /// and removes the links. A node may have several rules: a link exists while one of them, or a script, references it.
+    /// Decides which nodes receive a node's messages. Before each tick, <see cref="FindNeighbours"/> collects the neighbours, and the links of the rule are
+    /// updated accordingly. A node may have several rules. A link exists while at least one rule or script references it.
     /// </summary>
     [HelpPage("neighbourhoods.md")]
     public abstract class NeighbourhoodRule : NodePart
@@ -19,13 +19,13 @@ namespace Collektive.Unity
         [Tooltip("Metres. A link's length is sent to the JVM again after it changed by more than this.")]
         private float lengthTolerance = 0.25f;
 
-        // Where the rule has its links; null before its first tick.
+        // Stores the rule's links; null before the rule's first tick.
         private NeighbourSearch links;
         private int number = NeighbourSearch.NoRule;
-        // Users' code may do anything with physics.
+        // Whether the rule is part of this package. Other rules may change physics, so running queries must finish before they are called.
         private bool isOwn;
 
-        /// <summary>Whether neighbours receive messages from this node without sending to it. Takes effect for new links.</summary>
+        /// <summary>Whether neighbours only receive messages from this node, and do not send to it. A change affects new links only.</summary>
         public bool Directed
         {
             get => directed;
@@ -33,8 +33,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Metres, 0 or greater. A link's length is sent to the JVM when the link is created, and again after it changed by more than this: in a
-        /// swarm all lengths change a little in each tick, and sending them can cost as much as the rounds.
+        /// Change in metres, 0 or greater, above which a link's length is sent to the JVM again. In a swarm, all lengths change slightly in each tick, and
+        /// sending all of them can cost as much time as the rounds.
         /// </summary>
         public float LengthTolerance
         {
@@ -42,7 +42,7 @@ namespace Collektive.Unity
             set => lengthTolerance = value;
         }
 
-        /// <summary>Whether <see cref="FindNeighbours"/> only requests a search, which runs together with those of all nodes.</summary>
+        /// <summary>Whether <see cref="FindNeighbours"/> only requests a search. The searches of all nodes then run together.</summary>
         internal virtual bool IsSearch => false;
 
         internal sealed override ref PartList ListOf(Node node)
@@ -53,7 +53,7 @@ namespace Collektive.Unity
 
         internal sealed override void Detached() => ReleaseAll();
 
-        /// <summary>Updates the links of this rule, unless it <see cref="IsSearch"/>.</summary>
+        /// <summary>Updates the links of this rule. Does nothing if <see cref="IsSearch"/> is true.</summary>
         internal sealed override void Run(TickContext tick, int index)
         {
             if (IsSearch) return;
@@ -64,17 +64,20 @@ namespace Collektive.Unity
             try
             {
                 FindNeighbours(neighbours);
-                // Skipped if the call removed the rule or its node, and with it the links.
+                // The call may have removed the rule or its node, together with the links.
                 if (IsAttached && Node.Id >= 0) tick.Links.Take(NumberIn(tick.Links), Node.Id, neighbours.All, lengthTolerance, !directed);
             }
             finally
             {
-                // After an exception the links stay as they were.
+                // After an exception, the previous links are kept.
                 neighbours.End();
             }
         }
 
-        /// <summary>Adds the search of a rule that <see cref="IsSearch"/>. The node is at index <paramref name="nodeIndex"/> of the grid.</summary>
+        /// <summary>
+        /// Adds this rule's search to the searches of the tick, if <see cref="IsSearch"/> is true. <paramref name="nodeIndex"/> is the node's index in the
+        /// grid.
+        /// </summary>
         internal void AddSearch(TickContext tick, int nodeIndex)
         {
             ref var search = ref tick.Neighbours.Searches.Add();

@@ -6,7 +6,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The positions of all nodes at this tick, which also become their <see cref="Node.Position"/>, for searches in C.</summary>
+    /// <summary>The positions of all nodes in this tick, for searches in C. Building the grid also sets the nodes' <see cref="Node.Position"/>.</summary>
     internal sealed class NodeGrid
     {
         private readonly NeighbourSearch search;
@@ -16,15 +16,15 @@ namespace Collektive.Unity
         internal NodeGrid(NeighbourSearch search) => this.search = search;
 
         /// <summary>
-        /// Reads the positions of the first <paramref name="count"/> nodes, ascending by id; the array is kept. <paramref name="cell"/> is the side of the
-        /// cells in metres, or 0 for the mean radius of the last searches.
+        /// Reads the positions of the first <paramref name="count"/> nodes of an array that is sorted by id. The grid keeps a reference to the array.
+        /// <paramref name="cell"/> is the side length of the cells in metres; 0 selects the mean radius of the last searches.
         /// </summary>
         /// <exception cref="BridgeException">A position is not finite.</exception>
         internal void Build(Node[] all, int count, float cell = 0)
         {
             nodes = all;
             if (points.Length < count) points = new NodePoint[Math.Max(count, 2 * points.Length)];
-            // Nodes are scattered in memory. In a short loop, the processor fetches more of them ahead.
+            // Nodes are scattered in memory. The shorter the loop, the more nodes the processor can prefetch.
             for (var i = 0; i < count; i++)
             {
                 var node = all[i];
@@ -39,18 +39,19 @@ namespace Collektive.Unity
             if (!search.TryPlace(new Span<NodePoint>(points, 0, count), cell)) FailNotFinite(count);
         }
 
-        /// <summary>The nodes within <paramref name="radius"/> metres of a point, ascending by id; valid until the next search.</summary>
+        /// <summary>Returns the nodes within <paramref name="radius"/> metres of a point, sorted by id. The result is valid until the next search.</summary>
         internal Span<NearNode> Find(Vector3 centre, float radius) =>
             MemoryMarshal.Cast<NearPoint, NearNode>(search.Within(centre.x, centre.y, centre.z, radius));
 
         /// <summary>
-        /// Returns at most <paramref name="limit"/> nodes nearest to a point, sorted by distance and then by id; valid until the next search. It is fastest
-        /// if a radius of <paramref name="guess"/> metres contains a few more nodes than that; 0 for no guess.
+        /// Returns at most <paramref name="limit"/> nodes nearest to a point, sorted by distance and then by id. The result is valid until the next search.
+        /// <paramref name="guess"/> is an estimate of the radius that contains the result, in metres; 0 for none. The search is fastest if the estimate is
+        /// slightly too large.
         /// </summary>
         internal Span<NearNode> FindNearest(Vector3 centre, int limit, float guess) =>
             MemoryMarshal.Cast<NearPoint, NearNode>(search.Nearest(centre.x, centre.y, centre.z, limit, guess));
 
-        /// <summary>Clears the lists and copies hits to them.</summary>
+        /// <summary>Replaces the content of the lists with the found nodes and their distances.</summary>
         internal void Copy(Span<NearNode> found, List<Node> to, List<float> distances)
         {
             to.Clear();
@@ -62,14 +63,14 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>The node of a hit.</summary>
+        /// <summary>Returns the node of a search hit.</summary>
         internal Node NodeAt(in NearNode hit) => nodes[hit.Place];
 
         private void FailNotFinite(int count)
         {
             for (var i = 0; i < count; i++)
             {
-                // The difference of a number to itself is 0 only if it is finite.
+                // A number minus itself is 0 only if the number is finite.
                 var position = nodes[i].Position;
                 if ((position - position) == Vector3.zero) continue;
                 throw new BridgeException(BridgeError.Argument, "the position of node " + nodes[i].Id + " ('" + nodes[i].name + "') is not finite, " + position

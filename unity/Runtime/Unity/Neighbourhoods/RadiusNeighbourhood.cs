@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Neighbours are the nodes whose centres are within a radius of this node's.</summary>
+    /// <summary>Selects the nodes whose centres lie within a radius of this node's centre as neighbours.</summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Radius Neighbourhood")]
     public sealed class RadiusNeighbourhood : NeighbourhoodRule
     {

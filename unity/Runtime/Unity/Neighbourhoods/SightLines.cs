@@ -5,24 +5,24 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// The lines between pairs of nodes in one tick, with the number of obstacles in some layers on each. Lines are cast in batches before the
-    /// rules are called. Lines of new rules, and lines with more hits than a batch can store, are cast one by one.
+    /// Counts the obstacles on the straight lines between pairs of nodes. Each line is counted once per tick, even if both nodes request it. The rays of
+    /// most lines are cast in batches before the rules are called. Rays of new rules, and rays with more hits than a batch can store, are cast one by one.
     /// </summary>
     internal sealed class SightLines : IDisposable
     {
-        /// <summary>Not counted yet.</summary>
+        /// <summary>Number of obstacles of a line whose ray has not been cast.</summary>
         private const int Unknown = -1;
 
-        /// <summary>More rays would need more memory without being faster.</summary>
+        /// <summary>Rays per batch. Larger batches would need more memory without being faster.</summary>
         private const int MaxRays = 4096;
 
         private readonly RayBatch rays = new RayBatch(16);
         private readonly Pair[] requested = new Pair[MaxRays];
 
-        // Indexed by the number of the line.
+        // The number of obstacles on each line, indexed by the line's number in this tick.
         private readonly GrowingArray<int> obstacles = new GrowingArray<int>();
 
-        // A hash table with open addressing; lines of earlier ticks count as free places.
+        // A hash table with open addressing. Entries of earlier ticks count as free.
         private Line[] lines = new Line[256];
         private RaycastHit[] hits = new RaycastHit[16];
 
@@ -44,7 +44,10 @@ namespace Collektive.Unity
             internal readonly int Layers;
             internal readonly float Distance;
 
-            /// <summary>Starts at the node with the lower id, because a ray ignores a collider that contains its origin.</summary>
+            /// <summary>
+            /// Creates a pair whose ray starts at the node with the lower id, whichever node requests it. The direction matters, because a ray ignores
+            /// colliders that contain its origin.
+            /// </summary>
             internal Pair(Node a, Node b, int layers, float distance)
             {
                 From = a.Id < b.Id ? a : b;
@@ -55,7 +58,7 @@ namespace Collektive.Unity
 
             internal Vector3 Vector => To.Position - From.Position;
 
-            /// <summary>Length 1, also if both nodes are at one place.</summary>
+            /// <summary>Direction of the ray. It has length 1 even if both nodes are at the same position.</summary>
             internal Vector3 Direction
             {
                 get
@@ -75,16 +78,18 @@ namespace Collektive.Unity
         /// <summary>The rules whose lines are cast in batches.</summary>
         internal BatchedParts Rules { get; }
 
-        /// <summary>Begins a tick: forgets all lines, and casts those of all rules.</summary>
+        /// <summary>Begins a tick. Discards the lines of the previous tick, and casts the rays of all rules.</summary>
         internal void Begin()
         {
             obstacles.Clear();
-            // Rules are called for nodes that are not due, too.
+            // Rules are also called for nodes that are not due.
             Rules.Begin(isForDueNodes: false);
             Cast();
         }
 
-        /// <summary>Adds the line between two nodes to the batch, unless it is already there; call it in <see cref="NodePart.Enqueue"/>.</summary>
+        /// <summary>
+        /// Adds the line between two nodes to the batch, unless it was already requested in this tick. Call this in <see cref="NodePart.Enqueue"/>.
+        /// </summary>
         /// <returns>The line's number in this tick.</returns>
         internal int Request(Node a, Node b, int layers, float distance)
         {
@@ -97,10 +102,13 @@ namespace Collektive.Unity
             return number;
         }
 
-        /// <summary>Returns the number of colliders on a line, except those of the two nodes.</summary>
+        /// <summary>Returns the number of colliders on a requested line, without the colliders of its two nodes.</summary>
         internal int ObstaclesOf(int line) => obstacles.Items[line];
 
-        /// <summary>The same without a batch; <paramref name="distance"/> is the distance between the nodes.</summary>
+        /// <summary>
+        /// Returns the number of colliders between two nodes for a rule that is not in the batch. The ray is cast now, unless the line was already counted
+        /// in this tick. <paramref name="distance"/> is the distance between the nodes.
+        /// </summary>
         internal int CountObstacles(Node a, Node b, int layers, float distance)
         {
             var line = NumberOf(a.Id, b.Id, layers, out _);
@@ -111,7 +119,7 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         public void Dispose() => rays.Dispose();
 
-        /// <summary>Casts the rays of the last lines.</summary>
+        /// <summary>Casts the rays that were requested since the last cast, and stores the obstacles of their lines.</summary>
         private void Cast()
         {
             rays.Run();
@@ -124,13 +132,13 @@ namespace Collektive.Unity
             rays.Clear();
         }
 
-        /// <summary>Returns the obstacles in the batch, or casts again if the batch could not store all.</summary>
+        /// <summary>Counts the obstacles among a ray's hits in the batch. If the batch could not store all hits, casts the ray again.</summary>
         private int Count(int ray, in Pair pair)
         {
             var count = 0;
-            for (var place = 0; place < rays.MaxHits; place++)
+            for (var hit = 0; hit < rays.MaxHits; hit++)
             {
-                var collider = rays.HitOf(ray, place).collider;
+                var collider = rays.HitOf(ray, hit).collider;
                 if (collider is null) return count;
                 if (pair.IsForeign(collider)) count++;
             }
@@ -141,7 +149,7 @@ namespace Collektive.Unity
         private int CastWithoutBatch(in Pair pair)
         {
             int hitCount;
-            // If the array is full, some hits may be missing.
+            // A full array may lack hits, so the query is repeated with a larger one.
             while ((hitCount = Physics.RaycastNonAlloc(
                 pair.From.Position, pair.Vector, hits, pair.Distance, pair.Layers, QueryTriggerInteraction.Ignore)) == hits.Length)
             {
@@ -155,7 +163,7 @@ namespace Collektive.Unity
             return count;
         }
 
-        /// <summary>The number of the line between two nodes in this tick; a new one has <see cref="Unknown"/> obstacles.</summary>
+        /// <summary>Returns the number of the line between two nodes in this tick. A new line has <see cref="Unknown"/> obstacles.</summary>
         private int NumberOf(int a, int b, int layers, out bool isNew)
         {
             if (2 * obstacles.Count >= lines.Length) Grow();
@@ -170,10 +178,10 @@ namespace Collektive.Unity
         private ref Line Find(int low, int high, int layers)
         {
             var all = lines;
-            var place = Hash(low, high, layers) & all.Length - 1;
-            for (; ; place = place + 1 & all.Length - 1)
+            var slot = Hash(low, high, layers) & all.Length - 1;
+            for (; ; slot = slot + 1 & all.Length - 1)
             {
-                ref var line = ref all[place];
+                ref var line = ref all[slot];
                 if (line.Batch != Rules.Batch || line.Low == low && line.High == high && line.Layers == layers) return ref line;
             }
         }

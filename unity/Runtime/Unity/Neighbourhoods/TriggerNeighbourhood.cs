@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Neighbours are the nodes whose bodies are inside this GameObject's trigger collider. Trigger colliders of other nodes do not
-    /// count as their bodies. As everywhere in Unity, one of the two sides needs a Rigidbody.
+    /// Selects the nodes whose bodies are inside this GameObject's trigger collider as neighbours. A node's trigger colliders are not part of its body. As
+    /// for all triggers in Unity, this GameObject or the other node needs a Rigidbody.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Trigger Neighbourhood")]
     public sealed class TriggerNeighbourhood : NeighbourhoodRule
@@ -23,7 +23,7 @@ namespace Collektive.Unity
         protected override void OnDisable()
         {
             base.OnDisable();
-            // Unity sends trigger messages to disabled components too, but not to inactive GameObjects.
+            // Unity also sends trigger messages to disabled components, but not to inactive GameObjects.
             if (!gameObject.activeInHierarchy) visitors.Clear();
         }
 
@@ -32,22 +32,22 @@ namespace Collektive.Unity
         {
             var all = visitors.Items;
             var here = Node.Position;
-            var kept = 0;
+            var remaining = 0;
             for (var i = 0; i < visitors.Count; i++)
             {
                 ref var visitor = ref all[i];
                 if (visitor.Collider.IsGone()) continue;
-                // A node with several colliders in the zone counts once.
+                // A node with several colliders in the zone is added only once.
                 var owner = visitor.Owner;
-                var way = owner.Position;
-                way.x -= here.x;
-                way.y -= here.y;
-                way.z -= here.z;
-                neighbours.Add(owner.Id, (float)Math.Sqrt(way.x * way.x + way.y * way.y + way.z * way.z), 0);
-                if (kept < i) all[kept] = visitor;
-                kept++;
+                var offset = owner.Position;
+                offset.x -= here.x;
+                offset.y -= here.y;
+                offset.z -= here.z;
+                neighbours.Add(owner.Id, (float)Math.Sqrt(offset.x * offset.x + offset.y * offset.y + offset.z * offset.z), 0);
+                if (remaining < i) all[remaining] = visitor;
+                remaining++;
             }
-            visitors.Truncate(kept);
+            visitors.Truncate(remaining);
         }
 
         private void OnTriggerEnter(Collider other)
@@ -59,17 +59,17 @@ namespace Collektive.Unity
 
         private void OnTriggerExit(Collider other)
         {
-            var place = Find(other);
-            if (place == visitors.Count) return;
-            Array.Copy(visitors.Items, place + 1, visitors.Items, place, visitors.Count - place - 1);
+            var index = Find(other);
+            if (index == visitors.Count) return;
+            Array.Copy(visitors.Items, index + 1, visitors.Items, index, visitors.Count - index - 1);
             visitors.Truncate(visitors.Count - 1);
         }
 
         private int Find(Collider collider)
         {
-            var place = 0;
-            while (place < visitors.Count && !ReferenceEquals(visitors.Items[place].Collider, collider)) place++;
-            return place;
+            var index = 0;
+            while (index < visitors.Count && !ReferenceEquals(visitors.Items[index].Collider, collider)) index++;
+            return index;
         }
     }
 }

@@ -7,8 +7,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A device of the simulation, from <c>OnEnable</c> to <c>OnDisable</c>. When enabled again, it starts without
-    /// state or messages. Its sensors and actuators are the enabled ones on its GameObject and on children without a Node.
+    /// A device of the simulation. It takes part while the component is enabled, and starts without state or messages when it is enabled again. Its
+    /// sensors, actuators and neighbourhood rules are the enabled ones on its GameObject and on children without a Node.
     /// </summary>
     [AddComponentMenu("Collektive/Node")]
     [DisallowMultipleComponent]
@@ -19,11 +19,12 @@ namespace Collektive.Unity
         internal PartList Actuators;
         internal PartList Rules;
 
-        // A disabled node leaves a gap: the order determines ids, and closing each gap at once would move all nodes behind it.
+        // Sorted by the time of enabling, which determines ids. A node that is disabled leaves a gap (null), because closing each gap immediately would
+        // move all later nodes.
         private static readonly List<Node> EnabledNodes = new List<Node>();
         private static int gaps;
 
-        /// <summary>Whether the missing manager was reported, once for all nodes.</summary>
+        /// <summary>Whether the missing manager was reported. It is reported for one node only.</summary>
         private static bool hasReportedNoManager;
 
         [SerializeField]
@@ -52,17 +53,17 @@ namespace Collektive.Unity
         private RoundTiming timing = new RoundTiming();
 
         private RandomStream random;
-        private int place;
+        private int enabledIndex;
         private ActuatorBuffer answers;
         private int answerIndex;
-        private AnswerCopy kept;
+        private AnswerCopy answerCopy;
         private RoundTimer timer;
         private double asleepUntil;
 
         /// <summary>The id in the running simulation; -1 while the node is not in one.</summary>
         public int Id { get; private set; } = -1;
 
-        /// <summary>The requested id, or -1 for the next free one. Read when the node joins.</summary>
+        /// <summary>The requested id; -1: the next free id. Read when the node joins the simulation.</summary>
         public int RequestedId
         {
             get => id;
@@ -70,8 +71,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Name of the program; empty for the manager's program. A name that a script sets takes precedence over <see cref="OwnProgram"/>. Read
-        /// when the node joins.
+        /// Name of the program; empty: the manager's program. If a script sets it, it takes precedence over <see cref="OwnProgram"/>. Read when the node joins.
         /// </summary>
         public string Program
         {
@@ -79,7 +79,9 @@ namespace Collektive.Unity
             set => program = value ?? "";
         }
 
-        /// <summary>The program; null for the manager's program. Setting it clears <see cref="Program"/>. Read when the node joins.</summary>
+        /// <summary>
+        /// The program; null: the manager's program. Setting it discards a name that a script set in <see cref="Program"/>. Read when the node joins.
+        /// </summary>
         public AggregateProgram OwnProgram
         {
             get => program.Length > 0 ? null : ownProgram;
@@ -93,14 +95,14 @@ namespace Collektive.Unity
         /// <summary>Values of the program's parameters. Read when the node joins.</summary>
         public List<NodeParameter> Parameters => parameters;
 
-        /// <summary>Whether <see cref="Timing"/> replaces the manager's under the asynchronous schedule. Read when the node joins.</summary>
+        /// <summary>Whether <see cref="Timing"/> replaces the manager's timing under the asynchronous schedule. Read when the node joins.</summary>
         public bool OwnTiming
         {
             get => ownTiming;
             set => ownTiming = value;
         }
 
-        /// <summary>Timing of this node's rounds with <see cref="OwnTiming"/>. Read when the node joins.</summary>
+        /// <summary>Timing of this node's rounds, used if <see cref="OwnTiming"/> is set. Read when the node joins.</summary>
         public RoundTiming Timing => timing;
 
         /// <summary>Random numbers for this node's sensors and actuators. They depend only on the seed and the id.</summary>
@@ -110,51 +112,52 @@ namespace Collektive.Unity
                 + "' has random numbers only while it is in a simulation: use Node.Random in Sense, Act or FindNeighbours");
 
         /// <summary>
-        /// The tick of the last answer; 0 before the first. <c>SimulationManager.Current.Tick - node.AnswerTick</c> is the answer's age in ticks.
+        /// The tick of the last answer; 0 before the first answer. <c>SimulationManager.Current.Tick - node.AnswerTick</c> is the age of the answer in ticks.
         /// </summary>
         public ulong AnswerTick { get; private set; }
 
-        /// <summary>Simulated time in seconds of the last round that gave an answer; -1 before the first.</summary>
+        /// <summary>Simulated time of the last round that gave an answer, in seconds; -1 before the first answer.</summary>
         public double AnswerTime { get; private set; } = -1;
 
         /// <summary>
-        /// Simulated seconds between the last two answers, for actuators whose effect grows with time; at the first answer the manager's
-        /// delta time.
+        /// Simulated seconds between the last two answers; after the first answer, the manager's delta time. It is meant for actuators whose effect depends
+        /// on the elapsed time.
         /// </summary>
         public float AnswerInterval { get; private set; }
 
         /// <summary>
-        /// Returns the program's last answer in the type of actuators. It is kept until the next answer, even if the node is not due, sleeps or fails.
-        /// <see cref="AnswerTick"/> and <see cref="AnswerTime"/> give its age. While the actuators of a tick run, nodes that come later
-        /// still have their previous answer. A table is a view of the bridge's memory and is valid only until the next tick.
+        /// Returns the last answer of the node's program, in the same type as actuators receive it. An answer is kept until the next one, even if the node
+        /// is not due, sleeps or fails; <see cref="AnswerTick"/> and <see cref="AnswerTime"/> show how old it is. Actuators run in the order of node ids,
+        /// so during a tick, nodes with higher ids still have their previous answer. An answer that is a table is a view of the bridge's memory, which is
+        /// valid only until the next tick.
         /// </summary>
-        /// <returns>False if the node has no answer since it joined, or if the schema has another type.</returns>
+        /// <returns>False if the node has had no answer since it joined, or if <typeparamref name="TData"/> is not the schema's type.</returns>
         public bool TryGetAnswer<TData>(out TData data)
         {
             data = default;
             if (!(answers is ActuatorBuffer<TData> typed)) return false;
             var age = Simulation.Tick - AnswerTick;
-            data = age == 0 ? typed[answerIndex] : age == 1 && !Simulation.IsPending ? typed.Previous(answerIndex) : ((AnswerCopy<TData>)kept).Value;
+            data = age == 0 ? typed[answerIndex] : age == 1 && !Simulation.IsPending ? typed.Previous(answerIndex) : ((AnswerCopy<TData>)answerCopy).Value;
             return true;
         }
 
-        /// <summary>The last error of this node's round, sensors or actuators; empty before the first.</summary>
+        /// <summary>The last error of this node's round, sensors or actuators; empty before the first error.</summary>
         public string LastError { get; internal set; } = "";
 
-        /// <summary>The boxed answer of <see cref="TryGetAnswer{TData}"/>, for tools that do not know the schema's types; null without an answer.</summary>
+        /// <summary>The last answer, boxed, for tools that do not know the schema's types; null if the node has no answer.</summary>
         internal object Answer
         {
             get
             {
                 if (answers == null) return null;
                 var age = Simulation.Tick - AnswerTick;
-                return age == 0 ? answers.Get(answerIndex) : age == 1 && !Simulation.IsPending ? answers.GetPrevious(answerIndex) : kept.Get();
+                return age == 0 ? answers.Get(answerIndex) : age == 1 && !Simulation.IsPending ? answers.GetPrevious(answerIndex) : answerCopy.Get();
             }
         }
 
         /// <summary>
-        /// The node's position in this tick, in metres. It is read from the transform once per tick, before rules and sensors run. Later
-        /// movements take effect in the next tick.
+        /// The node's position in this tick, in metres. The transform is read once per tick, before rules and sensors run. Movements after that become
+        /// visible in the next tick.
         /// </summary>
         public Vector3 Position { get; internal set; }
 
@@ -174,10 +177,10 @@ namespace Collektive.Unity
         internal Simulation Simulation { get; private set; }
 
         /// <summary>
-        /// Suspends rounds for the given simulated seconds. The node keeps its state, its links and its sent messages. 0 wakes it. Works
-        /// under any schedule. Takes effect from the next tick on. May be called from the node's own actuators.
+        /// Suspends the node's rounds for a number of simulated seconds, from the next tick on. The node keeps its state, its links and its sent messages.
+        /// It can sleep under any schedule, and its own actuators may call this method.
         /// </summary>
-        /// <param name="seconds">0 or greater; infinity: until it is woken with 0.</param>
+        /// <param name="seconds">0 or greater. 0 wakes the node; with infinity, it sleeps until it is woken.</param>
         /// <exception cref="InvalidOperationException">The node is not in a simulation.</exception>
         public void Sleep(double seconds)
         {
@@ -186,7 +189,7 @@ namespace Collektive.Unity
             asleepUntil = Simulation.Time + seconds;
         }
 
-        /// <summary>Starts the node's timer, and returns the error of its timing or null.</summary>
+        /// <summary>Starts the node's timer if the schedule is asynchronous. Returns the error of the timing, or null.</summary>
         internal string StartTimer()
         {
             var settings = Simulation.Settings;
@@ -200,7 +203,9 @@ namespace Collektive.Unity
         /// <summary>Whether the node has a round in this tick.</summary>
         internal bool IsDue { get; private set; }
 
-        /// <summary>Decides whether the node has a round in the tick at <paramref name="now"/>, and advances its timer. Called once per tick.</summary>
+        /// <summary>
+        /// Decides whether the node has a round in the tick that begins at <paramref name="now"/>, and advances the node's timer. Called once per tick.
+        /// </summary>
         internal bool TakeDue(double now) => IsDue = asleepUntil <= now && (timer == null || timer.TakeDue(now));
 
         internal void OnJoined(Simulation simulation, int newId)
@@ -224,12 +229,10 @@ namespace Collektive.Unity
             AnswerTime = time;
         }
 
-        /// <summary>
-        /// Copies an answer that the next step would overwrite. Called before the tick after <paramref name="lastTick"/>.
-        /// </summary>
+        /// <summary>Copies the last answer if the next step would overwrite it. Called after <paramref name="lastTick"/> and before the next tick.</summary>
         internal void KeepAnswer(ulong lastTick)
         {
-            if (answers != null && AnswerTick + 1 == lastTick) answers.CopyPrevious(answerIndex, ref kept);
+            if (answers != null && AnswerTick + 1 == lastTick) answers.CopyPrevious(answerIndex, ref answerCopy);
         }
 
         internal void OnLeft()
@@ -243,7 +246,7 @@ namespace Collektive.Unity
         private void ForgetAnswer()
         {
             answers = null;
-            kept = null;
+            answerCopy = null;
             AnswerTick = 0;
             AnswerTime = -1;
         }
@@ -258,9 +261,9 @@ namespace Collektive.Unity
 
         private void OnEnable()
         {
-            // Not in Awake, which is not called again when scripts are compiled during play.
+            // This is not done in Awake, because Unity does not call Awake again when scripts are compiled during play.
             Body = transform;
-            place = EnabledNodes.Count;
+            enabledIndex = EnabledNodes.Count;
             EnabledNodes.Add(this);
             if (SimulationManager.Current != null) SimulationManager.Current.Simulation.Join(this);
         }
@@ -278,7 +281,7 @@ namespace Collektive.Unity
             StartCoroutine(WarnWithoutManager());
         }
 
-        /// <summary>Checked after a frame, because an additive scene may contain the manager.</summary>
+        /// <summary>Warns if no loaded scene has a manager. Waits one frame, because an additive scene may contain it.</summary>
         private IEnumerator WarnWithoutManager()
         {
             yield return null;
@@ -289,9 +292,9 @@ namespace Collektive.Unity
 
         private void OnDisable()
         {
-            if (place < EnabledNodes.Count && ReferenceEquals(EnabledNodes[place], this))
+            if (enabledIndex < EnabledNodes.Count && ReferenceEquals(EnabledNodes[enabledIndex], this))
             {
-                EnabledNodes[place] = null;
+                EnabledNodes[enabledIndex] = null;
                 if (2 * ++gaps > EnabledNodes.Count) CloseGaps();
             }
             Simulation?.Leave(this);
@@ -299,15 +302,15 @@ namespace Collektive.Unity
 
         private static void CloseGaps()
         {
-            var kept = 0;
+            var count = 0;
             for (var i = 0; i < EnabledNodes.Count; i++)
             {
                 var node = EnabledNodes[i];
                 if (ReferenceEquals(node, null)) continue;
-                node.place = kept;
-                EnabledNodes[kept++] = node;
+                node.enabledIndex = count;
+                EnabledNodes[count++] = node;
             }
-            EnabledNodes.RemoveRange(kept, EnabledNodes.Count - kept);
+            EnabledNodes.RemoveRange(count, EnabledNodes.Count - count);
             gaps = 0;
         }
     }

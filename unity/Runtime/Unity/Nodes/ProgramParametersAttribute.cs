@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Draws a list of values with a field for each parameter of the node's program.</summary>
+    /// <summary>Makes the inspector show a list of values as one field per parameter of the node's program.</summary>
     internal sealed class ProgramParametersAttribute : PropertyAttribute
     {
         internal ProgramParametersAttribute() : base(true)

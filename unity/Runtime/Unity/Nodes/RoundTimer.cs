@@ -2,7 +2,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity
 {
-    /// <summary>Decides when the rounds of one node are due. Round k uses the k-th number of the stream, however often it is polled.</summary>
+    /// <summary>Decides when the rounds of one node are due. Round k uses the k-th random number of the stream, however often the timer is polled.</summary>
     internal sealed class RoundTimer
     {
         private readonly double origin;
@@ -12,7 +12,7 @@ namespace Collektive.Unity
         private long round;
         private double next;
 
-        /// <param name="timing">Must be valid; read only in the constructor.</param>
+        /// <param name="timing">A valid timing. It is read in the constructor only.</param>
         /// <param name="random">The node's stream for its schedule.</param>
         /// <param name="start">Simulated seconds at which the node joins.</param>
         internal RoundTimer(RoundTiming timing, RandomStream random, double start)

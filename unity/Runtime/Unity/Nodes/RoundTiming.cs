@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// When a node runs its rounds under the asynchronous schedule, in simulated seconds: round k is due <c>phase + k * period</c> after the node joined, and
-    /// up to <c>jitter</c> later. A tick runs the rounds that became due since the previous tick, at most one per node.
+    /// The times of a node's rounds under the asynchronous schedule, in simulated seconds. Round k is due <c>phase + k * period</c> after the node joined,
+    /// plus a random delay of at most <c>jitter</c>. Each tick runs the rounds that became due since the previous tick, at most one per node.
     /// </summary>
     [Serializable]
     public sealed class RoundTiming

@@ -7,7 +7,9 @@ namespace Collektive.Unity
     /// <summary>Base of all actuators; user actuators derive from <see cref="Actuator{TData}"/>.</summary>
     public abstract class Actuator : NodePart
     {
-        /// <summary>Returns a vector of the program's answer, or throws if it is not finite, because physics cannot recover from it.</summary>
+        /// <summary>
+        /// Returns a vector of the program's answer. Throws an exception if it is not finite, because physics cannot recover from such values.
+        /// </summary>
         internal static Vector3 Finite(Vector3 answer)
         {
             if (float.IsFinite(answer.x) && float.IsFinite(answer.y) && float.IsFinite(answer.z)) return answer;
@@ -20,7 +22,7 @@ namespace Collektive.Unity
 
     /// <summary>Applies the answer of a node's program to the scene.</summary>
     /// <typeparam name="TData">
-    /// The generated type <c>ActuatorData</c> of the schema: a copy of a struct, a view of a table that is valid during the call.
+    /// The generated type <c>ActuatorData</c> of the schema.
     /// </typeparam>
     public abstract class Actuator<TData> : Actuator
     {
@@ -36,8 +38,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called once after each round of the node that gave an answer, on the main thread, before physics advances. Data of a table is a view of the bridge's
-        /// memory: valid during the call only.
+        /// Called once after each round that gave an answer, on the main thread, before physics advances. A struct is passed as a copy. A table is passed
+        /// as a view of the bridge's memory, which is valid during the call only.
         /// </summary>
         protected abstract void Act(TData data);
     }

@@ -2,19 +2,19 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Helpers for colliders in contact.</summary>
+    /// <summary>Helpers for sensors that handle colliders.</summary>
     internal static class ColliderExtensions
     {
-        /// <summary>Whether the use of bounds was reported, once for all colliders.</summary>
+        /// <summary>Whether the use of bounds was reported. It is reported for one collider only.</summary>
         private static bool hasReportedBounds;
 
-        /// <summary>Returns whether a collider is destroyed or disabled: Unity reports no exit for it.</summary>
+        /// <summary>Returns whether a collider was destroyed or disabled, in which case Unity sends no exit message for it.</summary>
         internal static bool IsGone(this Collider collider) =>
             collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy;
 
         /// <summary>
-        /// Returns the point of a collider that is closest to a point. Unity computes it for boxes, spheres, capsules and convex meshes, and logs an error for
-        /// each call with another collider. For these, it is the closest point of their bounds.
+        /// Returns the point of a collider that is closest to <paramref name="point"/>. Unity can compute it for boxes, spheres, capsules and convex meshes
+        /// only, and logs an error at each call with another collider. For other colliders, the closest point of their bounds is returned.
         /// </summary>
         internal static Vector3 PointClosestTo(this Collider collider, Vector3 point)
         {
@@ -33,8 +33,8 @@ namespace Collektive.Unity
         private static void ResetStatics() => hasReportedBounds = false;
 
         /// <summary>
-        /// Whether a vector comes before another: the shorter one first, equally long ones by x, z, y. Unity returns hits in an undefined order, but sums of
-        /// floats are only reproducible in a fixed order.
+        /// Returns whether <paramref name="a"/> is sorted before <paramref name="b"/>: by length, then by x, z and y. Hits need a defined order, because
+        /// Unity returns them in an undefined one, and a sum of floats depends on the order.
         /// </summary>
         internal static bool IsBefore(Vector3 a, Vector3 b)
         {

@@ -2,7 +2,9 @@ using org.collektive.schema;
 
 namespace Collektive.Unity
 {
-    /// <summary>Converts value types of <c>types.fbs</c> to Unity's, for expressions. Assignments convert values implicitly, in both directions.</summary>
+    /// <summary>
+    /// Converts value types of <c>types.fbs</c> to Unity's types within expressions. In assignments, values are converted implicitly, in both directions.
+    /// </summary>
     public static class Conversions
     {
         /// <summary>Converts to Unity's type.</summary>

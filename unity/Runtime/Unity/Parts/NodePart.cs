@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A component that belongs to the <see cref="Collektive.Unity.Node"/> on its GameObject or on the nearest parent.
-    /// A subclass with its own <c>OnEnable</c>, <c>OnDisable</c> or another message method of its base overrides it and calls the base method.
+    /// A component that belongs to the <see cref="Collektive.Unity.Node"/> on its GameObject or on the nearest parent. A subclass that needs
+    /// <c>OnEnable</c>, <c>OnDisable</c> or another message method of its base class must override the method and call the base method.
     /// </summary>
     [HelpPage("sensors-and-actuators.md#ready-made-components")]
     public abstract class NodePart : MonoBehaviour
@@ -23,7 +23,7 @@ namespace Collektive.Unity
         /// <summary>The list of batched parts that the part is in; null if it is in none.</summary>
         internal BatchedParts BatchedIn { get; set; }
 
-        /// <summary>The last batch that has the part's queries; 0 for none.</summary>
+        /// <summary>The number of the last batch that contained the part's queries; 0 if there was none.</summary>
         internal ulong BatchedAt { get; set; }
 
         /// <summary>Joins the node.</summary>
@@ -32,7 +32,7 @@ namespace Collektive.Unity
         /// <summary>Leaves the node.</summary>
         protected virtual void OnDisable() => Detach();
 
-        /// <summary>Joins the node of the new parents, if it is another one.</summary>
+        /// <summary>Joins another node if the new parents belong to it.</summary>
         protected virtual void OnTransformParentChanged()
         {
             if (!IsAttached || ReferenceEquals(GetComponentInParent<Node>(), Node)) return;
@@ -42,7 +42,7 @@ namespace Collektive.Unity
 
         internal void Succeeded()
         {
-            // Nearly always it is 0 already: a write would dirty a cache line in each call.
+            // The count is nearly always 0 already. Checking it avoids a write, which would dirty a cache line in each call.
             if (failuresInRow != 0) failuresInRow = 0;
         }
 
@@ -55,20 +55,20 @@ namespace Collektive.Unity
             return true;
         }
 
-        /// <summary>The node's list that this part is in while it is enabled.</summary>
+        /// <summary>Returns the list of a node that contains this part while the part is enabled.</summary>
         internal abstract ref PartList ListOf(Node node);
 
         /// <summary>Does the part's work in a tick.</summary>
-        /// <param name="tick">The tick of its node's simulation.</param>
-        /// <param name="index">The place of the node's data among those of the tick.</param>
+        /// <param name="tick">The tick of the node's simulation.</param>
+        /// <param name="index">The index of the node's data in the buffer of this tick.</param>
         internal abstract void Run(TickContext tick, int index);
 
-        /// <summary>Adds the part's physics queries to the batches of the tick; called before <see cref="Run"/> if <see cref="BatchedIn"/> is set.</summary>
+        /// <summary>Adds the part's physics queries to the batches of the tick. Called before <see cref="Run"/> if <see cref="BatchedIn"/> is set.</summary>
         internal virtual void Enqueue(TickContext tick)
         {
         }
 
-        /// <summary>Reads what a ready-made part needs from the tick. <see cref="Run"/> calls it before the part's public method.</summary>
+        /// <summary>Reads the data of the tick that a ready-made part needs. <see cref="Run"/> calls it before the method that users override.</summary>
         internal virtual void Prepare(TickContext tick)
         {
         }
@@ -80,7 +80,7 @@ namespace Collektive.Unity
                 + ", but the session's schema has " + expected.FullName + ": use a component for that schema, or select the other schema", this);
         }
 
-        /// <summary>Called when the part has left the node's list.</summary>
+        /// <summary>Called after the part was removed from the node's list.</summary>
         internal virtual void Detached()
         {
         }

@@ -4,8 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A node's parts of one kind, in the order of their components and objects: Unity does not specify the order in which it enables them. A struct in the
-    /// node rather than a separate object: in a large scene cache misses dominate a tick.
+    /// The parts of one kind of a node. They are sorted by their position in the hierarchy, because Unity does not specify the order in which it enables
+    /// components. The list is a struct within the node rather than a separate object, because cache misses dominate a tick in a large scene.
     /// </summary>
     internal struct PartList
     {
@@ -14,28 +14,28 @@ namespace Collektive.Unity
 
         internal int Count { get; private set; }
 
-        internal NodePart this[int place] => parts[place];
+        internal NodePart this[int index] => parts[index];
 
         internal void Add(NodePart part)
         {
             if (parts == null || Count == parts.Length) Array.Resize(ref parts, Math.Max(2, 2 * Count));
             parts[Count++] = part;
-            // Sorted later, because the list may be running.
+            // The list is sorted later, because its parts may be running now.
             isUnsorted = Count > 1;
         }
 
-        /// <summary>Removes a part; later parts move up. A missing part is ignored.</summary>
+        /// <summary>Removes a part, and moves later parts up. Does nothing if the part is not in the list.</summary>
         internal void Remove(NodePart part)
         {
-            var place = Count - 1;
-            while (place >= 0 && !ReferenceEquals(parts[place], part)) place--;
-            if (place < 0) return;
+            var index = Count - 1;
+            while (index >= 0 && !ReferenceEquals(parts[index], part)) index--;
+            if (index < 0) return;
             Count--;
-            Array.Copy(parts, place + 1, parts, place, Count - place);
+            Array.Copy(parts, index + 1, parts, index, Count - index);
             parts[Count] = null;
         }
 
-        /// <summary>Calls the parts in a tick; parts that an earlier one disables, destroys or adds are skipped.</summary>
+        /// <summary>Calls the parts in a tick. Parts that an earlier part disabled, destroyed or added are skipped.</summary>
         /// <param name="node">The parts' node.</param>
         /// <returns>Whether no part threw an exception.</returns>
         internal bool Run(Simulation simulation, Node node, int index)
@@ -61,8 +61,8 @@ namespace Collektive.Unity
             return !failed;
         }
 
-        /// <summary>Whether a part is where it was before its call: the call may have disabled, destroyed or re-enabled it.</summary>
-        private bool Has(int place, NodePart part) => place < Count && ReferenceEquals(parts[place], part);
+        /// <summary>Returns whether a part is at the same index as before its call. The call may have disabled, destroyed or re-enabled it.</summary>
+        private bool Has(int position, NodePart part) => position < Count && ReferenceEquals(parts[position], part);
 
         private void Sort()
         {
@@ -70,13 +70,16 @@ namespace Collektive.Unity
             for (var next = 1; next < Count; next++)
             {
                 var part = parts[next];
-                var place = next;
-                for (; place > 0 && IsBefore(part, parts[place - 1]); place--) parts[place] = parts[place - 1];
-                parts[place] = part;
+                var position = next;
+                for (; position > 0 && IsBefore(part, parts[position - 1]); position--) parts[position] = parts[position - 1];
+                parts[position] = part;
             }
         }
 
-        /// <summary>Parents come before children, and siblings in their order.</summary>
+        /// <summary>
+        /// Returns whether <paramref name="a"/> precedes <paramref name="b"/> in the hierarchy. Parents precede their children, and siblings keep their
+        /// order.
+        /// </summary>
         private static bool IsBefore(NodePart a, NodePart b)
         {
             var left = a.transform;

@@ -8,9 +8,7 @@ namespace Collektive.Unity
         internal sealed override ref PartList ListOf(Node node) => ref node.Sensors;
     }
 
-    /// <summary>
-    /// Writes sensor data for a node's next round. Several sensors of one node may fill different fields.
-    /// </summary>
+    /// <summary>Writes sensor data for a node's next round. Several sensors of a node may fill different fields.</summary>
     /// <typeparam name="TData">
     /// The generated type <c>SensorData</c> of the schema.
     /// </typeparam>
@@ -28,8 +26,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called once before each round of the node, on the main thread, after physics was synchronised. The data contains the schema's defaults and what
-        /// earlier sensors of the node wrote. After an exception, the node misses the round.
+        /// Called once before each round of the node, on the main thread, with physics synchronised to the transforms. Fields that no earlier sensor of the
+        /// node has written contain the schema's defaults. If the method throws an exception, the node misses the round.
         /// </summary>
         protected abstract void Sense(ref TData data);
     }

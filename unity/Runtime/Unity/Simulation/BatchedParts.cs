@@ -3,8 +3,8 @@ using System.Collections.Generic;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Rules or sensors whose physics queries run in one batch, before the parts are called. A part adds itself at its first call, whose queries
-    /// run alone; it is dropped when it or its node has left.
+    /// Rules or sensors whose physics queries run in one batch before the parts are called. A part joins when it is first called; the queries of that call
+    /// run without the batch. A part is removed when it or its node has left the simulation.
     /// </summary>
     internal sealed class BatchedParts
     {
@@ -13,10 +13,12 @@ namespace Collektive.Unity
 
         internal BatchedParts(Simulation simulation) => this.simulation = simulation;
 
-        /// <summary>The number of the batch of this tick, 1 or greater.</summary>
+        /// <summary>The number of this tick's batch, 1 or greater.</summary>
         internal ulong Batch { get; private set; }
 
-        /// <summary>Whether a part's queries are in the batch of this tick; if not, they are from the next tick on.</summary>
+        /// <summary>
+        /// Returns whether this tick's batch contains the queries of a part. If not, the part is added, and the batches from the next tick on contain them.
+        /// </summary>
         internal bool Has(NodePart part)
         {
             if (ReferenceEquals(part.BatchedIn, this)) return part.BatchedAt == Batch;
@@ -27,12 +29,12 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Begins a batch with the queries of all parts, or of those whose nodes are due in this tick. Drops parts that have left the simulation.
+        /// Begins a batch with the queries of all parts, or only of parts whose nodes are due in this tick. Removes parts that have left the simulation.
         /// </summary>
         internal void Begin(bool isForDueNodes)
         {
             Batch++;
-            // One pass, because parts and nodes are scattered in memory.
+            // A single pass does both, because parts and nodes are scattered in memory.
             for (var i = parts.Count - 1; i >= 0; i--)
             {
                 var part = parts[i];
@@ -44,7 +46,7 @@ namespace Collektive.Unity
                     continue;
                 }
                 if (ReferenceEquals(part.BatchedIn, this)) part.BatchedIn = null;
-                // The last part was already visited.
+                // The last part moves to this index. It was already visited.
                 parts[i] = parts[parts.Count - 1];
                 parts.RemoveAt(parts.Count - 1);
             }

@@ -6,8 +6,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Logs and counts the errors of a simulation by their places, and keeps the last message of each. A place is a program or a component of a participating
-    /// node. Counts of nodes that have left are added up, so that a scene whose nodes come and go does not fill the memory.
+    /// Logs the errors of a simulation, and counts them by source and node. A source is a program or a component. The last message of each source and node
+    /// is kept. The counts of nodes that have left are combined, so that memory does not grow in scenes whose nodes come and go.
     /// </summary>
     internal sealed class ErrorCounts
     {
@@ -19,7 +19,7 @@ namespace Collektive.Unity
 
         internal long Count { get; private set; }
 
-        /// <summary>A round failed; <paramref name="node"/> is null when its node has left.</summary>
+        /// <summary>Adds the error of a failed round. <paramref name="node"/> is null if the node has left.</summary>
         internal void AddRound(Node node, int id, string program, ulong tick, string message)
         {
             if (node != null) node.LastError = message;
@@ -29,13 +29,13 @@ namespace Collektive.Unity
                 Debug.LogError("round of node " + id + " (program '" + program + "') failed at tick " + tick + ": " + message, node);
         }
 
-        /// <summary>A sensor, actuator or rule threw an exception.</summary>
+        /// <summary>Adds an exception that a sensor, actuator or rule threw.</summary>
         internal void AddPart(Node node, NodePart part, ulong tick, Exception error)
         {
             var source = part.GetType().Name;
             node.LastError = error.Message;
             Count++;
-            // The component may have removed its node: then the error counts for NodeErrors.DepartedNodes.
+            // The component may have removed its node. The error is then counted for NodeErrors.DepartedNodes.
             PlaceOf(source, node.Id).Add(1, tick, error.Message);
             if (repeated.IsFirst(KeyOf(source, error), "calls of " + source + " failed in the same way", node.Id, error.GetType() + ": " + error.Message))
             {
@@ -49,7 +49,7 @@ namespace Collektive.Unity
             part.enabled = false;
         }
 
-        /// <summary>A handler of <see cref="SimulationManager.Ticked"/> or a stop condition threw an exception.</summary>
+        /// <summary>Adds an exception that a handler of <see cref="SimulationManager.Ticked"/> or a stop condition threw.</summary>
         /// <param name="source">The handler's class and method.</param>
         internal void AddHandler(string source, ulong tick, Exception error, UnityEngine.Object context)
         {
@@ -58,7 +58,7 @@ namespace Collektive.Unity
             Debug.LogException(new InvalidOperationException(source + " failed after tick " + tick + ": " + error.Message, error), context);
         }
 
-        /// <summary>Moves the counts of a node to the nodes that have left.</summary>
+        /// <summary>Adds the counts of a node to the combined counts of nodes that have left.</summary>
         internal void Leave(int node)
         {
             if (!places.TryGetValue(node, out var left)) return;
@@ -70,10 +70,13 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Logs the counts of repeated errors.</summary>
+        /// <summary>Logs how often errors were repeated.</summary>
         internal void LogCounts() => repeated.LogCounts();
 
-        /// <summary>Errors with the same program, exception and place in the code: without the text, which may contain numbers, if there is a stack.</summary>
+        /// <summary>
+        /// Returns a key that is the same for errors with the same program, exception and code location. If the message has a stack trace, its text is not
+        /// part of the key, because it may contain varying numbers.
+        /// </summary>
         private static string KeyOf(string program, string message)
         {
             var stack = message.IndexOf('\n');
@@ -81,7 +84,9 @@ namespace Collektive.Unity
             return stack < 0 || words < 0 || words > stack ? program + message : program + message.Substring(0, words) + message.Substring(stack);
         }
 
-        /// <summary>Errors of the same component, exception, text and place in the code; numbers in the text make no difference.</summary>
+        /// <summary>
+        /// Returns a key that is the same for errors with the same component, exception, text and code location. Numbers in the text are ignored.
+        /// </summary>
         private static string KeyOf(string source, Exception error)
         {
             var key = new StringBuilder(source).Append(error.GetType());
@@ -111,7 +116,9 @@ namespace Collektive.Unity
             return errors;
         }
 
-        /// <summary>The last one takes its index: thousands may leave at once.</summary>
+        /// <summary>
+        /// Removes counts by moving the last entry of the list to their index. Removal must be fast, because thousands of nodes may leave at once.
+        /// </summary>
         private void Remove(NodeErrors errors)
         {
             var last = all[all.Count - 1];
@@ -122,15 +129,15 @@ namespace Collektive.Unity
     }
 
     /// <summary>
-    /// The errors of one program, sensor, actuator or rule on one node, or on all nodes that have left; or of one handler of
-    /// <see cref="SimulationManager.Ticked"/>.
+    /// The errors of one program, sensor, actuator or rule, on one node or on all nodes that have left. Also used for the errors of one handler of <see
+    /// cref="SimulationManager.Ticked"/>.
     /// </summary>
     public sealed class NodeErrors
     {
-        /// <summary><see cref="Node"/> of the errors of all nodes that have left.</summary>
+        /// <summary>Value of <see cref="Node"/> for the combined errors of nodes that have left.</summary>
         public const int DepartedNodes = -1;
 
-        /// <summary><see cref="Node"/> of the errors of a handler, which belongs to no node.</summary>
+        /// <summary>Value of <see cref="Node"/> for the errors of a handler, which belongs to no node.</summary>
         public const int NoNode = -2;
 
         internal NodeErrors(string source, int node)

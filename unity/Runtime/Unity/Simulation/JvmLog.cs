@@ -5,25 +5,25 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Unity
 {
-    /// <summary>The JVM's log in Unity's console.</summary>
+    /// <summary>Writes the JVM's log to Unity's console.</summary>
     internal sealed class JvmLog
     {
         private readonly HostLog log = new HostLog();
         private readonly Object context;
 
-        /// <param name="context">What a click on a line selects.</param>
+        /// <param name="context">The object that a click on a line selects.</param>
         internal JvmLog(Object context)
         {
             this.context = context;
         }
 
-        /// <summary>Logs the new lines, and passes them to <paramref name="shown"/>, which may be null.</summary>
+        /// <summary>Logs the new lines, and passes each one to <paramref name="shown"/>, which may be null.</summary>
         internal void Show(Action<HostLogLevel, string> shown)
         {
             while (log.TryRead(out var level, out var line)) Show(level, line, shown);
         }
 
-        /// <summary>The same, followed by the number of omitted lines.</summary>
+        /// <summary>Logs the remaining lines, and then the number of omitted lines.</summary>
         internal void ShowRest(Action<HostLogLevel, string> shown)
         {
             Show(shown);
@@ -41,7 +41,7 @@ namespace Collektive.Unity
             }
             catch (Exception error)
             {
-                // A handler of users must not stop the frame.
+                // An exception in a user's handler must not end the frame.
                 Debug.LogException(error, context);
             }
         }

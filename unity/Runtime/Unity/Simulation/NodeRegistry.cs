@@ -5,14 +5,14 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The nodes of a simulation, and those that joined and left since the last tick.</summary>
+    /// <summary>The nodes of a simulation, including the nodes that joined or left since the last tick.</summary>
     internal sealed class NodeRegistry
     {
-        /// <summary>The link view has 24 bits for a node.</summary>
+        /// <summary>The link view stores a node in 24 bits.</summary>
         private const int MaxId = (1 << 24) - 1;
 
         private readonly List<Node> nodes = new List<Node>();
-        // Null for those that left again.
+        // Contains null for nodes that left again.
         private readonly List<Node> joining = new List<Node>();
         private readonly PagedArray<int> joiningIndex = new PagedArray<int>();
         private readonly GrowingArray<int> leaving = new GrowingArray<int>();
@@ -23,16 +23,16 @@ namespace Collektive.Unity
         /// <summary>The participating nodes, ascending by id.</summary>
         internal List<Node> Nodes => nodes;
 
-        /// <summary>The nodes that joined since the last tick; null for those that left again.</summary>
+        /// <summary>The nodes that joined since the last tick. Contains null for nodes that left again.</summary>
         internal IReadOnlyList<Node> Joining => joining;
 
-        /// <summary>All ids are below it.</summary>
+        /// <summary>A number that is greater than all ids.</summary>
         internal int IdCapacity => nextId;
 
-        /// <summary>By id: whether the node was sent to the JVM.</summary>
+        /// <summary>Whether a node was sent to the JVM, indexed by id.</summary>
         internal PagedArray<bool> IsKnown { get; } = new PagedArray<bool>();
 
-        /// <summary>Returns the node with that id, or null.</summary>
+        /// <summary>Returns the node with the given id, or null.</summary>
         internal Node Find(int id)
         {
             var index = IndexOf(id);
@@ -40,24 +40,24 @@ namespace Collektive.Unity
         }
 
         /// <summary>Adds a node with its requested id, or the next free one.</summary>
-        /// <returns>The error of that id, or null if the node was added.</returns>
+        /// <returns>The error of the requested id, or null if the node was added.</returns>
         internal string Join(Node node, Simulation simulation)
         {
             var id = node.RequestedId >= 0 ? node.RequestedId : nextId;
             if (id > MaxId) return "node '" + node.name + "' has id " + id + ", but the largest id is " + MaxId + ": use smaller ids, or -1";
-            var place = ~IndexOf(id);
-            if (place < 0) return "node '" + node.name + "' has id " + id + ", which node '" + nodes[~place].name
+            var index = ~IndexOf(id);
+            if (index < 0) return "node '" + node.name + "' has id " + id + ", which node '" + nodes[~index].name
                 + "' already uses: give each node its own id, or -1";
             nextId = Math.Max(nextId, id + 1);
             if (isGone[id]) DropLinksOfDeparted(simulation.Links);
             node.OnJoined(simulation, id);
-            nodes.Insert(place, node);
+            nodes.Insert(index, node);
             joiningIndex[id] = joining.Count;
             joining.Add(node);
             return null;
         }
 
-        /// <summary>Removes a node; its links stay until <see cref="DropLinksOfDeparted"/>.</summary>
+        /// <summary>Removes a node. Its links are kept until <see cref="DropLinksOfDeparted"/> removes them.</summary>
         internal void Leave(Node node, NeighbourSearch links)
         {
             var id = node.Id;
@@ -70,7 +70,7 @@ namespace Collektive.Unity
             departed.Add(id);
         }
 
-        /// <summary>Drops the links of all nodes that left, in one pass over the links.</summary>
+        /// <summary>Removes the links of all nodes that left, in one pass over all links.</summary>
         internal void DropLinksOfDeparted(NeighbourSearch links)
         {
             if (departed.Count == 0) return;
@@ -79,7 +79,7 @@ namespace Collektive.Unity
             departed.Clear();
         }
 
-        /// <summary>Writes to the request the nodes that left and joined since the last call.</summary>
+        /// <summary>Writes the nodes that left or joined since the last call to the request.</summary>
         internal void Flush(StepRequest request, NeighbourSearch links)
         {
             for (var i = 0; i < leaving.Count; i++) request.RemoveNode(leaving.Items[i]);
@@ -105,7 +105,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Warns about a scene whose nodes all have the same position: they are neighbours at any radius.</summary>
+        /// <summary>Warns about a scene whose nodes all have the same position, because they are then neighbours at any radius.</summary>
         private void WarnIfAtOnePosition()
         {
             if (nodes.Count < 2) return;

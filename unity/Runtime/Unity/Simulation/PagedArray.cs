@@ -2,7 +2,9 @@ using System;
 
 namespace Collektive.Unity
 {
-    /// <summary>Values by index, 0 or greater, in pages that are created on first use. A large index needs no memory for all smaller ones.</summary>
+    /// <summary>
+    /// An array that grows in pages, which are allocated on first use. A large index therefore does not allocate memory for all smaller indices.
+    /// </summary>
     internal sealed class PagedArray<T>
     {
         private const int Bits = 7;
@@ -10,7 +12,7 @@ namespace Collektive.Unity
 
         private T[][] pages = new T[4][];
 
-        /// <summary>The value, initially the default. The reference stays valid.</summary>
+        /// <summary>The value at an index of 0 or greater, initially the default of its type. The reference remains valid when the array grows.</summary>
         internal ref T this[int index]
         {
             get

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The physics of a tick: equal steps, at most as long as the setting, that add up to the tick.</summary>
+    /// <summary>Advances physics by one tick, in steps of equal length that do not exceed the physics step in the settings.</summary>
     internal static class PhysicsSteps
     {
         /// <summary>Runs the steps, unless a physics message ends the simulation.</summary>

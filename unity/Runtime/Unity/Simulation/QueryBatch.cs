@@ -6,8 +6,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Physics queries that run together: Unity divides them among its worker threads, and the calling thread can do something else before it waits for the
-    /// results, as long as it does not use physics. Allocates nothing once its capacity is reached.
+    /// Physics queries that Unity runs together on its worker threads. Meanwhile, the calling thread can do other work that does not use physics. Allocates
+    /// only while its capacity grows.
     /// </summary>
     internal abstract class QueryBatch<TCommand, THit> : IDisposable
         where TCommand : struct
@@ -15,7 +15,9 @@ namespace Collektive.Unity
     {
         private const int MinPerJob = 32;
 
-        /// <summary>Limits the memory of all queries. Queries with more hits run again, without the batch.</summary>
+        /// <summary>
+        /// Maximum number of hits stored per query, which limits the memory of a batch. Queries with more hits are repeated without the batch.
+        /// </summary>
         private const int MaxKeptHits = 64;
 
         private NativeArray<TCommand> commands;
@@ -23,7 +25,7 @@ namespace Collektive.Unity
         private int nextMaxHits;
         private JobHandle running;
 
-        /// <param name="maxHits">Maximum number of hits kept per query, 1 or more; with 1, the nearest.</param>
+        /// <param name="maxHits">Number of hits stored per query at first, 1 or more. With 1, only the nearest hit is stored.</param>
         protected QueryBatch(int maxHits) => MaxHits = nextMaxHits = maxHits;
 
         internal int MaxHits { get; private set; }
@@ -58,10 +60,13 @@ namespace Collektive.Unity
         /// <summary>Waits for the results. A second call does nothing.</summary>
         internal void Finish() => running.Complete();
 
-        /// <summary>A hit of a query; <paramref name="place"/> is below <see cref="MaxHits"/>. Hits have no order; one without a collider is the end.</summary>
-        internal THit HitOf(int query, int place) => hits[query * MaxHits + place];
+        /// <summary>
+        /// Returns a hit of a query. <paramref name="index"/> is less than <see cref="MaxHits"/>. Hits are not sorted, and a hit without a collider marks
+        /// the end.
+        /// </summary>
+        internal THit HitOf(int query, int index) => hits[query * MaxHits + index];
 
-        /// <summary>Increases the number of hits per query in later batches.</summary>
+        /// <summary>Increases the number of hits stored per query in later batches.</summary>
         internal void KeepMore() => nextMaxHits = Math.Min(MaxKeptHits, 2 * MaxHits);
 
         /// <inheritdoc/>
@@ -75,7 +80,7 @@ namespace Collektive.Unity
 
         protected abstract JobHandle Schedule(NativeArray<TCommand> commands, NativeArray<THit> hits, int minPerJob, int maxHits);
 
-        /// <summary>Enlarges an array, and keeps its first <paramref name="used"/> items.</summary>
+        /// <summary>Enlarges an array, and copies its first <paramref name="used"/> items.</summary>
         private static void Grow<T>(ref NativeArray<T> array, int used, int length) where T : struct
         {
             var longer = new NativeArray<T>(length, Allocator.Persistent);

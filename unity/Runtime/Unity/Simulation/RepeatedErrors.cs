@@ -4,7 +4,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Logs each error completely the first time, then counts it. Errors with equal keys are the same error, on any node.
+    /// Counts errors that occur repeatedly, so that each is logged in full only once. Errors with the same key count as the same error, whichever node they
+    /// occur on.
     /// </summary>
     internal sealed class RepeatedErrors
     {
@@ -14,9 +15,9 @@ namespace Collektive.Unity
         private readonly Dictionary<string, Kind> kinds = new Dictionary<string, Kind>();
 
         /// <summary>Counts an error, and logs the count after 10, 100, 1000... occurrences.</summary>
-        /// <param name="what">The error in the plural, for example <c>rounds of program 'p' failed in the same way</c>.</param>
+        /// <param name="what">Text for the count, in the plural, for example <c>rounds of program 'p' failed in the same way</c>.</param>
         /// <param name="first">The first error, in one line.</param>
-        /// <returns>Whether it is the first occurrence, which the caller logs.</returns>
+        /// <returns>Whether this is the first occurrence, which the caller must log.</returns>
         internal bool IsFirst(string key, string what, int node, string first)
         {
             if (!kinds.ContainsKey(key) && kinds.Count >= MaxKinds) key = Others;

@@ -4,11 +4,11 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Links that scripts add and remove, in addition to those of neighbourhood rules.</summary>
+    /// <summary>The links that scripts add and remove, in addition to the links of neighbourhood rules.</summary>
     internal sealed class ScriptLinks
     {
         private readonly Simulation simulation;
-        // Ids of missing nodes with a warning.
+        // Ids of missing nodes that were already reported.
         private readonly HashSet<int> warnedIds = new HashSet<int>();
 
         internal ScriptLinks(Simulation simulation)
@@ -16,7 +16,7 @@ namespace Collektive.Unity
             this.simulation = simulation;
         }
 
-        /// <summary>Links two nodes until <see cref="Remove"/>; the length is the distance now.</summary>
+        /// <summary>Links two nodes until <see cref="Remove"/>. The link's length is the present distance between the nodes.</summary>
         internal void Add(int a, int b, bool directed)
         {
             if (!CheckEnds("add", a, b)) return;
@@ -41,7 +41,7 @@ namespace Collektive.Unity
             var missing = simulation.Find(a) == null ? a : b;
             if (simulation.Find(missing) == null)
             {
-                // Nodes may leave while scripts still have their ids or touch their colliders.
+                // Nodes may leave while scripts still know their ids or receive messages about their colliders.
                 if (warnedIds.Add(missing))
                 {
                     Debug.LogWarning("cannot " + verb + " a link between nodes " + a + " and " + b + ": node " + missing

@@ -5,15 +5,15 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// The physics queries of the ready-made sensors: one batch of rays and one of spheres, which run while the rules are called, and single queries where a
-    /// batch is not enough. It belongs to the simulation and keeps no collider after its end.
+    /// The physics queries of the ready-made sensors. A batch of rays and a batch of spheres run while the rules are called; queries that the batches
+    /// cannot serve run one by one. Belongs to a simulation, and releases all colliders at the simulation's end.
     /// </summary>
     internal sealed class SensorQueries : IDisposable
     {
-        /// <summary>The colliders of one query at a time. If a query fills it, <see cref="Grow"/> it and query again.</summary>
+        /// <summary>Buffer for the colliders of a single query. If a query fills it, call <see cref="Grow"/> and repeat the query.</summary>
         internal Collider[] Near = new Collider[32];
 
-        /// <summary>The obstacles of that query; the array has the same length.</summary>
+        /// <summary>Buffer for the obstacles of a single query, with the same length as <see cref="Near"/>.</summary>
         internal Obstacle[] Obstacles = new Obstacle[32];
 
         internal SensorQueries(Simulation simulation) => Sensors = new BatchedParts(simulation);
@@ -25,7 +25,7 @@ namespace Collektive.Unity
 
         internal BatchedParts Sensors { get; }
 
-        /// <summary>Begins the batches of all sensors whose nodes are due. Physics may not be changed before <see cref="Finish"/>.</summary>
+        /// <summary>Begins the batches of all sensors whose nodes are due. Do not change physics before <see cref="Finish"/>.</summary>
         internal void Begin()
         {
             Rays.Clear();
@@ -33,7 +33,7 @@ namespace Collektive.Unity
             Sensors.Begin(isForDueNodes: true);
             Rays.Begin();
             Spheres.Begin();
-            // Unity does not start scheduled jobs before this call.
+            // Unity starts scheduled jobs only after this call.
             JobHandle.ScheduleBatchedJobs();
         }
 
@@ -44,7 +44,7 @@ namespace Collektive.Unity
             Spheres.Finish();
         }
 
-        /// <summary>Doubles the length of both arrays, and keeps their content.</summary>
+        /// <summary>Doubles the length of both buffers, and keeps their content.</summary>
         internal void Grow()
         {
             Array.Resize(ref Near, 2 * Near.Length);

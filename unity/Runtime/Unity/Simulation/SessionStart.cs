@@ -9,7 +9,7 @@ namespace Collektive.Unity
         private const int StopLimitMs = 5000;
 
         /// <summary>Checks the settings, starts the JVM if none runs, and begins to open a session on it.</summary>
-        /// <param name="context">What a click on a message selects.</param>
+        /// <param name="context">The object that a click on a message selects.</param>
         /// <exception cref="BridgeException">The settings are wrong, or the JVM or the session did not start.</exception>
         internal static Session Begin(SimulationSettings settings, Object context)
         {
@@ -20,7 +20,7 @@ namespace Collektive.Unity
             return Session.BeginOpen(settings.ToSession(), schema);
         }
 
-        /// <summary>Stops a JVM in a separate process after its session, unless the settings keep it.</summary>
+        /// <summary>Stops a JVM in a separate process after its session, unless the settings keep the JVM running.</summary>
         /// <exception cref="BridgeException">The JVM did not end within the time limit and was killed.</exception>
         internal static void Close(SimulationSettings settings)
         {

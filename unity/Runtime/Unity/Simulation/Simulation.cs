@@ -8,18 +8,18 @@ using Debug = UnityEngine.Debug;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// One simulation from its first node to its end: nodes, links, ticks and errors. It needs no scene: the owner calls <see cref="TryOpen"/>,
-    /// <see cref="TryTick"/> for each tick, and <see cref="End"/>. All members are for the main thread.
+    /// One simulation with its nodes, links, ticks and errors. It does not need a scene: its owner calls <see cref="TryOpen"/>, then <see cref="TryTick"/>
+    /// for each tick, and finally <see cref="End"/>. Call all members from the main thread.
     /// </summary>
     internal sealed class Simulation
     {
-        /// <summary>Beginning of the message of a simulation that stopped.</summary>
+        /// <summary>Prefix of the error message that stops a simulation.</summary>
         internal const string StopPrefix = "Simulation stopped: ";
 
-        /// <summary>Relative tolerance of times in ticks, because sums of ticks are not exact.</summary>
+        /// <summary>Tolerance of times as a fraction of the delta time, because sums of delta times are not exact.</summary>
         private const double Tolerance = 1e-3;
 
-        /// <summary>More links than any tick could handle; their memory would be the next limit.</summary>
+        /// <summary>Maximum number of links. No tick could handle more in a reasonable time, and memory would run out soon after.</summary>
         private const int MaxLinks = 1 << 24;
 
         private const int BatchWaitMs = 1000;
@@ -27,11 +27,12 @@ namespace Collektive.Unity
 
         private readonly NodeRegistry registry = new NodeRegistry();
         private readonly SceneGlobals globals;
-        // Users' code may make nodes join and leave in a tick; a tick runs the nodes that were present when it began and did not leave.
+        // The nodes that were present when the tick began. Users' code may add and remove nodes during a tick. Added nodes run from the next tick on, and
+        // removed nodes are skipped.
         private Node[] present = Array.Empty<Node>();
         private int presentCount;
         private readonly GrowingArray<(Node Node, int Id)> due = new GrowingArray<(Node Node, int Id)>();
-        // Places in the array of present nodes.
+        // Indices in the array of present nodes.
         private readonly GrowingArray<int> withOwnRules = new GrowingArray<int>();
         private Session session;
         private bool isTicking;
@@ -41,9 +42,9 @@ namespace Collektive.Unity
         private long pendingSince;
         private (long Start, long QueriesEnd, long RulesEnd, long SenseEnd) timestamps;
 
-        /// <param name="settings">Read when the simulation opens, and its times in each tick.</param>
-        /// <param name="globals">Data written to it is sent with the next tick.</param>
-        /// <param name="manager">For neighbourhood rules, and to select by a click on a message; null without a scene.</param>
+        /// <param name="settings">The settings. They are read when the simulation opens, except for times, which are read in each tick.</param>
+        /// <param name="globals">The scene's global data, which each tick sends if it changed.</param>
+        /// <param name="manager">The manager, which messages select when they are clicked; null without a scene.</param>
         internal Simulation(SimulationSettings settings, SceneGlobals globals, SimulationManager manager)
         {
             Settings = settings;
@@ -65,11 +66,11 @@ namespace Collektive.Unity
         internal bool IsOpen { get; private set; }
 
         /// <summary>
-        /// Whether a debugger stops the JVM in the tick in progress, which the next <see cref="TryTick"/> continues, or in <see cref="TryOpen"/>.
+        /// Whether a debugger stops the JVM during <see cref="TryOpen"/> or <see cref="TryTick"/>. Calling the method again continues the opening or the tick.
         /// </summary>
         internal bool IsPending { get; private set; }
 
-        /// <summary>The error that ended the simulation, or an empty text.</summary>
+        /// <summary>The error that ended the simulation, or an empty string.</summary>
         internal string Failure { get; private set; } = "";
 
         internal IReadOnlyList<ProgramInfo> Programs => IsOpen ? session.Programs : Array.Empty<ProgramInfo>();
@@ -95,7 +96,7 @@ namespace Collektive.Unity
 
         internal NetworkCounts Network { get; private set; }
 
-        /// <summary>Null before <see cref="TryOpen"/>.</summary>
+        /// <summary>The JVM's log; null before <see cref="TryOpen"/>.</summary>
         internal JvmLog Log { get; private set; }
 
         internal ErrorCounts Errors { get; } = new ErrorCounts();
@@ -103,7 +104,7 @@ namespace Collektive.Unity
         /// <summary>Participating nodes, ascending by id.</summary>
         internal List<Node> Nodes => registry.Nodes;
 
-        /// <summary>All ids are below it.</summary>
+        /// <summary>A number that is greater than all ids.</summary>
         internal int IdCapacity => registry.IdCapacity;
 
         /// <summary>All links, and searches for near nodes.</summary>
@@ -111,7 +112,7 @@ namespace Collektive.Unity
 
         internal ScriptLinks ScriptLinks { get; }
 
-        /// <summary>The links between nodes that take part; otherwise those of nodes that left stay until the next tick.</summary>
+        /// <summary>All links, without those of nodes that left. <see cref="Links"/> contains the links of such nodes until the next tick.</summary>
         internal NeighbourSearch PresentLinks
         {
             get
@@ -121,7 +122,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>The services for parts in a tick.</summary>
+        /// <summary>The services that parts use during a tick.</summary>
         internal TickContext Context { get; }
 
         /// <summary>Buffer for sensors in a tick.</summary>
@@ -130,7 +131,7 @@ namespace Collektive.Unity
         /// <summary>Buffer for actuators in a tick.</summary>
         internal ActuatorBuffer Answered => session.Answer.Actuators;
 
-        /// <summary>The answer of the last tick. Its nodes are in the order of their ids.</summary>
+        /// <summary>The answer of the last tick. Its nodes are sorted by id.</summary>
         internal StepAnswer Answer => session.Answer;
 
         /// <summary>Whether answers contain the sizes of messages.</summary>
@@ -145,11 +146,11 @@ namespace Collektive.Unity
         /// <summary>Number of nodes with a round in the last tick.</summary>
         internal int DueCount => due.Count;
 
-        /// <summary>Id of the node whose sensor data has that index in <see cref="SensorData"/>.</summary>
+        /// <summary>Returns the id of the node whose sensor data is at the given index of <see cref="SensorData"/>.</summary>
         internal int DueId(int index) => due.Items[index].Id;
 
-        /// <summary>Starts the JVM if needed, and opens a session, or continues to open the one that is pending.</summary>
-        /// <returns>False if it is pending, or if the simulation failed. It is not opened again, because each later frame would fail.</returns>
+        /// <summary>Starts the JVM if needed and opens a session, or continues a pending opening.</summary>
+        /// <returns>False if the opening is pending or failed. A simulation that failed is not opened again, because each later frame would fail too.</returns>
         internal bool TryOpen()
         {
             try
@@ -167,8 +168,8 @@ namespace Collektive.Unity
             return IsOpen;
         }
 
-        /// <summary>Runs one tick, or continues the one that is pending.</summary>
-        /// <returns>Whether the tick was completed; otherwise it is pending, or the simulation has ended.</returns>
+        /// <summary>Runs one tick, or continues a pending tick.</summary>
+        /// <returns>Whether the tick was completed. If not, it is pending, or the simulation has ended.</returns>
         internal bool TryTick()
         {
             isTicking = true;
@@ -186,13 +187,15 @@ namespace Collektive.Unity
             return IsOpen && !IsPending;
         }
 
-        /// <summary>Loads the programs again before the next tick. Nodes keep state and messages at paths that old and new programs share.</summary>
+        /// <summary>
+        /// Loads the programs again before the next tick. Nodes keep their state and messages at paths that the old and the new program share.
+        /// </summary>
         internal void ReloadPrograms()
         {
             isReloadRequested = true;
         }
 
-        /// <summary>Sets a parameter for the nodes of a program without their own value, from the next tick on.</summary>
+        /// <summary>Sets a parameter from the next tick on, for all nodes that run a program and do not set the parameter themselves.</summary>
         internal void SetParameter(string program, string name, string value)
         {
             if (!Settings.ProgramParameters.TryGetValue(program, out var values)) Settings.ProgramParameters.Add(program, values = new List<NodeParameter>());
@@ -201,7 +204,7 @@ namespace Collektive.Unity
             changedPrograms.Add(program);
         }
 
-        /// <summary>Ends the simulation with an error. A click on the message selects <paramref name="context"/>, or the manager.</summary>
+        /// <summary>Ends the simulation with an error. Clicking the message selects <paramref name="context"/>, or the manager if that is null.</summary>
         internal void Fail(string message, UnityEngine.Object context = null)
         {
             if (Failure.Length > 0) return;
@@ -212,8 +215,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Ends the simulation with an exception. Errors of the bridge are messages for users; others are logged with their stack, after <paramref
-        /// name="what"/>.
+        /// Ends the simulation with an exception. A <see cref="BridgeException"/> has a message for users. Other exceptions are logged with their stack
+        /// trace, and <paramref name="what"/> precedes their message.
         /// </summary>
         private void Fail(Exception error, string what)
         {
@@ -246,7 +249,7 @@ namespace Collektive.Unity
             Remove(node);
         }
 
-        /// <summary>At the end of a simulation, errors keep their nodes for the diagnostics window.</summary>
+        /// <summary>Removes a node at the end of the simulation. Its errors keep their node, for the diagnostics window.</summary>
         private void Remove(Node node)
         {
             registry.Leave(node, Links);
@@ -271,7 +274,7 @@ namespace Collektive.Unity
             Context.Release();
         }
 
-        /// <summary>Runs the phases of a tick. Users' code may end the simulation in any phase; later phases are then skipped.</summary>
+        /// <summary>Runs the phases of a tick. Users' code may end the simulation in any phase, and the later phases are then skipped.</summary>
         private void DoTick()
         {
             if (!IsPending) Begin();
@@ -307,13 +310,13 @@ namespace Collektive.Unity
             using (TickMarkers.Sense.Auto())
             {
                 Sense();
-                // Last, since users' code may add and remove links until here.
+                // Users' code may add and remove links up to this point.
                 Links.Flush(session.Request);
             }
             timestamps.SenseEnd = Stopwatch.GetTimestamp();
         }
 
-        /// <summary>Makes the one call into the JVM.</summary>
+        /// <summary>Makes the tick's only call into the JVM.</summary>
         private void Step()
         {
             if (!IsPending)
@@ -326,7 +329,7 @@ namespace Collektive.Unity
             Finish();
         }
 
-        /// <summary>Ends the call. While a debugger stops the JVM, a batch run waits, and other runs draw frames.</summary>
+        /// <summary>Completes the call into the JVM. While a debugger stops the JVM, a batch run waits, but other runs continue to draw frames.</summary>
         private void Finish()
         {
             var isNew = !IsPending;
@@ -339,7 +342,7 @@ namespace Collektive.Unity
             if (IsPending) ReportStop(isNew);
         }
 
-        /// <summary>Reports a stop by the debugger, but not a call that is only slow.</summary>
+        /// <summary>Reports that a debugger stops the JVM, but not that a call is slow.</summary>
         private void ReportStop(bool isNew)
         {
             if (isNew)
@@ -354,7 +357,7 @@ namespace Collektive.Unity
 
         private string PendingCall => IsOpen ? "tick " + TickInProgress : "the opening of the session";
 
-        /// <summary>Writes to the request what changed since the last tick: global data, and the nodes that left and joined.</summary>
+        /// <summary>Writes the changes since the last tick to the request: global data, and the nodes that left or joined.</summary>
         private void FlushChanges()
         {
             registry.DropLinksOfDeparted(Links);
@@ -374,7 +377,7 @@ namespace Collektive.Unity
             isReloadRequested = false;
         }
 
-        /// <summary>Simulated seconds up to which nodes are due in this tick.</summary>
+        /// <summary>Simulated time up to which nodes are due in this tick, in seconds.</summary>
         private double Now => session.Time + Tolerance * Settings.deltaTime;
 
         /// <summary>Reads positions, chooses the due nodes, and starts the physics queries, which run while the rules are called.</summary>
@@ -401,7 +404,7 @@ namespace Collektive.Unity
             AddSearches();
             var searches = Context.Neighbours.Searches;
             var done = Links.Update(new Span<RuleSearch>(searches.Items, 0, searches.Count), Settings.threads, MaxLinks);
-            // Scripts' links may exceed it, too.
+            // The links that scripts added may also exceed the limit.
             if (Links.Count > MaxLinks) FailTooManyLinks(present[done == 0 ? 0 : searches.Items[done - 1].Centre]);
             for (var i = 0; i < withOwnRules.Count && IsOpen; i++)
             {
@@ -411,7 +414,7 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>Collects the searches of ready rules, and the nodes whose rules must be called.</summary>
+        /// <summary>Collects the searches of ready-made rules, and the nodes whose rules must be called.</summary>
         private void AddSearches()
         {
             Context.Neighbours.Searches.Clear();
@@ -434,7 +437,7 @@ namespace Collektive.Unity
             Fail("the scene has more than " + MaxLinks + " links, the last one of node '" + node.name
                 + "': use smaller neighbourhoods, or increase the distances between nodes", node);
 
-        /// <summary>Runs the sensors of due nodes. Nodes that left, and nodes whose sensors failed, are no longer due.</summary>
+        /// <summary>Runs the sensors of due nodes. Nodes that leave, and nodes with a sensor that fails, are no longer due.</summary>
         private void Sense()
         {
             var request = session.Request;
@@ -445,7 +448,7 @@ namespace Collektive.Unity
             for (var i = 0; i < due.Count && IsOpen; i++)
             {
                 var (node, id) = due.Items[i];
-                // Users' code may have made the node leave.
+                // Users' code may have removed the node.
                 if (node.Id != id) continue;
                 request.Sensors.Clear(sensed);
                 if (!node.Sensors.Run(this, node, sensed) || node.Id != id) continue;
@@ -482,7 +485,7 @@ namespace Collektive.Unity
 
         private void Act()
         {
-            // Answers and due nodes are both ascending; due nodes without an answer failed.
+            // Answers and due nodes are both sorted by id. A due node without an answer failed.
             var answer = session.Answer;
             var answered = answer.Nodes;
             var count = answered.Length;
@@ -495,7 +498,7 @@ namespace Collektive.Unity
                     while (due.Items[place].Id != answered[i]) place++;
                 }
                 var (node, id) = due.Items[place];
-                // An earlier actuator may have made the node leave, or leave and come back.
+                // An earlier actuator may have removed the node, or removed and added it again.
                 if (node.Id != id || !registry.IsKnown[id]) continue;
                 node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
                 node.Actuators.Run(this, node, i);

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The services of a simulation for parts in a tick. All members are for the main thread.</summary>
+    /// <summary>The services of a simulation that parts use during a tick. Call all members from the main thread.</summary>
     internal sealed class TickContext
     {
         private readonly Simulation simulation;
@@ -25,10 +25,10 @@ namespace Collektive.Unity
         /// <summary>All links, and searches for near nodes.</summary>
         internal NeighbourSearch Links { get; }
 
-        /// <summary>Positions of the nodes in this tick; current from the queries to the rules.</summary>
+        /// <summary>Positions of the nodes in this tick. Up to date from the start of the queries to the end of the rules.</summary>
         internal NodeGrid Grid { get; }
 
-        /// <summary>The collector for rules.</summary>
+        /// <summary>The collector that rules add neighbours to.</summary>
         internal NeighbourCollector Neighbours { get; }
 
         /// <summary>Sight lines between nodes.</summary>
@@ -43,10 +43,10 @@ namespace Collektive.Unity
         /// <summary>Buffer for actuators.</summary>
         internal ActuatorBuffer Answered => simulation.Answered;
 
-        /// <summary>Ends the simulation with an error. A click on the message selects the part.</summary>
+        /// <summary>Ends the simulation with an error. Clicking the message selects the part.</summary>
         internal void Fail(string message, NodePart part) => simulation.Fail(message, part);
 
-        /// <summary>Warns about the first part that moves a collider without a body: physics neither stops such a collider nor lets it push others.</summary>
+        /// <summary>Warns about the first part that moves a collider without a Rigidbody, because such a collider passes through other objects.</summary>
         internal void WarnMovedCollider(NodePart part)
         {
             if (hasWarnedMovedCollider) return;

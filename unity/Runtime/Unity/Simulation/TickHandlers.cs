@@ -4,13 +4,15 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Users' handlers of <see cref="SimulationManager.Ticked"/>. An exception in one stops neither the others nor the simulation.</summary>
+    /// <summary>
+    /// Calls the users' handlers of <see cref="SimulationManager.Ticked"/>. An exception in a handler stops neither the other handlers nor the simulation.
+    /// </summary>
     internal sealed class TickHandlers
     {
         private readonly Dictionary<Action<SimulationManager>, int> failuresInRow = new Dictionary<Action<SimulationManager>, int>();
         private Action<SimulationManager> all;
 
-        // Immutable; replaced when a handler is added or removed, which may happen during a run.
+        // Never modified, only replaced, because handlers may be added or removed while others are called.
         private Delegate[] each = Array.Empty<Delegate>();
 
         internal void Add(Action<SimulationManager> handler) => Set(all + handler);
@@ -65,11 +67,12 @@ namespace Collektive.Unity
         private static void Report(Delegate handler, SimulationManager manager, Exception error) =>
             manager.Simulation.Errors.AddHandler(NameOf(handler), manager.Simulation.TickInProgress, error, Context(handler, manager));
 
-        /// <summary>The object that a click on the message selects.</summary>
+        /// <summary>Returns the object that a click on the message selects.</summary>
         private static UnityEngine.Object Context(Delegate handler, SimulationManager manager) => handler.Target as UnityEngine.Object ?? manager;
 
         /// <summary>
-        /// Returns class and method, for a lambda those that contain it: the compiler puts their names into angle brackets, or nests classes.
+        /// Returns the class and method of a handler. For a lambda, returns the class and method that contain it, which are found in the nested class and
+        /// the angle brackets of the compiler's names.
         /// </summary>
         private static string NameOf(Delegate handler)
         {

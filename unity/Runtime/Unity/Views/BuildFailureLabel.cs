@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Shows in the Game view that the nodes run the previous programs, because the last build failed.</summary>
+    /// <summary>Shows a message in the Game view while nodes run the previous programs because the last build failed.</summary>
     [AddComponentMenu("")]
     internal sealed class BuildFailureLabel : MonoBehaviour
     {
@@ -10,7 +10,7 @@ namespace Collektive.Unity
 
         private static BuildFailureLabel shown;
 
-        /// <summary>Shows or removes the label. It ends with its scene.</summary>
+        /// <summary>Shows or removes the label. It is also removed with its scene.</summary>
         internal static void Show(bool hasFailed)
         {
             if (hasFailed == (shown != null)) return;

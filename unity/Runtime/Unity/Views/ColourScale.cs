@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Colours for numbers, from a low one to a high one in <see cref="Steps"/> steps.</summary>
+    /// <summary>A scale that maps numbers to colours between a low and a high colour, in <see cref="Steps"/> steps.</summary>
     [Serializable]
     public sealed class ColourScale
     {
@@ -32,20 +32,20 @@ namespace Collektive.Unity
 
         private bool empty;
 
-        /// <summary>The colour of a step below <see cref="Steps"/>.</summary>
+        /// <summary>Returns the colour of a step, 0 to <see cref="Steps"/> - 1.</summary>
         internal Color At(int step) => Color.Lerp(low, high, step / (Steps - 1f));
 
-        /// <summary>Returns the step of a value, clamped to the scale. NaN also has a step.</summary>
+        /// <summary>Returns the step of a value, clamped to the scale. NaN is also mapped to a step.</summary>
         internal int StepOf(float value)
         {
-            var place = (value - lowest) / (highest - lowest);
-            return place > 0 ? (int)Math.Min(place * Steps, Steps - 1) : 0;
+            var fraction = (value - lowest) / (highest - lowest);
+            return fraction > 0 ? (int)Math.Min(fraction * Steps, Steps - 1) : 0;
         }
 
         /// <summary>Begins a tick by resetting the ends of an automatic scale.</summary>
         internal void Begin() => empty = true;
 
-        /// <summary>Extends an automatic scale to a value.</summary>
+        /// <summary>Extends an automatic scale to include a value.</summary>
         internal void Include(float value)
         {
             if (!automatic || !float.IsFinite(value)) return;

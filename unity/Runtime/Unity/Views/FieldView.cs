@@ -6,8 +6,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Colours all nodes by a number of the program's answers, and shows a legend in a corner of the screen. A subclass
-    /// reads the number; add one component anywhere in the scene. A node keeps its colour while it has no answer.
+    /// Colours all nodes by a number in the program's answers, and shows a legend in a corner of the screen. A subclass reads the number. Add one component
+    /// anywhere in the scene. A node without an answer keeps its colour.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     [HelpPage("sensors-and-actuators.md#views")]
@@ -25,7 +25,7 @@ namespace Collektive.Unity
         [Tooltip("On: the legend is shown in the upper left corner.")]
         private bool legend = true;
 
-        // By node id.
+        // The coloured renderers, indexed by node id.
         private readonly PagedArray<Painted> painted = new PagedArray<Painted>();
         private SimulationManager shown;
         private ulong tick;
@@ -53,7 +53,7 @@ namespace Collektive.Unity
         /// <summary>The colours.</summary>
         public ColourScale Scale => scale;
 
-        /// <summary>Text of the legend, in Unity's rich text. Cached until the title or the scale changes.</summary>
+        /// <summary>The legend in Unity's rich text. It is cached until the title or the scale changes.</summary>
         public string Legend
         {
             get
@@ -65,16 +65,18 @@ namespace Collektive.Unity
             }
         }
 
-        /// <summary>The number in a node's answer; a node whose number is not finite keeps its colour.</summary>
+        /// <summary>Returns the number in a node's answer. A node whose number is not finite keeps its colour.</summary>
         protected abstract float Read(TData data);
 
-        /// <summary>Disables Unity's layout, which would allocate at each event; the legend has a fixed position.</summary>
+        /// <summary>
+        /// Disables Unity's layout for this component. The legend has a fixed position and does not need the layout, which would allocate at each event.
+        /// </summary>
         protected virtual void OnEnable() => useGUILayout = false;
 
-        /// <summary>Frees the place of the legend.</summary>
+        /// <summary>Removes the legend, and frees its place.</summary>
         protected virtual void OnDisable() => Legends.Remove(this);
 
-        /// <summary>Colours the nodes, once a tick.</summary>
+        /// <summary>Colours the nodes once per tick.</summary>
         protected virtual void LateUpdate()
         {
             var manager = SimulationManager.Current;

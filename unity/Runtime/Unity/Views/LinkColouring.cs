@@ -3,7 +3,7 @@ namespace Collektive.Unity
     /// <summary>The value by which a <see cref="LinkView"/> colours links.</summary>
     public enum LinkColouring
     {
-        /// <summary>Both directions or one.</summary>
+        /// <summary>Whether the link exists in both directions or in one.</summary>
         Direction,
 
         /// <summary>The length in metres.</summary>

@@ -7,18 +7,18 @@ using UnityEngine.Serialization;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Draws all links of the last tick at once from two buffers, the nodes' positions and the pairs of linked nodes, without a GameObject or a matrix
-    /// per link. Each directed link is drawn from its sender to the midpoint. Two opposite links form a complete line.
+    /// Draws all links of the last tick in one draw call, without a GameObject or a matrix per link. The shader reads two buffers, with the positions of
+    /// the nodes and the pairs of linked nodes. Each directed link is drawn from its sender to the midpoint, so two opposite links form a complete line.
     /// </summary>
     [AddComponentMenu("Collektive/Link View")]
     [DisallowMultipleComponent]
     [HelpPage("sensors-and-actuators.md#views")]
     public sealed class LinkView : MonoBehaviour
     {
-        /// <summary>The shader draws a pair as two bars.</summary>
+        /// <summary>Number of vertices of the two bars that the shader draws for a pair.</summary>
         private const int VerticesPerPair = 48;
 
-        /// <summary>The shader draws nothing for this step.</summary>
+        /// <summary>Colour step for which the shader draws nothing.</summary>
         private const int NoLink = 255;
 
         [SerializeField]
@@ -48,13 +48,13 @@ namespace Collektive.Unity
         private GraphicsBuffer pairsBuffer;
         private MaterialPropertyBlock properties;
         private Material used;
-        // Created by this component if none was selected.
+        // The material that this component creates if none was selected.
         private Material own;
         private Vector4[] places = new Vector4[64];
         private LinkedPair[] pairs = new LinkedPair[64];
-        // The numbers of links, two for each pair.
+        // The numbers by which links are coloured, two for each pair.
         private float[] numbers = Array.Empty<float>();
-        // Index in places, by node id.
+        // A node's index in places, by node id.
         private readonly PagedArray<int> placeOf = new PagedArray<int>();
         private Bounds bounds;
         private int count;
@@ -62,15 +62,20 @@ namespace Collektive.Unity
         private SimulationManager drawnManager;
         private ulong tick;
 
-        /// <summary>A pair of nodes as the shader reads it: the place of each, and in the upper 8 bits the colour step of the link that begins there.</summary>
+        /// <summary>
+        /// A pair of nodes in the form that the shader reads. For each node, it contains the node's index in the positions and, in the upper 8 bits, the
+        /// colour step of the link that the node sends on.
+        /// </summary>
         private struct LinkedPair
         {
             internal uint Low;
             internal uint High;
         }
 
-        /// <summary>Material with the shader Collektive/Link, or one that reads the same buffers; null: the package's own. Read when the component is
-        /// enabled.</summary>
+        /// <summary>
+        /// Material with the shader Collektive/Link or another shader that reads the same buffers; null: the package's material. Read when the component is
+        /// enabled.
+        /// </summary>
         public Material Material
         {
             get => material;
@@ -101,7 +106,10 @@ namespace Collektive.Unity
         /// <summary>The colours.</summary>
         public ColourScale Scale => scale;
 
-        /// <summary>The number that a link is coloured by with <see cref="LinkColouring.Value"/>. Called once for each link and tick.</summary>
+        /// <summary>
+        /// Returns the number by which a link is coloured if <see cref="Colouring"/> is <see cref="LinkColouring.Value"/>. Called once for each link and
+        /// tick.
+        /// </summary>
         public Func<LinkRecord, float> Value { get; set; }
 
         private void OnEnable()
@@ -208,7 +216,7 @@ namespace Collektive.Unity
             return scale.StepOf(numbers[link]);
         }
 
-        /// <summary>Reads the number of each link, and extends an automatic scale to it.</summary>
+        /// <summary>Reads the number of each link, and extends an automatic scale to include it.</summary>
         private void ReadNumbers(Span<LinkPair> all, int capacity)
         {
             if (numbers.Length < 2 * all.Length) Array.Resize(ref numbers, 2 * capacity);
@@ -247,17 +255,17 @@ namespace Collektive.Unity
             for (var i = 0; i < nodes.Count; i++)
             {
                 var node = nodes[i];
-                // After physics: Node.Position is the position before the tick.
-                var place = node.Body.position;
+                // The transform has the position after physics, but Node.Position is the position before the tick.
+                var position = node.Body.position;
                 placeOf[node.Id] = i;
-                places[i] = place;
-                least = Vector3.Min(least, place);
-                most = Vector3.Max(most, place);
+                places[i] = position;
+                least = Vector3.Min(least, position);
+                most = Vector3.Max(most, position);
             }
             if (nodes.Count > 0) bounds = new Bounds(0.5f * (least + most), most - least + width * Vector3.one);
         }
 
-        /// <summary>Puts the first items into a buffer that holds all of them.</summary>
+        /// <summary>Copies the first items of an array to a buffer with room for the whole array.</summary>
         private void Upload<T>(ref GraphicsBuffer buffer, int shaderName, T[] items, int itemCount, int bytes)
         {
             if (buffer == null || buffer.count < items.Length)

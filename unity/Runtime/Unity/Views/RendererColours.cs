@@ -5,7 +5,7 @@ namespace Collektive.Unity
     /// <summary>Colours single objects without creating a material for each.</summary>
     internal static class RendererColours
     {
-        // The built-in pipeline's shaders and those of the scriptable ones name the colour differently.
+        // Shaders of the built-in pipeline and shaders of scriptable pipelines use different names for the colour.
         private static readonly int BuiltIn = Shader.PropertyToID("_Color");
         private static readonly int Scriptable = Shader.PropertyToID("_BaseColor");
 

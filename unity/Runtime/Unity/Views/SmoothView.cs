@@ -3,9 +3,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Draws a moving object between ticks: on a child that only has renderers, it moves the child from the parent's pose before the last tick to its
-    /// present pose, as the interpolation of a Rigidbody does. The parent, which rules, sensors and physics use, stays where it is. Disable it to draw the
-    /// poses of ticks.
+    /// Makes an object appear to move smoothly between ticks. Add it to a child that only has renderers. It moves the child from the parent's pose before
+    /// the last tick to the parent's present pose, like the interpolation of a Rigidbody. The parent, whose pose rules, sensors and physics use, is not
+    /// affected. Disable the component to draw the poses of the ticks.
     /// </summary>
     [AddComponentMenu("Collektive/Smooth View")]
     [DisallowMultipleComponent]

@@ -3,8 +3,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Applies a force from the program's answer to the node's body. A force or an acceleration acts for the simulated time since the node's last answer, as
-    /// one impulse at the beginning of the following physics steps; an impulse or a velocity change is applied unchanged.
+    /// Applies a force from the program's answer to the node's body. A force or an acceleration is multiplied by the simulated time since the node's
+    /// previous answer, and applied as one impulse before physics advances. An impulse or a velocity change is applied unchanged.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]
@@ -34,7 +34,7 @@ namespace Collektive.Unity
         protected sealed override void Act(TData data)
         {
             var push = Finite(Read(data));
-            // A tick may have several physics steps, and Unity applies forces in the first one only.
+            // Unity would apply a force in one physics step only, but a tick may have several.
             if (mode == ForceMode.Force) body.AddForce(Node.AnswerInterval * push, ForceMode.Impulse);
             else if (mode == ForceMode.Acceleration) body.AddForce(Node.AnswerInterval * push, ForceMode.VelocityChange);
             else body.AddForce(push, mode);

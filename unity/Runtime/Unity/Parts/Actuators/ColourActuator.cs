@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Colours the node's renderer by the program's answer.</summary>
+    /// <summary>Sets the colour of the node's renderer to the program's answer.</summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     public abstract class ColourActuator<TData> : Actuator<TData>, IColours
     {
@@ -10,7 +10,9 @@ namespace Collektive.Unity
         [Tooltip("Renderer to colour. None: the first one on this GameObject or its children.")]
         private Renderer target;
 
-        /// <summary>The renderer to colour. If null, enabling the component selects the first one on this GameObject or its children.</summary>
+        /// <summary>
+        /// The renderer to colour. If it is null when the component is enabled, the first renderer on this GameObject or its children is selected.
+        /// </summary>
         public Renderer Target
         {
             get => target;

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Enables and disables a component, a light, a script, a renderer or a collider, by the program's answer.</summary>
+    /// <summary>Enables and disables a component, such as a light, a script, a renderer or a collider, as the program's answer demands.</summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     public abstract class EnableActuator<TData> : Actuator<TData>
     {

@@ -3,9 +3,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Moves the node towards the program's target, at most at its maximum speed. A Rigidbody is driven by its velocity; its vertical motion is left to
-    /// gravity if the body uses it. A kinematic body and a node without a body are moved by position. A subclass selects
-    /// the field of the schema's data that is the target.
+    /// Moves the node towards a target in the program's answer, at no more than a maximum speed. For a node with a Rigidbody, it sets the velocity, but
+    /// leaves the vertical motion to gravity if the body uses gravity. For a kinematic body or a node without a body, it sets the position. A subclass
+    /// selects the field of the schema's data that contains the target.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     public abstract class MoveActuator<TData> : Actuator<TData>
@@ -30,7 +30,7 @@ namespace Collektive.Unity
             set => maxSpeed = value;
         }
 
-        /// <summary>Seconds to the target without the speed limit, 0 or greater.</summary>
+        /// <summary>Seconds in which the node would reach the target without the speed limit, 0 or greater.</summary>
         public float ReachTime
         {
             get => reachTime;
@@ -65,23 +65,23 @@ namespace Collektive.Unity
 
         private void MoveTowards(Vector3 target)
         {
-            var place = Node.Body.position;
-            Node.Body.position = place + Node.AnswerInterval * Velocity(target - place);
+            var position = Node.Body.position;
+            Node.Body.position = position + Node.AnswerInterval * Velocity(target - position);
         }
 
-        private void Drive(Vector3 way)
+        private void Drive(Vector3 offset)
         {
             var fall = body.linearVelocity.y;
-            if (body.useGravity) way.y = 0;
-            var velocity = Velocity(way);
+            if (body.useGravity) offset.y = 0;
+            var velocity = Velocity(offset);
             if (body.useGravity) velocity.y = fall;
             body.linearVelocity = velocity;
         }
 
-        private Vector3 Velocity(Vector3 way)
+        private Vector3 Velocity(Vector3 offset)
         {
-            var length = way.magnitude;
-            return length > 0 ? Mathf.Min(1 / Mathf.Max(reachTime, Node.AnswerInterval), maxSpeed / length) * way : way;
+            var length = offset.magnitude;
+            return length > 0 ? Mathf.Min(1 / Mathf.Max(reachTime, Node.AnswerInterval), maxSpeed / length) * offset : offset;
         }
     }
 }

@@ -41,7 +41,7 @@ namespace Collektive.Unity
             body.linearVelocity = velocity;
         }
 
-        /// <summary>Reported once, because Unity would log it at each answer.</summary>
+        /// <summary>Warns once about a kinematic body. Setting its velocity would make Unity log an error at each answer.</summary>
         private void WarnAboutKinematic()
         {
             if (hasReportedKinematic) return;

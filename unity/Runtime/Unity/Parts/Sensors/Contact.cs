@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>A contact in a <see cref="ContactSensor{TData}"/>.</summary>
+    /// <summary>A contact that a <see cref="ContactSensor{TData}"/> detects.</summary>
     public readonly struct Contact
     {
         /// <summary>Creates a value.</summary>

@@ -5,14 +5,15 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Detects the colliders that touch the node's body or touched it since its last round, with point and impulse. Put it on the GameObject
-    /// with the Rigidbody, which receives Unity's collision messages. Contacts of sleeping bodies keep their last point.
+    /// Detects the colliders that touch the node's body, or touched it since the node's last round, with the contact point and the impulse. The component
+    /// must be on the GameObject with the Rigidbody, because Unity sends collision messages to that object. While a body sleeps, its contacts keep their
+    /// last point.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ContactSensor<TData> : Sensor<TData>
     {
         private readonly GrowingArray<Contact> contacts = new GrowingArray<Contact>();
-        // Parallel to the contacts: whether each ended since the last round.
+        // For each contact, whether it ended since the last round.
         private readonly GrowingArray<bool> ended = new GrowingArray<bool>();
 
         /// <inheritdoc/>
@@ -26,7 +27,7 @@ namespace Collektive.Unity
         protected override void OnDisable()
         {
             base.OnDisable();
-            // Unity sends collision messages to disabled components too, but not to inactive GameObjects.
+            // Unity also sends collision messages to disabled components, but not to inactive GameObjects.
             if (gameObject.activeInHierarchy) return;
             contacts.Clear();
             ended.Clear();
@@ -52,8 +53,8 @@ namespace Collektive.Unity
         /// <summary>Handles the end of a contact.</summary>
         protected virtual void OnCollisionExit(Collision collision)
         {
-            var place = Find(collision.collider);
-            if (place < contacts.Count) ended.Items[place] = true;
+            var index = Find(collision.collider);
+            if (index < contacts.Count) ended.Items[index] = true;
         }
 
         private void Touch(Collision collision)
@@ -64,59 +65,59 @@ namespace Collektive.Unity
             var point = Vector3.zero;
             for (var i = 0; i < count; i++) point += collision.GetContact(i).point;
             var impulse = collision.impulse;
-            // Unity gives both sides of a collision the same sign.
+            // Unity reports the impulse with the same sign to both sides of a collision.
             if (Vector3.Dot(impulse, normal) < 0) impulse = -impulse;
-            var place = Find(collision.collider);
-            if (place == contacts.Count)
+            var index = Find(collision.collider);
+            if (index == contacts.Count)
             {
                 contacts.Add(default);
                 ended.Add(false);
             }
-            ended.Items[place] = false;
-            contacts.Items[place] = new Contact(collision.collider, point / count, normal, contacts.Items[place].Impulse + impulse);
+            ended.Items[index] = false;
+            contacts.Items[index] = new Contact(collision.collider, point / count, normal, contacts.Items[index].Impulse + impulse);
         }
 
         private int Find(Collider collider)
         {
-            var place = 0;
-            while (place < contacts.Count && !ReferenceEquals(contacts.Items[place].Collider, collider)) place++;
-            return place;
+            var index = 0;
+            while (index < contacts.Count && !ReferenceEquals(contacts.Items[index].Collider, collider)) index++;
+            return index;
         }
 
         private void RemoveStale()
         {
             var centre = Node.Position;
-            var kept = 0;
+            var remaining = 0;
             for (var i = 0; i < contacts.Count; i++)
             {
                 var contact = contacts.Items[i];
                 var hasEnded = ended.Items[i];
                 if (contact.Collider.IsGone()) continue;
-                var place = kept++;
-                for (; place > 0 && ColliderExtensions.IsBefore(contact.Point - centre, contacts.Items[place - 1].Point - centre); place--)
+                var index = remaining++;
+                for (; index > 0 && ColliderExtensions.IsBefore(contact.Point - centre, contacts.Items[index - 1].Point - centre); index--)
                 {
-                    contacts.Items[place] = contacts.Items[place - 1];
-                    ended.Items[place] = ended.Items[place - 1];
+                    contacts.Items[index] = contacts.Items[index - 1];
+                    ended.Items[index] = ended.Items[index - 1];
                 }
-                contacts.Items[place] = contact;
-                ended.Items[place] = hasEnded;
+                contacts.Items[index] = contact;
+                ended.Items[index] = hasEnded;
             }
-            contacts.Truncate(kept);
-            ended.Truncate(kept);
+            contacts.Truncate(remaining);
+            ended.Truncate(remaining);
         }
 
         private void BeginRound()
         {
-            var kept = 0;
+            var remaining = 0;
             for (var i = 0; i < contacts.Count; i++)
             {
                 if (ended.Items[i]) continue;
                 var contact = contacts.Items[i];
-                contacts.Items[kept] = new Contact(contact.Collider, contact.Point, contact.Normal, Vector3.zero);
-                ended.Items[kept++] = false;
+                contacts.Items[remaining] = new Contact(contact.Collider, contact.Point, contact.Normal, Vector3.zero);
+                ended.Items[remaining++] = false;
             }
-            contacts.Truncate(kept);
-            ended.Truncate(kept);
+            contacts.Truncate(remaining);
+            ended.Truncate(remaining);
         }
     }
 }

@@ -10,7 +10,7 @@ namespace Collektive.Unity
         [Tooltip("Source to measure. None: the sum of all enabled sources in the scene.")]
         private IntensitySource source;
 
-        /// <summary>The source to measure, with intensity 0 while it is disabled. Null: the sum of all enabled sources.</summary>
+        /// <summary>The source to measure; while it is disabled, its intensity is 0. Null: the sum of all enabled sources.</summary>
         public IntensitySource Source
         {
             get => source;
@@ -20,18 +20,18 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
-            var place = Node.Position;
-            Write(ref data, source == null ? AllAt(place) : source.isActiveAndEnabled ? source.IntensityAt(place) : 0);
+            var position = Node.Position;
+            Write(ref data, source == null ? AllAt(position) : source.isActiveAndEnabled ? source.IntensityAt(position) : 0);
         }
 
         /// <summary>Writes the intensity.</summary>
         protected abstract void Write(ref TData data, float intensity);
 
-        private static float AllAt(Vector3 place)
+        private static float AllAt(Vector3 position)
         {
             var sources = IntensitySource.All;
             var intensity = 0f;
-            for (var i = 0; i < sources.Count; i++) intensity += sources[i].IntensityAt(place);
+            for (var i = 0; i < sources.Count; i++) intensity += sources[i].IntensityAt(position);
             return intensity;
         }
     }

@@ -4,8 +4,7 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// A source of light, sound or smell. Its intensity decreases linearly with the distance, down to 0. A subclass
-    /// may override that.
+    /// A source of light, sound or smell. Its intensity decreases linearly with the distance, down to 0; a subclass may override <see cref="IntensityAt"/>.
     /// </summary>
     [AddComponentMenu("Collektive/Intensity Source")]
     [HelpPage("sensors-and-actuators.md#ready-made-components")]

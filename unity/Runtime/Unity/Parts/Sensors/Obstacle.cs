@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>An obstacle in an <see cref="ObstacleSensor{TData}"/>.</summary>
+    /// <summary>An obstacle that an <see cref="ObstacleSensor{TData}"/> measures.</summary>
     public readonly struct Obstacle
     {
         /// <summary>Creates a value.</summary>

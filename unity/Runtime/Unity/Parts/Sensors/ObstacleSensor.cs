@@ -4,8 +4,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Measures the colliders within reach of the node's centre, other nodes' bodies included, its own and triggers not, with the closest point of
-    /// each. The closest point is exact for boxes, spheres, capsules and convex meshes; for other colliders it is the closest point of their bounds.
+    /// Measures the closest point of each collider within reach of the node's centre. Bodies of other nodes are included; triggers and the node's own
+    /// colliders are not. The closest point is exact for boxes, spheres, capsules and convex meshes. For other colliders, it is the closest point of their
+    /// bounds.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ObstacleSensor<TData> : Sensor<TData>
@@ -19,12 +20,12 @@ namespace Collektive.Unity
         [Tooltip("Layers of the measured colliders.")]
         private LayerMask layers = Physics.DefaultRaycastLayers;
 
-        // The number of the query in the batch.
+        // The index of this sensor's query in the batch.
         private int query;
         private Obstacle[] found;
         private int foundCount;
 
-        /// <summary>Metres from the node's centre, 0 or greater.</summary>
+        /// <summary>Maximum distance from the node's centre in metres, 0 or greater.</summary>
         public float Reach
         {
             get => reach;
@@ -77,7 +78,7 @@ namespace Collektive.Unity
         private int Overlap(SensorQueries queries)
         {
             int count;
-            // If the array is full, some hits may be missing.
+            // A full array may lack hits, so the query is repeated with a larger one.
             while ((count = Physics.OverlapSphereNonAlloc(Node.Position, reach, queries.Near, layers, QueryTriggerInteraction.Ignore)) == queries.Near.Length)
                 queries.Grow();
             var found = 0;
@@ -90,9 +91,9 @@ namespace Collektive.Unity
             if (collider.transform.IsChildOf(Node.Body)) return;
             var centre = Node.Position;
             var obstacle = new Obstacle(collider, collider.PointClosestTo(centre) - centre);
-            var place = found++;
-            for (; place > 0 && ColliderExtensions.IsBefore(obstacle.Vector, obstacles[place - 1].Vector); place--) obstacles[place] = obstacles[place - 1];
-            obstacles[place] = obstacle;
+            var index = found++;
+            for (; index > 0 && ColliderExtensions.IsBefore(obstacle.Vector, obstacles[index - 1].Vector); index--) obstacles[index] = obstacles[index - 1];
+            obstacles[index] = obstacle;
         }
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, reach);

@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>Measures the node's position. A subclass writes it to a field of the schema.</summary>
+    /// <summary>Measures the node's position. A subclass writes the position to a field of the schema.</summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class PositionSensor<TData> : Sensor<TData>
     {

@@ -4,15 +4,15 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Measures distances along rays from the node's centre, in a fan around forward in the plane of its right and forward axes. The
-    /// rays ignore triggers and the node's own colliders.
+    /// Measures distances along rays that start at the node's centre. The rays form a fan around the node's forward axis, in the plane of its right and
+    /// forward axes. They ignore triggers and the node's own colliders.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class RayFanSensor<TData> : Sensor<TData>
     {
         private const float Whole = 360;
 
-        /// <summary>Metres behind a hit of the node's own collider where the ray continues.</summary>
+        /// <summary>Distance in metres behind a hit of the node's own collider at which the ray continues.</summary>
         private const float Gap = 1e-3f;
 
         [SerializeField]
@@ -39,7 +39,7 @@ namespace Collektive.Unity
         private Vector3[] worldDirections = Array.Empty<Vector3>();
         private float angleOfDirections;
 
-        // The number of the first ray in the batch.
+        // The index of this sensor's first ray in the batch.
         private int query;
 
         /// <summary>Number of rays, 1 or more.</summary>
@@ -70,7 +70,10 @@ namespace Collektive.Unity
             set => layers = value;
         }
 
-        /// <summary>Compares the number of hits, because Unity keeps only the directions when scripts are compiled during play.</summary>
+        /// <summary>
+        /// Whether the directions no longer match the settings. The number of hits is compared, because only the directions survive when scripts are
+        /// compiled during play.
+        /// </summary>
         private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || angleOfDirections != angle;
 
         /// <inheritdoc/>
@@ -79,7 +82,7 @@ namespace Collektive.Unity
         internal sealed override void Prepare(TickContext tick)
         {
             var queries = tick.Queries;
-            // Not batched if another sensor has changed the fan since the batch began.
+            // The batch is not used if another sensor changed the fan after the batch began.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections;
             if (!isBatched) UpdateDirections();
             var centre = Node.Position;
@@ -96,7 +99,7 @@ namespace Collektive.Unity
             var fans = tick.Queries.Rays;
             query = fans.Count;
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
-            // A command requires a unit vector, and a rotated one is not exactly that.
+            // A command requires a unit vector, but rotation changes the length slightly.
             for (var i = 0; i < worldDirections.Length; i++) fans.Add(new RaycastCommand(Node.Position, worldDirections[i].normalized, parameters, range));
         }
 
@@ -126,7 +129,7 @@ namespace Collektive.Unity
             return rays == 1 ? 0 : angle * ((float)ray / (rays - 1) - 0.5f);
         }
 
-        /// <summary>Returns a ray's hit from its nearest hit. Continues behind a hit of the node's own collider.</summary>
+        /// <summary>Returns the first hit that is not the node's own collider. If the nearest hit is the node's own, the ray continues behind it.</summary>
         private RayHit Pass(Vector3 centre, Vector3 direction, in RaycastHit nearest)
         {
             var collider = nearest.collider;

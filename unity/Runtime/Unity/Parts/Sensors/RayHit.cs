@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The hit of a ray of a <see cref="RayFanSensor{TData}"/>.</summary>
+    /// <summary>The result of one ray of a <see cref="RayFanSensor{TData}"/>.</summary>
     public readonly struct RayHit
     {
         /// <summary>Creates a value.</summary>
@@ -13,13 +13,13 @@ namespace Collektive.Unity
             Collider = collider;
         }
 
-        /// <summary>Direction of the ray in the world, of length 1.</summary>
+        /// <summary>Direction of the ray in world space, a unit vector.</summary>
         public Vector3 Direction { get; }
 
-        /// <summary>Distance of the hit in metres, or the sensor's range without a hit.</summary>
+        /// <summary>Distance of the hit in metres, or the sensor's range if the ray hit nothing.</summary>
         public float Distance { get; }
 
-        /// <summary>The collider, or null without a hit.</summary>
+        /// <summary>The collider that the ray hit, or null.</summary>
         public Collider Collider { get; }
     }
 }

@@ -3,14 +3,14 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Measures the velocity of the node's Rigidbody. Without one, or with a kinematic one, it is the mean velocity since the node's
-    /// last round (zero in its first).
+    /// Measures the velocity of the node's Rigidbody. If the node has no Rigidbody or a kinematic one, the sensor measures the mean velocity since the
+    /// node's last round, which is zero in the first round.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class VelocitySensor<TData> : Sensor<TData>
     {
         private Rigidbody body;
-        private Vector3 place;
+        private Vector3 lastPosition;
         private double time = -1;
         private Vector3 meanVelocity;
 
@@ -30,8 +30,8 @@ namespace Collektive.Unity
         {
             var now = tick.Time;
             var here = Node.Position;
-            meanVelocity = time >= 0 && now > time ? (here - place) / (float)(now - time) : Vector3.zero;
-            place = here;
+            meanVelocity = time >= 0 && now > time ? (here - lastPosition) / (float)(now - time) : Vector3.zero;
+            lastPosition = here;
             time = now;
         }
 

@@ -2,7 +2,7 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>A trigger zone in a <see cref="ZoneSensor{TData}"/>.</summary>
+    /// <summary>A trigger zone that a <see cref="ZoneSensor{TData}"/> detects.</summary>
     public readonly struct Zone
     {
         /// <summary>Creates a value.</summary>
@@ -13,7 +13,7 @@ namespace Collektive.Unity
             Left = left;
         }
 
-        /// <summary>The zone's trigger collider. A destroyed one compares equal to null, and its zone counts as left.</summary>
+        /// <summary>The zone's trigger collider. If it was destroyed, it compares equal to null, and the zone counts as left.</summary>
         public Collider Collider { get; }
 
         /// <summary>Whether the node entered since its last round.</summary>

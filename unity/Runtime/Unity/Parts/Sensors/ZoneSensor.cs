@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Detects the trigger zones that the node is in, entered or left since its last round: trigger colliders without a Node. As
-    /// everywhere in Unity, the node or the zone needs a Rigidbody, and the sensor must be on the GameObject with the node's collider or body.
+    /// Detects the trigger zones that the node is in, entered or left since its last round. A trigger zone is a trigger collider that belongs to no node.
+    /// As for all triggers in Unity, the node or the zone needs a Rigidbody, and the sensor must be on the GameObject with the node's collider or body.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ZoneSensor<TData> : Sensor<TData>
@@ -37,7 +37,7 @@ namespace Collektive.Unity
         protected override void OnDisable()
         {
             base.OnDisable();
-            // Unity sends trigger messages to disabled components too, but not to inactive GameObjects.
+            // Unity also sends trigger messages to disabled components, but not to inactive GameObjects.
             if (!gameObject.activeInHierarchy) visits.Clear();
         }
 
@@ -47,42 +47,39 @@ namespace Collektive.Unity
             var count = visits.Count;
             SortNew();
             if (zones.Length < count) zones = new Zone[visits.Items.Length];
-            var kept = 0;
+            var remaining = 0;
             for (var i = 0; i < count; i++)
             {
                 var visit = visits.Items[i];
                 var left = visit.Entries == 0 || visit.Zone.IsGone();
                 zones[i] = new Zone(visit.Zone, visit.IsNew, left);
                 visit.IsNew = false;
-                if (!left) visits.Items[kept++] = visit;
+                if (!left) visits.Items[remaining++] = visit;
             }
-            visits.Truncate(kept);
+            visits.Truncate(remaining);
             Write(ref data, new Span<Zone>(zones, 0, count));
         }
 
-        /// <summary>
-        /// Writes the zones in the order of the ticks in which they were entered, and zones of one tick by distance. The span is valid only
-        /// during the call.
-        /// </summary>
+        /// <summary>Writes the zones, sorted by the tick in which the node entered them and then by distance. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Zone> zones);
 
         /// <summary>Handles a zone that the node enters.</summary>
         protected virtual void OnTriggerEnter(Collider other)
         {
             if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
-            var place = Find(other);
-            if (place == visits.Count) visits.Add(new Visit { Zone = other, IsNew = true });
-            visits.Items[place].Entries++;
+            var index = Find(other);
+            if (index == visits.Count) visits.Add(new Visit { Zone = other, IsNew = true });
+            visits.Items[index].Entries++;
         }
 
         /// <summary>Handles a zone that the node leaves.</summary>
         protected virtual void OnTriggerExit(Collider other)
         {
-            var place = Find(other);
-            if (place < visits.Count && visits.Items[place].Entries > 0) visits.Items[place].Entries--;
+            var index = Find(other);
+            if (index < visits.Count && visits.Items[index].Entries > 0) visits.Items[index].Entries--;
         }
 
-        /// <summary>Sorts the new zones, which are at the end: Unity does not specify the order of triggers.</summary>
+        /// <summary>Sorts the new zones, which are at the end of the list, because Unity does not specify the order of trigger messages.</summary>
         private void SortNew()
         {
             var centre = Node.Position;
@@ -91,22 +88,22 @@ namespace Collektive.Unity
                 var visit = visits.Items[next];
                 if (!visit.IsNew || visit.Zone.IsGone()) continue;
                 var offset = visit.Zone.transform.position - centre;
-                var place = next;
-                for (; place > 0 && visits.Items[place - 1].IsNew; place--)
+                var index = next;
+                for (; index > 0 && visits.Items[index - 1].IsNew; index--)
                 {
-                    var other = visits.Items[place - 1].Zone;
+                    var other = visits.Items[index - 1].Zone;
                     if (!other.IsGone() && !ColliderExtensions.IsBefore(offset, other.transform.position - centre)) break;
-                    visits.Items[place] = visits.Items[place - 1];
+                    visits.Items[index] = visits.Items[index - 1];
                 }
-                visits.Items[place] = visit;
+                visits.Items[index] = visit;
             }
         }
 
         private int Find(Collider zone)
         {
-            var place = 0;
-            while (place < visits.Count && !ReferenceEquals(visits.Items[place].Zone, zone)) place++;
-            return place;
+            var index = 0;
+            while (index < visits.Count && !ReferenceEquals(visits.Items[index].Zone, zone)) index++;
+            return index;
         }
     }
 }
