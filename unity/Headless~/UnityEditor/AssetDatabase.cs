@@ -42,14 +42,15 @@ namespace UnityEditor
             ImportedAsset.Reimport(path);
         }
 
-        /// Only prefabs.
+        /// Supports prefabs only.
         public static void SaveAssetIfDirty(Object obj)
         {
             AssetState.CheckChange();
             PrefabFile.Save((UnityEngine.GameObject)obj);
         }
 
-        /// Prefabs become objects outside any scene, and importers create other assets. Any other existing file is an asset without content.
+        /// Loads a prefab as objects outside any scene, and other assets through their importers. An existing file without an importer is an asset without
+        /// content.
         public static T LoadAssetAtPath<T>(string assetPath) where T : Object
         {
             AssetState.CheckCall();
@@ -60,7 +61,7 @@ namespace UnityEditor
             return typeof(T).IsAssignableFrom(typeof(PlainAsset)) ? (T)(Object)new PlainAsset { name = Path.GetFileNameWithoutExtension(file) } : null;
         }
 
-        /// The paths of the assets, and of the assets that their YAML refers to.
+        /// Returns the paths of the given assets and of the assets that their YAML refers to.
         public static string[] GetDependencies(string[] pathNames, bool recursive)
         {
             AssetState.CheckCall();

@@ -64,7 +64,7 @@ namespace UnityEditor.Build
 
         public BuildPlayerOptions BuildPlayerOptions { get; }
 
-        /// Adds a file or a folder with a unique name. Copies immediately; Unity copies later.
+        /// Adds a file or a folder whose name must be unique. It is copied immediately, whereas Unity copies it later.
         public void AddAdditionalPathToStreamingAssets(string directoryOrFile, string pathInStreamingAssets = null)
         {
             if (File.Exists(directoryOrFile))

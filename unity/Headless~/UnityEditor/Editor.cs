@@ -10,7 +10,7 @@ namespace UnityEditor
 
         public static Editor CreateEditor(Object targetObject) => CreateEditor(new[] { targetObject });
 
-        /// The editor that has [CustomEditor] for the targets' type, or the default one.
+        /// Creates the editor that has [CustomEditor] for the type of the targets, or the default editor.
         public static Editor CreateEditor(Object[] targetObjects)
         {
             var editor = new Editor();
@@ -24,7 +24,7 @@ namespace UnityEditor
             return editor;
         }
 
-        /// Draws the fields that have a drawer in the package. Other fields are omitted.
+        /// Draws only fields for which the package has a drawer.
         public bool DrawDefaultInspector()
         {
             UnityEngine.Headless.Gui.Draw("default inspector", target.GetType().Name);

@@ -25,10 +25,10 @@ namespace UnityEditor
         public static bool isCompiling { get; internal set; }
         public static double timeSinceStartup => Clock.Elapsed.TotalSeconds;
 
-        /// Executes the menu entry with that path, without a context. Returns false if it does not exist.
+        /// Executes the menu entry with the given path, without a context. Returns false if the entry does not exist.
         public static bool ExecuteMenuItem(string menuItemPath) => Headless.Menus.Click(menuItemPath);
 
-        /// Runs one iteration of the editor's loop. Calls that are added during it run in the next one.
+        /// Runs one iteration of the editor's loop. Calls added during an iteration run in the next one.
         internal static void Tick()
         {
             var delayed = delayCall;

@@ -15,7 +15,7 @@ namespace UnityEditor.SceneManagement
 
         public static event SceneOpenedCallback sceneOpened;
 
-        /// Adds the objects of the file to the only scene.
+        /// Adds the objects of the file to the scene. This stand-in has only one scene.
         public static Scene OpenScene(string scenePath)
         {
             Headless.SceneFile.Load(scenePath);

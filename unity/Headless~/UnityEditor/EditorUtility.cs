@@ -4,7 +4,7 @@ namespace UnityEditor
 {
     public class EditorUtility
     {
-        /// Whether the object is an asset.
+        /// Returns whether the object is an asset.
         public static bool IsPersistent(UnityEngine.Object target) => PrefabFile.Loaded.ContainsKey(target);
         public static void RevealInFinder(string path) => Project.Revealed = path;
         public static bool DisplayDialog(string title, string message, string ok, string cancel) => Project.Answer(message);

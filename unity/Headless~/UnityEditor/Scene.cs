@@ -25,7 +25,7 @@ namespace UnityEditor
 
     public static class ObjectFactory
     {
-        /// Moves the object below the parent, if any, and resets its position, rotation and scale. Gives it a unique name and selects it.
+        /// Makes the object a child of the parent, if any, and resets the position, rotation and scale. Then gives the object a unique name and selects it.
         public static void PlaceGameObject(GameObject go, GameObject parent = null)
         {
             if (parent != null)
@@ -62,7 +62,7 @@ namespace UnityEditor
 
     public sealed class PrefabUtility
     {
-        /// Loading a prefab always creates a new object, which serves as the copy.
+        /// Returns a new object without copying the prefab, because loading a prefab always creates a new object here.
         public static Object InstantiatePrefab(Object assetComponentOrGameObject)
         {
             Headless.PrefabFile.Loaded.Remove(assetComponentOrGameObject);

@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace UnityEditor
 {
-    /// Stores its public texts and booleans in the file of its attribute, with one "name: value" per line.
+    /// Stores the public fields that are texts or booleans in the file that the attribute names, one "name: value" per line.
     public class ScriptableSingleton<T> : ScriptableObject where T : ScriptableObject
     {
         static T single;

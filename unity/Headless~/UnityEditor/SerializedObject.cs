@@ -7,7 +7,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor
 {
-    /// A copy of the serialised fields of one or several objects. `ApplyModifiedProperties` writes changes back, and can be undone.
+    /// A copy of the serialised fields of one or more objects. `ApplyModifiedProperties` writes changes back to the objects; they can be undone.
     public class SerializedObject : IDisposable
     {
         internal readonly SerializedFields[] Copies;
@@ -48,7 +48,7 @@ namespace UnityEditor
         }
     }
 
-    /// A field of the objects, or an element of a list.
+    /// A field of the objects, or an element of a field that is a list.
     public class SerializedProperty
     {
         internal readonly Type Type;

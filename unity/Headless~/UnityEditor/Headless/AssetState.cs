@@ -2,15 +2,15 @@ using System;
 
 namespace UnityEditor.Headless
 {
-    /// Simulates the times at which calls of the asset database throw, since Unity 6000.4.
+    /// Simulates the editor states in which calls of the asset database throw exceptions, as they do from Unity 6000.4 on.
     public static class AssetState
     {
         static bool isReloading, isImporting;
 
-        /// Runs an action in the state in which the editor reloads code.
+        /// Runs an action as if the editor were reloading code.
         public static void Reload(Action action) => During(ref isReloading, action);
 
-        /// Runs an action in the state in which the editor imports an asset.
+        /// Runs an action as if the editor were importing an asset.
         public static void Import(Action action) => During(ref isImporting, action);
 
         /// Must be called at the start of each call of the asset database.

@@ -50,10 +50,10 @@ namespace UnityEditor.Headless
             return "";
         }
 
-        /// A full path, because each test has its own project.
+        /// Returns the full path of an asset. Tests use different projects, so relative paths are not unique.
         static string KeyOf(string path) => Path.GetFullPath(Project.FileOf(path));
 
-        /// The object that a scene refers to by this id.
+        /// Returns the object that scenes refer to by the given id.
         internal Object Find(long fileId)
         {
             foreach (var part in objects)
@@ -68,7 +68,7 @@ namespace UnityEditor.Headless
             return 0;
         }
 
-        /// The id of a ScriptableObject that an importer adds under an identifier.
+        /// Returns the id of a ScriptableObject that an importer adds with the given identifier.
         static long IdOf(string identifier) => (long)XxHash64.Of(Encoding.UTF8.GetBytes("Type:MonoBehaviour->" + identifier + "0"));
 
         void Import(string path, Type importer)
@@ -91,7 +91,7 @@ namespace UnityEditor.Headless
             Main = kept.TryGetValue(context.mainObject, out var main) ? main : context.mainObject;
         }
 
-        /// Copies the name and the serialised fields, whose references to new objects become references to the kept ones.
+        /// Copies the name and the serialised fields. References to new objects are replaced with references to the existing objects.
         static void Move(Object from, Object to, Dictionary<Object, Object> kept)
         {
             to.name = from.name;

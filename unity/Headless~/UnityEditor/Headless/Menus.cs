@@ -6,7 +6,7 @@ using UnityEngine.UIElements;
 
 namespace UnityEditor.Headless
 {
-    /// Calls members as the editor does by name and attribute: menu entries, window messages, load methods.
+    /// Calls members that the editor finds by name or attribute: menu entries, window messages and load methods.
     public static class Menus
     {
         const BindingFlags Statics = BindingFlags.Static | BindingFlags.Public | BindingFlags.NonPublic;
@@ -22,13 +22,13 @@ namespace UnityEditor.Headless
             return false;
         }
 
-        /// Calls all [InitializeOnLoadMethod]s, as when a domain is loaded.
+        /// Calls all methods with [InitializeOnLoadMethod], as the editor does when it loads a domain.
         public static void Load()
         {
             foreach (var method in Marked(typeof(InitializeOnLoadMethodAttribute))) AssetState.Reload(() => method.Invoke(null, null));
         }
 
-        /// All pages of the project settings.
+        /// Returns all pages of the project settings.
         public static List<SettingsProvider> SettingsPages()
         {
             var pages = new List<SettingsProvider>();
@@ -36,7 +36,7 @@ namespace UnityEditor.Headless
             return pages;
         }
 
-        /// The drawer that has [CustomPropertyDrawer] for an attribute or a type.
+        /// Returns the drawer that has [CustomPropertyDrawer] for an attribute or a type.
         public static PropertyDrawer DrawerOf(Type attribute)
         {
             foreach (var type in EditorTypes())
@@ -47,7 +47,7 @@ namespace UnityEditor.Headless
             return null;
         }
 
-        /// The drawer of a field, chosen by an attribute or by its type.
+        /// Returns the drawer of a field, which depends on an attribute or on the type of the field.
         internal static PropertyDrawer DrawerOf(FieldInfo field)
         {
             foreach (var attribute in field.GetCustomAttributes<PropertyAttribute>())
@@ -69,7 +69,7 @@ namespace UnityEditor.Headless
         /// Runs one iteration of the editor's loop.
         public static void Tick() => EditorApplication.Tick();
 
-        /// Calls all postprocessors, as the end of an import does. Without changed assets, the domain was reloaded.
+        /// Calls all postprocessors, as the editor does after an import. If no asset changed, it simulates a reload of the domain.
         public static void Postprocess(string[] imported, string[] deleted)
         {
             foreach (var type in EditorTypes())
@@ -87,7 +87,7 @@ namespace UnityEditor.Headless
             else call?.Invoke();
         }
 
-        /// Draws the visible elements of a window, which creates them on the first call. Rows of tables are lines such as "row 0 | Name".
+        /// Draws the visible elements of a window. The window creates its elements on the first call. Rows of tables become lines such as "row 0 | Name".
         public static void Draw(EditorWindow window)
         {
             if (!window.HasGui) Send(window, "CreateGUI");

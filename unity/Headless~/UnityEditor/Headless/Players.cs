@@ -4,10 +4,10 @@ using UnityEditor.Build;
 
 namespace UnityEditor.Headless
 {
-    /// Simulates the package's part in player builds.
+    /// Simulates player builds, as far as they involve the package.
     public static class Players
     {
-        /// Calls all build processors in order. Copies the files that they add to the folder.
+        /// Calls all build processors in order, and copies the files that they add to the streaming assets.
         public static void Build(BuildTarget target, string streamingAssets, params string[] scenes)
         {
             var processors = new List<BuildPlayerProcessor>();

@@ -8,8 +8,8 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Reads the objects of a prefab with their components. Supports only these fields: names, scales and parents, and the texts and imported assets of
-    /// scripts, which it also writes.
+    /// Reads the objects of a prefab with their components. It supports names, scales and parents, and the fields of scripts that are texts or imported
+    /// assets. Fields of scripts can also be written.
     static class PrefabFile
     {
         private const RegexOptions Lines = RegexOptions.Multiline | RegexOptions.Singleline;
@@ -20,7 +20,7 @@ namespace UnityEditor.Headless
             ["Rigidbody"] = typeof(Rigidbody),
         };
 
-        /// Prefabs that are loaded but not instantiated, with their files.
+        /// Loaded prefabs, which are not part of a scene, with the paths of their files.
         internal static readonly Dictionary<UnityEngine.Object, string> Loaded = new Dictionary<UnityEngine.Object, string>();
 
         internal static GameObject Load(string path)
@@ -84,7 +84,7 @@ namespace UnityEditor.Headless
             return text;
         }
 
-        /// Like an asset, it is inactive, but its copies are not.
+        /// Creates an object that is inactive, as an asset is. Its copies are active.
         static GameObject Object(string name)
         {
             var created = new GameObject(name);

@@ -4,15 +4,15 @@ using System.Text.RegularExpressions;
 
 namespace UnityEditor.Headless
 {
-    /// The open project: the working folder of the process, with one package in another folder.
+    /// The open project. Its folder is the working folder of the process, and its only package is in another folder.
     public static class Project
     {
         const string Package = "Packages/org.collektive.unity";
 
-        /// The folder of the package, which is the clone.
+        /// The folder of the package in the clone.
         static string Root => Path.Combine(System.Environment.GetEnvironmentVariable("COLLEKTIVE_ROOT") ?? "", "unity");
 
-        /// The package manager's folder of the package, below the working folder but outside `Packages`.
+        /// The folder in which Unity's package manager would store the package, relative to the project and outside `Packages`.
         public const string PackageCache = "Library/PackageCache/org.collektive.unity@1a2b3c";
 
         internal static string PhysicalPath(string path) =>
@@ -31,7 +31,7 @@ namespace UnityEditor.Headless
 
         static readonly Dictionary<string, string> PackagePaths = new Dictionary<string, string>();
 
-        /// Reverts all changes of fields in inspectors and settings by the last event, as Edit > Undo does.
+        /// Reverts the changes that the last event made to fields in inspectors and settings, like Edit > Undo.
         public static void PerformUndo()
         {
             var cause = UndoSteps.Peek().Cause;
@@ -41,10 +41,10 @@ namespace UnityEditor.Headless
 
         internal static void RecordUndo(System.Action back) => UndoSteps.Push((UnityEngine.Event.current, back));
 
-        /// Returns the user's answer to a dialog with a given message.
+        /// A function that returns the user's answer to a dialog with the given message.
         public static System.Func<string, bool> Answer { get; set; }
 
-        /// Whether the user clicks Cancel in a progress bar.
+        /// Whether the simulated user clicks Cancel in progress bars.
         public static bool CancelsWaiting { get; set; }
 
         /// Returns the asset path of the file with this GUID in the package or the project; empty if none has it.

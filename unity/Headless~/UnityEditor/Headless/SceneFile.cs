@@ -8,7 +8,8 @@ using UnityEngine;
 
 namespace UnityEditor.Headless
 {
-    /// Reads only a scene's instances of prefabs, with the texts, numbers and imported assets that the scene gives their scripts.
+    /// Reads the prefab instances of a scene, with the texts, numbers and imported assets that the scene assigns to fields of their scripts. Other content
+    /// of the scene is ignored.
     static class SceneFile
     {
         internal static void Load(string path)
@@ -23,7 +24,7 @@ namespace UnityEditor.Headless
             }
         }
 
-        /// The imported object of a reference such as `{fileID: 1, guid: 2, type: 3}`, or null.
+        /// Returns the imported object of a reference such as `{fileID: 1, guid: 2, type: 3}`, or null.
         internal static object Referred(string reference)
         {
             var parts = Regex.Match(reference, @"fileID: (-?\d+), guid: ([0-9a-f]+)");
@@ -46,7 +47,7 @@ namespace UnityEditor.Headless
         {
             var element = Regex.Match(path[at], @"^(.+)\[(\d+)\]$");
             var field = FieldOf(owner, element.Success ? element.Groups[1].Value : path[at]);
-            // The size of a list. Its elements follow.
+            // This entry is the size of a list. The entries of its elements follow.
             if (field == null || path[path.Length - 1] == "size") return;
             if (element.Success && IsReference(field)) value = value as UnityEngine.Object;
             if (element.Success) ((IList)field.GetValue(owner)).Insert(int.Parse(element.Groups[2].Value), value);

@@ -8,7 +8,7 @@ using Object = UnityEngine.Object;
 
 namespace UnityEditor.Headless
 {
-    /// A copy of the fields of an object that Unity serialises.
+    /// A copy of an object's serialised fields.
     sealed class SerializedFields
     {
         const BindingFlags Own = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
@@ -62,7 +62,7 @@ namespace UnityEditor.Headless
             values[steps[0]] = Changed(values[steps[0]], steps, 1, value);
         }
 
-        /// The owner of the changed field, or a changed copy if it is a struct.
+        /// Changes a field. Returns the owner of the field, or a changed copy of the owner if it is a struct.
         static object Changed(object owner, List<string> steps, int at, object value)
         {
             if (at == steps.Count) return value;
@@ -82,7 +82,7 @@ namespace UnityEditor.Headless
             return steps;
         }
 
-        /// Objects and lists are kept and filled with the new content.
+        /// Writes a field. Existing objects and lists are kept, and filled with the new content.
         static void Write(object owner, FieldInfo field, object value)
         {
             var old = field.GetValue(owner);
@@ -102,7 +102,7 @@ namespace UnityEditor.Headless
 
         internal static Type ElementOf(Type list) => list.IsArray ? list.GetElementType() : list.GetGenericArguments()[0];
 
-        /// Base classes first, as in the inspector.
+        /// Returns the serialised fields of a type. As in the inspector, fields of base classes come first.
         internal static List<FieldInfo> FieldsOf(Type type)
         {
             var fields = new List<FieldInfo>();
@@ -141,7 +141,7 @@ namespace UnityEditor.Headless
             return IsObject(a) && IsObject(b) ? FieldsOf(a.GetType()).TrueForAll(field => Same(field.GetValue(a), field.GetValue(b))) : Equals(a, b);
         }
 
-        /// Whether the value has fields.
+        /// Returns whether the value is an object with serialised fields.
         internal static bool IsObject(object value) => value != null && !(value is Object) && !(value is string) && !(value is IList)
             && !value.GetType().IsPrimitive && !value.GetType().IsEnum && value.GetType().IsDefined(typeof(SerializableAttribute), false);
     }

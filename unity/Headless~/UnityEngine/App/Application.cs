@@ -14,7 +14,7 @@ namespace UnityEngine
 
         static Application() => ResetState();
 
-        /// The user's data folder, or the temporary folder without one.
+        /// The user's data folder, or the temporary folder if the user has none.
         private static string DataFolder
         {
             get
@@ -39,7 +39,7 @@ namespace UnityEngine
         public static string productName => "collektive-headless";
         public static RuntimePlatform platform => RuntimePlatform.LinuxPlayer;
 
-        /// Opens nothing: `Headless.Loop.OpenedUrl` is the last address.
+        /// Stores the address in `Headless.Loop.OpenedUrl`, and opens nothing.
         public static void OpenURL(string url) => Headless.Loop.OpenedUrl = url;
 
         public static void Quit() => Quit(0);

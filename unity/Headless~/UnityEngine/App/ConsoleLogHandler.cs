@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace UnityEngine
 {
-    /// The player's log: messages go to standard output, warnings and errors to standard error.
+    /// Writes messages to standard output, and warnings and errors to standard error.
     sealed class ConsoleLogHandler : ILogHandler
     {
         const int MaxLines = 60;
@@ -20,7 +20,7 @@ namespace UnityEngine
             Write(LogType.Exception, message, Shortened(exception.ToString()));
         }
 
-        /// Limits stack traces, because endless recursions have thousands of lines.
+        /// Shortens stack traces, because an endless recursion produces thousands of lines.
         static string Shortened(string details)
         {
             var lines = details.Split('\n');

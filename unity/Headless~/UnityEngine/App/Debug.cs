@@ -34,7 +34,7 @@ namespace UnityEngine
             if (!condition) Default.Log(LogType.Assert, (object)message, context);
         }
 
-        // This player does not draw.
+        // These methods do nothing, because this player does not draw.
         public static void DrawLine(Vector3 start, Vector3 end) { }
         public static void DrawLine(Vector3 start, Vector3 end, Color color) { }
         public static void DrawLine(Vector3 start, Vector3 end, Color color, float duration) { }

@@ -4,7 +4,7 @@ namespace UnityEngine
 {
     public struct LayerMask
     {
-        // Unity's built-in layers. Others have no name in the headless player.
+        // The names of Unity's built-in layers. Other layers have no name in the headless player.
         static readonly string[] Names = { "Default", "TransparentFX", "Ignore Raycast", "", "Water", "UI" };
 
         public int value { get; set; }

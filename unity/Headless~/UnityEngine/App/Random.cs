@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Marsaglia's xorshift128. For the same seed, it returns other numbers than Unity.
+    /// Marsaglia's xorshift128. Its numbers differ from Unity's numbers for the same seed.
     public static class Random
     {
         public struct State
@@ -34,7 +34,7 @@ namespace UnityEngine
             return generator.s3 = generator.s3 ^ (generator.s3 >> 19) ^ t ^ (t >> 8);
         }
 
-        /// A number from 0 to 1, both inclusive.
+        /// A random number from 0 to 1, both inclusive.
         public static float value => (Next() >> 8) / 16777215f;
 
         public static float Range(float minInclusive, float maxInclusive) => minInclusive + (maxInclusive - minInclusive) * value;

@@ -2,7 +2,7 @@ using System.Diagnostics;
 
 namespace UnityEngine
 {
-    /// Times in seconds. Within a fixed step `time` and `deltaTime` use the fixed clock, as in Unity.
+    /// Times in seconds. As in Unity, `time` and `deltaTime` return the fixed clock's values within a fixed step.
     public class Time
     {
         static readonly Stopwatch Clock = Stopwatch.StartNew();
@@ -44,7 +44,7 @@ namespace UnityEngine
             startOffset = Clock.Elapsed.TotalSeconds;
         }
 
-        /// Advances by the elapsed time, or by `captureDeltaTime` if that is set.
+        /// Advances the clock by `seconds`, or by `captureDeltaTime` if that is set.
         internal static void BeginFrame(float seconds)
         {
             if (captureDeltaTime > 0f) seconds = captureDeltaTime;

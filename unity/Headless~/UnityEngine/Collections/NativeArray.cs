@@ -21,7 +21,7 @@ namespace Unity.Collections
         ClearMemory = 1,
     }
 
-    /// Uses managed memory. `NativeArrays` counts the undisposed arrays.
+    /// An array in managed memory. `NativeArrays` counts the arrays that were not disposed.
     public struct NativeArray<T> : IDisposable where T : struct
     {
         T[] items;

@@ -3,7 +3,8 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Scripts ordered by execution order, then by enabling time. A script enabled during a pass joins the next one. A disabled script drops out immediately.
+    /// Scripts sorted by execution order, then by the time they were enabled. A script that is enabled during a pass takes part from the next pass on. A
+    /// script that is disabled is skipped immediately.
     sealed class BehaviourList
     {
         readonly struct Entry

@@ -5,7 +5,8 @@ using System.Reflection;
 
 namespace UnityEngine
 {
-    /// Implements `Instantiate`: copies serialised data. References within the copied hierarchy point to the copy, all others are kept.
+    /// Implements `Instantiate` by copying serialised data. References to objects within the copied hierarchy are replaced with references to their copies.
+    /// All other references are kept.
     sealed class Cloner
     {
         readonly Dictionary<Object, Object> copies = new Dictionary<Object, Object>();

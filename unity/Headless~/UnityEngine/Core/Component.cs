@@ -24,13 +24,13 @@ namespace UnityEngine
 
         internal override string NameImpl { get => owner.NameImpl; set => owner.NameImpl = value; }
 
-        /// Called when the object becomes active, or when the component is added to an active one.
+        /// Called when the object becomes active, or when the component is added to an active object.
         internal virtual void Activate() { }
 
         /// Called when the object becomes inactive, or before the component is destroyed.
         internal virtual void Deactivate() { }
 
-        /// Copies values of the engine's components for `Instantiate`. Scripts are copied field by field.
+        /// Copies the values of a component of the engine for `Instantiate`. Scripts do not override it; their fields are copied one by one.
         internal virtual void CopyFrom(Component original) { }
 
         public T GetComponent<T>() => gameObject.GetComponent<T>();

@@ -33,7 +33,7 @@ namespace UnityEngine
             Advance();
         }
 
-        /// Runs to the next yield. A nested routine starts immediately, and the outer one continues as soon as it ends.
+        /// Runs to the next yield. A nested routine starts immediately. When it ends, the outer routine continues immediately.
         internal void Advance()
         {
             awaited = null;

@@ -3,7 +3,7 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine
 {
-    /// Objects to destroy at the end of the frame in which they become due.
+    /// The objects that await destruction. Each is destroyed at the end of the frame in which its delay has passed.
     static class Destruction
     {
         readonly struct Request
@@ -22,7 +22,7 @@ namespace UnityEngine
 
         public static void Schedule(Object target, float delay) => Requests.Add(new Request(target, Time.timeAsDouble + delay));
 
-        /// Includes objects whose destruction is requested by messages of this pass.
+        /// Destroys all objects that are due, including objects whose destruction is requested meanwhile.
         public static void RunDue()
         {
             if (Requests.Count == 0) return;
@@ -96,7 +96,7 @@ namespace UnityEngine
             foreach (var child in gameObject.TransformUnchecked.children) Collect(child.owner, into);
         }
 
-        /// All objects of all scenes, in the order of their roots.
+        /// Destroys all objects of all scenes, in the order of their roots.
         public static void DestroyScene()
         {
             foreach (var scene in Scene.Loaded)

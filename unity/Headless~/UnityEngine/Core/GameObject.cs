@@ -7,9 +7,9 @@ namespace UnityEngine
     public sealed class GameObject : Object
     {
         internal readonly List<Component> components = new List<Component>();
-        /// The active body, if any, followed by colliders; null until one was added.
+        /// The active body, if any, followed by the colliders; null until the first of them is added.
         internal List<Component> physicsParts;
-        /// Messages that scripts of this object have handled so far.
+        /// Messages that this object's scripts have methods for, including scripts that were removed.
         internal TouchMessages touchMessages;
 
         readonly Transform ownTransform;
@@ -311,7 +311,7 @@ namespace UnityEngine
 
         static List<GameObject> together;
 
-        /// Objects that `build` creates are inactive until its end, and then become active together, as those of a scene file.
+        /// Runs `build`. The objects that it creates are inactive until it returns. They then become active together, like the objects of a scene file.
         internal static void CreateTogether(Action build)
         {
             var created = together = new List<GameObject>();
@@ -347,7 +347,7 @@ namespace UnityEngine
             return null;
         }
 
-        /// The collider fits Unity's mesh of the primitive. A plane is a flat box of 10 x 10 m.
+        /// Creates an object whose collider fits Unity's mesh of the primitive. The collider of a plane is a flat box of 10 x 10 m.
         public static GameObject CreatePrimitive(PrimitiveType type)
         {
             var primitive = new GameObject(type.ToString());

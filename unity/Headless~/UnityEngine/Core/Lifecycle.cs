@@ -22,7 +22,7 @@ namespace UnityEngine
             if (script.messages.LateUpdate != null) LateUpdating.Add(script);
         }
 
-        /// Notifies components of objects that became active or inactive together: the engine's first, then scripts in execution order.
+        /// Notifies components of objects that became active or inactive together. Components of the engine come first, then scripts in execution order.
         public static void ActivityChanged(List<Component> components, bool active)
         {
             Orders.Shuffle(components);
@@ -42,9 +42,9 @@ namespace UnityEngine
             for (var next = 1; next < components.Count; next++)
             {
                 var component = components[next];
-                var place = next;
-                for (; place > 0 && ByOrder(components[place - 1], component) > 0; place--) components[place] = components[place - 1];
-                components[place] = component;
+                var position = next;
+                for (; position > 0 && ByOrder(components[position - 1], component) > 0; position--) components[position] = components[position - 1];
+                components[position] = component;
             }
         }
 
@@ -66,7 +66,7 @@ namespace UnityEngine
             for (var cursor = LateUpdating.Begin(); LateUpdating.Next(ref cursor, out var script);) Messages.Send(script.messages.LateUpdate, script);
         }
 
-        /// Calls Start of all newly enabled scripts, including those that a Start enables.
+        /// Calls Start of all newly enabled scripts, including scripts that are enabled by another script's Start.
         public static void RunStarts()
         {
             while (Starting.HasNew)

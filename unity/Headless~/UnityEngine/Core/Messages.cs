@@ -6,7 +6,7 @@ using System.Reflection.Emit;
 
 namespace UnityEngine
 {
-    /// The messages of a script type, found once by name and compiled to direct calls; null for missing methods.
+    /// The message methods of a script type. They are found by name once, and compiled to direct calls. Missing methods are null.
     sealed class Messages
     {
         static readonly Dictionary<Type, Messages> Tables = new Dictionary<Type, Messages>();
@@ -53,7 +53,7 @@ namespace UnityEngine
             return table;
         }
 
-        /// The nearest base type with [DisallowMultipleComponent], of which an object can have only one component; null without one.
+        /// Returns the nearest base type with [DisallowMultipleComponent], or null. An object can have only one component of such a type.
         public static Type SingleBase(Type type)
         {
             for (var level = type; level != typeof(Component); level = level.BaseType)
@@ -61,7 +61,7 @@ namespace UnityEngine
             return null;
         }
 
-        /// Returns false if the message threw. The exception is logged and not rethrown.
+        /// Calls a message method. If it throws an exception, logs the exception and returns false.
         public static bool Send(Action<Object> message, Object target)
         {
             if (message == null) return true;
@@ -102,7 +102,7 @@ namespace UnityEngine
             return method == null ? null : (Action<Object, T>)Emit(method, typeof(Action<Object, T>), typeof(Object), typeof(T));
         }
 
-        /// Returns the method of that name in the most derived class, private or not, with or without the argument.
+        /// Returns the method with the given name in the most derived class. It may be private, and may lack the argument.
         static MethodInfo Find(Type type, string name, Type argument)
         {
             for (var level = type; level != typeof(MonoBehaviour) && level != typeof(ScriptableObject) && level != null; level = level.BaseType)

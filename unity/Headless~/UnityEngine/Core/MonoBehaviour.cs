@@ -6,7 +6,8 @@ namespace UnityEngine
     {
         internal readonly Messages messages;
 
-        /// Number of the latest OnEnable, counted over all components; 0 while not enabled. Orders updates and identifies stale list entries.
+        /// Sequence number of the last OnEnable among all components; 0 while the component is disabled. It determines the order of updates, and identifies
+        /// stale list entries.
         internal int enabling;
 
         public MonoBehaviour() => messages = Messages.Of(GetType());

@@ -29,7 +29,7 @@ namespace UnityEngine
         InstanceID = 1,
     }
 
-    /// A destroyed object still exists in C#, but compares equal to null and throws when used.
+    /// Base of all objects of the engine. A destroyed object still exists in C#, but compares equal to null, and using it throws an exception.
     public class Object
     {
         static int created;
@@ -114,7 +114,7 @@ namespace UnityEngine
 
         public static void DontDestroyOnLoad(Object target) { } // the player's scene is never replaced
 
-        /// Only objects of scenes.
+        /// Finds objects in scenes only, not assets.
         public static T[] FindObjectsByType<T>(FindObjectsSortMode sortMode) where T : Object
         {
             var found = new System.Collections.Generic.List<T>();

@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Physics messages that a script handles. Change stands for Enter and Exit.
+    /// The physics messages that a script handles. "Change" stands for Enter and Exit.
     [Flags]
     enum TouchMessages
     {

@@ -25,7 +25,7 @@ namespace UnityEngine
         Quaternion turned = Quaternion.identity;
         Vector3 ownScale = Vector3.one;
         bool changed = true;
-        // PhysX's handle of its active body, if any, and the step of the pose.
+        // PhysX's handle of the object's active body, if any, and the step in which the pose was copied from the body.
         int body = Physx.None;
         int bodyStep;
 
@@ -70,7 +70,7 @@ namespace UnityEngine
             get => body != Physx.None && Motion.Step != bodyStep;
         }
 
-        /// Copies the pose of the body if a step has moved it.
+        /// Copies the pose of the body if a physics step has moved the body.
         internal void Follow()
         {
             if (IsBehind) Place(Motion.Pose.Position, Motion.Pose.Rotation);
@@ -82,7 +82,7 @@ namespace UnityEngine
             return this;
         }
 
-        /// Sets the body to follow, or none.
+        /// Sets the body whose pose the transform follows, or none.
         internal void Follow(int actor)
         {
             Follow();
@@ -178,7 +178,7 @@ namespace UnityEngine
             rotation = this.rotation;
         }
 
-        /// Sets the pose from the results of a physics step, without notifying physics. The rotation has length 1.
+        /// Sets the pose to the result of a physics step, without notifying physics. The rotation must be normalised.
         internal void Place(in Vector3 position, in Quaternion rotation)
         {
             changed = true;
@@ -193,7 +193,7 @@ namespace UnityEngine
             turned = (Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
         }
 
-        /// The scale along the local axes, without shear.
+        /// The world scale along the local axes, without shear.
         public Vector3 lossyScale
         {
             get

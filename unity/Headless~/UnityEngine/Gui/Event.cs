@@ -10,7 +10,7 @@ namespace UnityEngine
         Used = 12,
     }
 
-    /// The event of an immediate-mode GUI call. Each event is preceded by a layout, which must draw the same controls.
+    /// The event of an immediate-mode GUI call. A layout event precedes each other event, and must draw the same controls.
     public sealed class Event
     {
         public static Event current { get; set; } = new Event { type = EventType.Layout };

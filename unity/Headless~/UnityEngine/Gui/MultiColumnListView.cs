@@ -72,7 +72,7 @@ namespace UnityEngine.UIElements
 
         public void SetSelectionWithoutNotify(IEnumerable<int> indices) => selected = new List<int>(indices).ToArray();
 
-        /// Number of rows at the last refresh. Later changes of the list are not visible.
+        /// Number of rows at the last refresh. Changes of the list become visible at the next refresh.
         internal int RowCount { get; private set; }
 
         public void ClickHeader(string column, SortDirection direction)
@@ -88,7 +88,7 @@ namespace UnityEngine.UIElements
             selectionChanged?.Invoke(new[] { itemsSource[index] });
         }
 
-        /// The texts of the first rows that fit in `height`. Only their cells are bound.
+        /// Returns the texts of the first rows that fit into `height`. Only the cells of these rows are bound.
         public IEnumerable<string> VisibleRows(float height)
         {
             for (var row = 0; row < RowCount && row * fixedItemHeight < height; row++)

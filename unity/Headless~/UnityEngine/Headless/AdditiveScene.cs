@@ -3,10 +3,10 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine.Headless
 {
-    /// A scene that is loaded in addition to the player's own.
+    /// Loads scenes in addition to the player's scene.
     public static class AdditiveScene
     {
-        /// Contains the objects that `build` creates, which become active together.
+        /// Loads a scene with the objects that `build` creates. The objects become active together.
         public static Scene Load(string name, Action build)
         {
             var before = Scene.Active;

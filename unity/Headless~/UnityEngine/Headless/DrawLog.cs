@@ -8,13 +8,13 @@ namespace UnityEngine.Headless
         public readonly struct Draw
         {
             public readonly Material Material;
-            /// The caller's property block, or null.
+            /// The property block that the caller passed, or null.
             public readonly MaterialPropertyBlock Properties;
             public readonly Bounds Bounds;
             public readonly int Vertices;
             public readonly int Instances;
 
-            /// Returns a buffer as the shader reads it.
+            /// Returns the content of a buffer in the form that the shader reads.
             public T[] Read<T>(string buffer)
                 where T : struct => Properties.BufferOf(buffer).Data<T>();
 
@@ -32,10 +32,10 @@ namespace UnityEngine.Headless
 
         public static IReadOnlyList<Draw> Draws => Recorded;
 
-        /// Number of unreleased graphics buffers. Unity warns when the garbage collector finds one.
+        /// Number of graphics buffers that were not released. Unity logs a warning when the garbage collector finds such a buffer.
         public static int Buffers { get; internal set; }
 
-        /// Gizmos as text: "line (from) (to)", "ray (from) (direction)", "sphere (centre) radius". Tests clear the list.
+        /// The drawn gizmos as texts such as "line (from) (to)", "ray (from) (direction)" and "sphere (centre) radius". Tests clear the list.
         public static List<string> Gizmos { get; } = new List<string>();
 
         internal static void Add(in RenderParams parameters, int vertices, int instances) => Recorded.Add(new Draw(parameters, vertices, instances));

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine.Headless
 {
-    /// Records controls drawn with immediate-mode GUI and simulates actions of a user, for tests.
+    /// Records the controls of immediate-mode GUI, and simulates actions of a user, for tests.
     public static class Gui
     {
         static readonly List<string> Drawn = new List<string>();
@@ -14,19 +14,19 @@ namespace UnityEngine.Headless
         /// One line for each control: "KIND NAME: VALUE". Disabled controls are prefixed with "(disabled) ".
         public static IReadOnlyList<string> Lines => Drawn;
 
-        /// Labels that scripts placed themselves. Tests clear the list.
+        /// Labels that were drawn at positions chosen by scripts, without the layout. Tests clear the list.
         public static List<(Rect Place, string Text)> Placed { get; } = new List<(Rect Place, string Text)>();
 
         public static int DisabledDepth { get; set; }
 
-        /// Changes the control of that name to `value` when it is next drawn; `true` presses a button.
+        /// Changes the control with the given name to `value` when it is drawn next. The value `true` presses a button.
         public static void Act(string name, object value) => Actions[name] = value;
 
         /// Clears the recorded lines and actions.
         public static void Clear() => Drawn.Clear();
 
-        /// Draws like the editor, with a layout pass and a pass for `input` (by default, a repaint or the actions of `Act`). `between` runs between them.
-        /// Controls that differ from the layout are an error, unless a control has used the event.
+        /// Draws like the editor, with a layout pass and a pass for `input`. The default input is a repaint, or the actions of `Act`. `between` runs
+        /// between the two passes. Both passes must draw the same controls, unless a control has used the event.
         public static void Passes(Action draw, Action between = null, Event input = null)
         {
             var shown = Drawn.Count;
@@ -56,7 +56,7 @@ namespace UnityEngine.Headless
             }
         }
 
-        /// Returns a line without its value, because values may change between layout and repaint.
+        /// Returns a line without the control's value, which may change between layout and repaint.
         static string KindAndName(string line) => line.IndexOf(": ", StringComparison.Ordinal) is int end && end >= 0 ? line.Substring(0, end) : line;
 
         public static void Draw(string kind, string name, string value = null)

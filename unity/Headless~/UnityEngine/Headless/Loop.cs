@@ -4,7 +4,7 @@ using System.Reflection;
 
 namespace UnityEngine.Headless
 {
-    /// The player. Runs the scene frame by frame on the calling thread, with the phases of Unity's loop.
+    /// Replaces Unity's player. Runs the scene frame by frame on the calling thread, with the phases of Unity's loop.
     public static class Loop
     {
         static readonly RuntimeInitializeLoadType[] BeforeScene =
@@ -17,7 +17,7 @@ namespace UnityEngine.Headless
         static int searched;
         static List<MethodInfo> found;
 
-        /// The value of `Application.isEditor`: whether the process continues after `Quit`, like the editor after play mode.
+        /// The value of `Application.isEditor`. If it is true, the process continues after `Quit`, like the editor after play mode.
         public static bool IsEditor { get; set; }
 
         /// The value of `Application.isBatchMode`.
@@ -32,11 +32,11 @@ namespace UnityEngine.Headless
         /// The last address that a script opened in a browser.
         public static string OpenedUrl { get; internal set; } = "";
 
-        /// Permutes the orders that Unity does not specify: messages of one execution order in a frame, touches in a step and their two sides, and the enabling
-        /// of objects that become active together. 0: order of creation.
+        /// Seed for permuting orders that Unity does not specify; 0: order of creation. Affected are the messages of a frame with the same execution order,
+        /// the touches of a step and their two sides, and the enabling of objects that become active together.
         public static int OrderSeed { get => Orders.Seed; set => Orders.Reset(value); }
 
-        /// The value of `SystemInfo.supportsComputeShaders`, false with -nographics.
+        /// The value of `SystemInfo.supportsComputeShaders`. In Unity, it is false with -nographics.
         public static bool HasComputeShaders { get; set; } = true;
 
         /// Number of physics threads of the next world. Results do not depend on it.
@@ -46,8 +46,8 @@ namespace UnityEngine.Headless
         public static bool QuitRequested { get; private set; }
         public static int ExitCode { get; private set; }
 
-        /// Enters play mode: seeds `Random`, runs the [RuntimeInitializeOnLoadMethod]s of all loaded assemblies, and calls `buildScene`
-        /// where Unity loads the first scene. Objects created earlier belong to the scene too.
+        /// Enters play mode. Seeds `Random`, runs the methods with [RuntimeInitializeOnLoadMethod] of all loaded assemblies, and calls `buildScene` when
+        /// Unity would load the first scene. Objects that were created before also belong to the scene.
         public static void Start(int seed, Action buildScene = null)
         {
             if (started) throw new InvalidOperationException("The player is already running: call Loop.Quit or Loop.Reset first.");
@@ -60,7 +60,7 @@ namespace UnityEngine.Headless
             Initialize(methods, RuntimeInitializeLoadType.AfterSceneLoad);
         }
 
-        /// Runs one frame of `deltaTime` seconds: the fixed steps that are due, Update, coroutines, LateUpdate, destruction.
+        /// Runs one frame of `deltaTime` seconds: the fixed steps that are due, Update, coroutines, LateUpdate and destruction.
         public static void Frame(float deltaTime)
         {
             if (!started) throw new InvalidOperationException("The player is not running: call Loop.Start first.");
@@ -82,7 +82,7 @@ namespace UnityEngine.Headless
             Destruction.RunDue();
         }
 
-        /// Leaves play mode: OnApplicationQuit, `Application.quitting`, then OnDisable and OnDestroy of everything.
+        /// Leaves play mode. Calls OnApplicationQuit, raises `Application.quitting`, and destroys all objects.
         public static void Quit()
         {
             if (!started) return;
@@ -119,7 +119,7 @@ namespace UnityEngine.Headless
             ExitCode = 0;
         }
 
-        /// Calls each handler. An exception is logged, and the others are still called.
+        /// Calls each handler. If a handler throws an exception, logs it and calls the next one.
         internal static void InvokeAll(Action handlers)
         {
             if (handlers == null) return;
@@ -142,8 +142,9 @@ namespace UnityEngine.Headless
             ExitCode = exitCode;
         }
 
-        /// Returns methods of the assemblies that use UnityEngine, ordered by assembly name and position, so that the order is the same in every run. Searching
-        /// all types takes as long as a short run, so the result is cached until another assembly is loaded.
+        /// Returns the methods with [RuntimeInitializeOnLoadMethod] in all assemblies that use UnityEngine. They are sorted by assembly name and position,
+        /// so that the order is the same in every run. The result is cached until another assembly is loaded, because searching all types takes as long as
+        /// a short run.
         static List<MethodInfo> InitializeMethods()
         {
             var loaded = AppDomain.CurrentDomain.GetAssemblies().Length;

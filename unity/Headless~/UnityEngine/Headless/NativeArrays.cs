@@ -1,9 +1,9 @@
 namespace UnityEngine.Headless
 {
-    /// Native arrays in use, for tests.
+    /// Counts native arrays, for tests.
     public static class NativeArrays
     {
-        /// Number of undisposed arrays.
+        /// Number of arrays that were not disposed.
         public static int Count { get; internal set; }
     }
 }

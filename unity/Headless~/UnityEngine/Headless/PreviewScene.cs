@@ -3,7 +3,7 @@ using UnityEngine.SceneManagement;
 
 namespace UnityEngine.Headless
 {
-    /// A preview scene as in the editor, which is not played, with the objects that `build` creates.
+    /// Creates preview scenes like the editor's, which do not run in play mode.
     public static class PreviewScene
     {
         public static Scene Open(Action build)

@@ -9,7 +9,7 @@ namespace UnityEngine.Headless
         /// Batches of queries since the process began.
         public static long Batches { get; internal set; }
 
-        /// Batches that began before their results were needed.
+        /// Batches that ran in the background before their results were requested.
         public static long BatchesStartedEarly { get; internal set; }
 
         /// Whether a batch is running in the background.

@@ -1,9 +1,9 @@
 namespace UnityEngine.Headless
 {
-    /// A height map as triangles.
+    /// Converts a height map to triangles.
     public static class TerrainMesh
     {
-        /// Returns every `step`th sample along both sides, row by row, relative to the object.
+        /// Returns every `step`-th sample along both sides, row by row, as points relative to the object.
         public static Vector3[] Points(TerrainData data, int step)
         {
             var side = (data.heightmapResolution - 1) / step + 1;

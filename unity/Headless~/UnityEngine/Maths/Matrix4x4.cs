@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Column vectors: `m03, m13, m23` is the translation, and `a * b` applies b first.
+    /// A matrix for column vectors: `m03, m13, m23` is the translation, and `a * b` applies b first.
     public struct Matrix4x4 : IEquatable<Matrix4x4>
     {
         public float m00;
@@ -150,7 +150,7 @@ namespace UnityEngine
             }
         }
 
-        /// Inverse by Gauss-Jordan elimination with row pivots; the zero matrix if singular.
+        /// The inverse, computed by Gauss-Jordan elimination with row pivots; the zero matrix if this matrix is singular.
         public readonly Matrix4x4 inverse
         {
             get

@@ -4,7 +4,7 @@ namespace UnityEngine
 {
     public class CapsuleCollider : Collider
     {
-        // Rotations of PhysX's capsule, which is aligned with x, to x, y or z.
+        // Rotations of PhysX's capsule, whose axis is x, to the axes x, y and z.
         static readonly Quaternion[] Turns = { Quaternion.identity, Quaternion.Euler(0f, 0f, 90f), Quaternion.Euler(0f, -90f, 0f) };
 
         Vector3 ownCenter;
@@ -32,7 +32,7 @@ namespace UnityEngine
             }
         }
 
-        /// Height including both caps. Less than the diameter gives a sphere.
+        /// Height including both caps. If it is less than the diameter, the shape is a sphere.
         public float height
         {
             get => ownHeight;
@@ -61,7 +61,7 @@ namespace UnityEngine
             var wide = Mathf.Max(Mathf.Abs(scale[(ownDirection + 1) % 3]), Mathf.Abs(scale[(ownDirection + 2) % 3]));
             var scaledRadius = Mathf.Abs(ownRadius) * wide;
             var halfLength = Mathf.Max(0f, Mathf.Abs(ownHeight * scale[ownDirection]) * 0.5f - scaledRadius);
-            // PhysX does not accept capsules without a length.
+            // PhysX does not accept capsules of length 0.
             shape.Geometry.Kind = halfLength > 0f ? Physx.Kind.Capsule : Physx.Kind.Sphere;
             shape.Geometry.Radius = scaledRadius;
             shape.Geometry.Half = new Vector3(halfLength, 0f, 0f);

@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Queries and contacts use the shape's last synchronised pose, not the transform's.
+    /// Base of all colliders. Queries and contacts use the pose that was last synchronised to physics, not the current pose of the transform.
     public class Collider : Component
     {
         const float Tolerance = 1e-6f;
@@ -13,13 +13,13 @@ namespace UnityEngine
         bool ownsMaterial;
 
         internal bool Registered { get; private set; }
-        /// Number of registrations so far, which identifies stale information about an earlier one.
+        /// Number of times that the collider was registered. Information with a lower number is stale.
         internal int Registration { get; private set; }
         internal Rigidbody Body { get; private set; }
-        /// PhysX's handle; none if not registered or without a shape.
+        /// PhysX's handle of the shape; none if the collider is not registered or has no shape.
         internal int Handle { get; private set; } = Physx.None;
 
-        int place = Physx.None; // the static actor of a collider without a body
+        int staticActor = Physx.None; // the static actor of a collider without a body
         Physx.Shape known; // the shape as last sent to PhysX
         Vector3 position, scale; // of this object in the actor's frame
         Quaternion rotation;
@@ -102,11 +102,11 @@ namespace UnityEngine
 
         public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) => Queries.RaycastOne(this, ray, out hitInfo, maxDistance);
 
-        /// Returns the scaled geometry and its pose in this object's frame, or false without a shape.
+        /// Sets the scaled geometry and its pose in this object's frame. Returns false if the collider has no shape.
         internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
             throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
 
-        /// Returns the pose of the geometry if this object has the given pose.
+        /// Returns the pose that the geometry has when this object has the given pose.
         internal Physx.Pose GeometryAt(Vector3 position, Quaternion rotation)
         {
             var shape = new Physx.Shape();
@@ -162,8 +162,8 @@ namespace UnityEngine
         void Detach()
         {
             DropShape();
-            if (place != Physx.None) Physx.physics_actor_destroy(PhysicsWorld.Handle, place);
-            place = Physx.None;
+            if (staticActor != Physx.None) Physx.physics_actor_destroy(PhysicsWorld.Handle, staticActor);
+            staticActor = Physx.None;
             if (Body is null) return;
             Body.Colliders.Remove(this);
             Body = null;
@@ -179,8 +179,8 @@ namespace UnityEngine
             if (Body is null)
             {
                 var pose = new Physx.Pose(transform.position, transform.rotation);
-                if (place == Physx.None) place = Physx.physics_actor_create(PhysicsWorld.Handle, 0, &pose);
-                else PhysicsWorld.Order(place, Physx.Order.Pose, pose.Position, pose.Rotation);
+                if (staticActor == Physx.None) staticActor = Physx.physics_actor_create(PhysicsWorld.Handle, 0, &pose);
+                else PhysicsWorld.Order(staticActor, Physx.Order.Pose, pose.Position, pose.Rotation);
             }
             else if (!ReferenceEquals(Body.owner, owner))
             {
@@ -220,7 +220,7 @@ namespace UnityEngine
             if (Handle != Physx.None && (shape.Trigger != known.Trigger || shape.Geometry.Kind != known.Geometry.Kind)) DropShape();
             if (Handle == Physx.None)
             {
-                Handle = Physx.physics_shape_create(PhysicsWorld.Handle, Body is null ? place : Body.Handle, &shape);
+                Handle = Physx.physics_shape_create(PhysicsWorld.Handle, Body is null ? staticActor : Body.Handle, &shape);
                 if (Handle != Physx.None) PhysicsWorld.Add(this);
                 else Debug.LogError($"The collider of '{NameImpl}' has no shape: {Physx.Error()}", this);
             }
@@ -229,7 +229,7 @@ namespace UnityEngine
             known = shape;
         }
 
-        /// Rounding of a child's pose does not count as a change.
+        /// Compares two shapes with a tolerance for rounding errors in the poses of children.
         static bool Same(in Physx.Shape a, in Physx.Shape b)
         {
             return a.Geometry.Kind == b.Geometry.Kind && a.Geometry.Radius == b.Geometry.Radius && a.Geometry.Half.Equals(b.Geometry.Half)
@@ -245,7 +245,8 @@ namespace UnityEngine
 
         static bool Near(float a, float b) => Mathf.Abs(a - b) <= Tolerance;
 
-        /// Returns the reports that have listeners. Overlaps are sent to this object and its body, contacts to the body, or to this object without one.
+        /// Returns the kinds of reports that some script handles. Overlaps are sent to this object and to its body. Contacts are sent to the body, or to
+        /// this object if it has no body.
         Physx.Reports Listening()
         {
             var bodyMessages = Body is null ? owner.touchMessages : Body.owner.touchMessages;

@@ -5,7 +5,7 @@ namespace UnityEngine
     public struct ContactPoint
     {
         public Vector3 point { get; internal set; }
-        /// The normal, which points from the other collider into this one.
+        /// The normal. It points from the other collider to this one.
         public Vector3 normal { get; internal set; }
         public Vector3 impulse { get; internal set; }
         public Collider thisCollider { get; internal set; }
@@ -13,7 +13,7 @@ namespace UnityEngine
         public float separation { get; internal set; }
     }
 
-    /// One instance is reused for all messages, as by default in Unity. Copy values to keep them.
+    /// The data of a collision message. As in Unity by default, one instance is reused for all messages, so copy the values that you want to keep.
     public class Collision
     {
         internal readonly List<ContactPoint> Contacts = new List<ContactPoint>();

@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Triangles, or a hull around points, in PhysX's form.
+    /// A mesh in PhysX's format, as triangles or as a convex hull.
     sealed class CookedMesh
     {
         public IntPtr Handle { get; private set; }

@@ -27,7 +27,7 @@ namespace UnityEngine
         public float targetPosition;
     }
 
-    /// Rotates about its axis through its anchor. A motor also brakes. Limits do not bounce.
+    /// Lets a body rotate about an axis through the anchor. Unlike in Unity, the motor also brakes, and the limits do not bounce.
     public class HingeJoint : Joint
     {
         JointMotor ownMotor;
@@ -42,7 +42,7 @@ namespace UnityEngine
         public bool useLimits { get => ownUseLimits; set => Set(ref ownUseLimits, value); }
         public bool useSpring { get => ownUseSpring; set => Set(ref ownUseSpring, value); }
 
-        /// Degrees per second about the axis, as seen from the connected body.
+        /// Angular velocity about the axis relative to the connected body, in degrees per second.
         public float velocity
         {
             get

@@ -2,7 +2,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Pairs of layers and of single colliders that do not collide.
+    /// The pairs of layers and the pairs of colliders that do not collide.
     sealed class IgnoredPairs
     {
         readonly int[] layers = new int[32]; // bit j of row i: layers i and j
@@ -32,7 +32,7 @@ namespace UnityEngine
             fixed (int* rows = layers) Physx.physics_ignore_layers(world, rows);
         }
 
-        /// Clears all pairs. PhysX's world, which also stores them, is destroyed at the same time.
+        /// Clears all pairs. The caller also destroys PhysX's world, which has its own copy.
         public void Clear()
         {
             System.Array.Clear(layers, 0, layers.Length);

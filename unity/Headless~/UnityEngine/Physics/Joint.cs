@@ -1,6 +1,6 @@
 namespace UnityEngine
 {
-    /// Connects its body with another one, or with the world. It uses the poses of the bodies when it becomes active or changes.
+    /// Connects the object's body to another body or to the world. The connection uses the poses that the bodies have when the joint becomes active or changes.
     [RequireComponent(typeof(Rigidbody))]
     public abstract class Joint : Component
     {

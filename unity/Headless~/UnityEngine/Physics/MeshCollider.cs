@@ -2,7 +2,8 @@ using System;
 
 namespace UnityEngine
 {
-    /// A convex collider is the hull around the mesh. A concave one consists of its triangles, has no inside, and must be static or kinematic.
+    /// A collider with the shape of a mesh. If it is convex, its shape is the convex hull of the mesh. Otherwise it consists of the triangles of the mesh,
+    /// has no interior, and must be static or kinematic.
     public class MeshCollider : Collider
     {
         Mesh ownMesh;
@@ -65,7 +66,7 @@ namespace UnityEngine
             return true;
         }
 
-        /// Applies the scale to the vertices, which supports any scale, including mirrored and flat ones.
+        /// Converts the mesh to PhysX's format. The scale is applied to the vertices, because PhysX does not support mirrored and flat scales.
         void Cook(Vector3 scale)
         {
             var points = ownMesh.vertices;

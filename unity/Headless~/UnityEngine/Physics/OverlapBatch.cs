@@ -4,8 +4,8 @@ using Unity.Collections;
 
 namespace UnityEngine
 {
-    /// A batch of sphere overlaps that runs on the other physics threads while the main thread continues. Only one runs at a time. Any other
-    /// request to physics completes it first.
+    /// A batch of sphere overlaps that runs on other physics threads while the main thread continues. Only one batch runs at a time. Any other request to
+    /// physics first waits for its end.
     static unsafe class OverlapBatch
     {
         static Physx.Sphere* spheres; // native, as the next two: kept until the process ends
@@ -13,18 +13,18 @@ namespace UnityEngine
         static int* shapes;
         static int sphereCapacity, shapeCapacity;
         static NativeArray<ColliderHit> results;
-        static int count, places;
+        static int count, hitsPerSphere;
         static IntPtr world;
 
         public static bool IsRunning { get; private set; }
 
-        /// Writes the colliders that touch each sphere to its part of the results, up to its capacity, followed by null.
-        public static void Begin(Span<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int placesOfEach)
+        /// Starts a batch. Each sphere has `maxHits` results, which receive the colliders that touch it. If there are fewer, null follows the last one.
+        public static void Begin(Span<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int maxHits)
         {
             PhysicsWorld.Flush();
             world = PhysicsWorld.Handle;
             count = commands.Length;
-            places = placesOfEach;
+            hitsPerSphere = maxHits;
             results = hits;
             Reserve();
             for (var index = 0; index < count; index++)
@@ -33,12 +33,12 @@ namespace UnityEngine
                 var centre = command.point;
                 var radius = Mathf.Abs(command.radius);
                 var sum = centre.x + centre.y + centre.z + radius;
-                // NaN finds nothing.
+                // A sphere with NaN finds no colliders.
                 var isNumber = sum - sum == 0f;
                 spheres[index] = isNumber ? new Physx.Sphere { Centre = centre, Radius = radius } : default;
                 filters[index] = isNumber ? Queries.Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers) : default;
             }
-            Physx.physics_begin_overlaps(world, spheres, filters, count, shapes, places);
+            Physx.physics_begin_overlaps(world, spheres, filters, count, shapes, hitsPerSphere);
             IsRunning = true;
         }
 
@@ -49,11 +49,11 @@ namespace UnityEngine
             Physx.physics_finish_overlaps(world);
             var hits = results.AsSpan();
             results = default;
-            for (var first = 0; first < count * places; first += places)
-                for (var place = first; place < first + places; place++)
+            for (var first = 0; first < count * hitsPerSphere; first += hitsPerSphere)
+                for (var index = first; index < first + hitsPerSphere; index++)
                 {
-                    var shape = shapes[place];
-                    hits[place].collider = PhysicsWorld.ColliderOf(shape);
+                    var shape = shapes[index];
+                    hits[index].collider = PhysicsWorld.ColliderOf(shape);
                     if (shape == Physx.None) break;
                 }
         }
@@ -66,8 +66,8 @@ namespace UnityEngine
                 spheres = (Physx.Sphere*)Longer(spheres, sphereCapacity, sizeof(Physx.Sphere));
                 filters = (Physx.Filter*)Longer(filters, sphereCapacity, sizeof(Physx.Filter));
             }
-            if (count * places <= shapeCapacity) return;
-            shapeCapacity = Math.Max(1024, 2 * count * places);
+            if (count * hitsPerSphere <= shapeCapacity) return;
+            shapeCapacity = Math.Max(1024, 2 * count * hitsPerSphere);
             shapes = (int*)Longer(shapes, shapeCapacity, sizeof(int));
         }
 

@@ -107,7 +107,7 @@ namespace UnityEngine
         static Physx.Pose At(Vector3 position) => new Physx.Pose(position, Quaternion.identity);
         static Physx.Pose At(Vector3 position, Quaternion rotation) => new Physx.Pose(position, rotation.normalized);
 
-        /// The points are the centres of the two caps.
+        /// Returns the capsule whose caps have the given centres.
         static Physx.Geometry CapsuleGeometry(Vector3 from, Vector3 to, float radius, out Physx.Pose pose)
         {
             var length = (to - from).magnitude;
@@ -118,7 +118,7 @@ namespace UnityEngine
 
         // ---- Sweeps ---------------------------------------------------------------------------------------------------
 
-        /// Shapes that the sphere overlaps at its start are not hit.
+        /// Ignores shapes that the sphere overlaps at its start.
         public static bool SphereCast(Vector3 origin, float radius, Vector3 direction, out RaycastHit hitInfo, float maxDistance = Mathf.Infinity,
             int layerMask = DefaultRaycastLayers, QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.Sweep(Ball(radius), At(origin), direction, out hitInfo, maxDistance, layerMask, queryTriggerInteraction);

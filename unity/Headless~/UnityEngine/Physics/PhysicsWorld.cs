@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// The physics world: transforms that moved since the last sync, commands for PhysX, and the step. For the main thread only.
+    /// The physics world. It collects moved transforms and commands for PhysX, and steps PhysX. Use it from the main thread only.
     static unsafe class PhysicsWorld
     {
         public static readonly IgnoredPairs Ignored = new IgnoredPairs();
@@ -23,16 +23,17 @@ namespace UnityEngine
         static bool stepping;
         static int materialChanges;
 
-        /// Motions by PhysX's handle of the body, written by PhysX in steps and by scripts in between. Native, kept until the process ends.
+        /// Motions of the bodies, indexed by PhysX's handle of the body. PhysX writes them during steps, and scripts between steps. The native memory is
+        /// kept until the process ends.
         public static Physx.Motion* Motions { get; private set; }
 
-        /// Steps of this world so far.
+        /// Number of steps of this world so far.
         public static int StepCount { get; private set; }
 
         /// Number of threads for the next world. Results do not depend on it.
         public static int Threads = 1;
 
-        /// Returns the world for a call, after completing running queries.
+        /// The world. Running queries are completed before it is returned.
         public static IntPtr Handle
         {
             get
@@ -59,7 +60,7 @@ namespace UnityEngine
             return world;
         }
 
-        /// Called when all objects have been destroyed.
+        /// Resets the physics world. All objects must have been destroyed.
         public static void ResetState()
         {
             OverlapBatch.Finish();
@@ -118,23 +119,23 @@ namespace UnityEngine
 
         public static Collider ColliderOf(int shape) => shape == Physx.None ? null : colliders[shape];
 
-        /// Called when its transform is attached to a parent or detached.
+        /// Records whether the body's transform has a parent.
         public static void SetNested(Rigidbody body, bool nested)
         {
-            if (nested == body.PlaceInNested >= 0) return;
+            if (nested == body.IndexInNested >= 0) return;
             if (nested)
             {
-                body.PlaceInNested = Nested.Count;
+                body.IndexInNested = Nested.Count;
                 Nested.Add(body);
                 return;
             }
             var last = Nested[Nested.Count - 1];
-            Nested[last.PlaceInNested = body.PlaceInNested] = last;
+            Nested[last.IndexInNested = body.IndexInNested] = last;
             Nested.RemoveAt(Nested.Count - 1);
-            body.PlaceInNested = -1;
+            body.IndexInNested = -1;
         }
 
-        /// Moves its transform at the next step, even if PhysX does not move the body.
+        /// Requests that the next step moves the body's transform, even if PhysX does not move the body.
         public static void PublishAfterStep(Rigidbody body) => Unpublished.Add(body);
 
         // ---- Commands -------------------------------------------------------------------------------------------------
@@ -192,7 +193,7 @@ namespace UnityEngine
             Moved.Add(transform);
         }
 
-        /// Needed because a new parent can change the body of a collider.
+        /// Records a change of parents, because a new parent can change the body of a collider.
         public static void HierarchyChanged(Transform transform)
         {
             var parts = transform.owner.physicsParts;
@@ -247,8 +248,8 @@ namespace UnityEngine
                 var done = Physx.physics_step(Handle, commands, count, step, &gravity, StepCount + 1, Motions, &result);
                 StepCount++;
                 if (done == 0) throw new InvalidOperationException(Physx.Error());
-                // Other transforms are updated from their bodies when they are read, which does not happen between the steps of a tick. These must be
-                // updated before their parents move.
+                // Most transforms are updated from their bodies only when they are read, which saves work between the steps of a tick. Transforms with
+                // parents must be updated before their parents move.
                 foreach (var body in Nested) body.UpdateTransform();
                 foreach (var body in Unpublished) body.Publish();
                 Unpublished.Clear();
@@ -264,7 +265,7 @@ namespace UnityEngine
             }
         }
 
-        /// Null if no joint broke.
+        /// Returns the joints that broke in a step, or null if none broke.
         static List<Joint> BrokenJoints(in Physx.Result result)
         {
             List<Joint> broken = null;

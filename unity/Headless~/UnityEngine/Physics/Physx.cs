@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// The C interface of collektive_physics, documented in its header (NativePhysics/include/collektive_physics.h).
+    /// The C interface of the library collektive_physics. Its header, NativePhysics/include/collektive_physics.h, documents it.
     static unsafe class Physx
     {
         public const int Version = 4;
@@ -83,7 +83,8 @@ namespace UnityEngine
             public Combine FrictionCombine, BounceCombine;
         }
 
-        /// The values of PhysX. If two materials differ, the greater value applies.
+        /// How the properties of two materials are combined. The values are PhysX's. If two materials have different modes, the mode with the greater value
+        /// applies.
         public enum Combine
         {
             Average = 0,
@@ -234,7 +235,7 @@ namespace UnityEngine
         [DllImport(Library)]
         public static extern int physics_penetration(IntPtr world, int shape, Pose* at, int other, Pose* otherAt, Vector3* direction, float* distance);
 
-        /// The first error since the last call, or an empty text.
+        /// Returns the first error since the last call, or an empty string.
         public static string Error()
         {
             var text = physics_error();

@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// Queries of the world at the last synchronised poses. In steady state, only array results allocate.
+    /// Queries of the world. They use the poses that were last synchronised to physics. In steady state, only results that are new arrays allocate.
     static unsafe class Queries
     {
         static Physx.Hit[] hits = new Physx.Hit[64];
@@ -10,7 +10,7 @@ namespace UnityEngine
         static Physx.RayLine[] lines = new Physx.RayLine[64];
         static Physx.Filter[] filters = new Physx.Filter[64];
 
-        /// Returns PhysX's world after a sync.
+        /// PhysX's world, after synchronising moved transforms.
         static IntPtr World
         {
             get
@@ -32,7 +32,7 @@ namespace UnityEngine
             return sum - sum == 0f;
         }
 
-        /// Returns false for a query without a direction or with NaN.
+        /// Creates the ray of a query. Returns false if the direction is zero or a number is NaN.
         static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line) =>
             UnitLine(origin, direction.normalized, maxDistance, out line);
 

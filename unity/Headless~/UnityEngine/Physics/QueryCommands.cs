@@ -28,7 +28,7 @@ namespace UnityEngine
         public Collider collider { get; internal set; }
     }
 
-    /// A batch with one hit per ray runs on all physics threads, one with more hits on the calling thread.
+    /// A ray of a batch. A batch with one hit per ray runs on all physics threads; a batch with more hits runs on the calling thread.
     public struct RaycastCommand
     {
         static RaycastHit[] found = Array.Empty<RaycastHit>();
@@ -78,13 +78,13 @@ namespace UnityEngine
                 count = Math.Min(maxHits, count);
                 var hits = results.AsSpan().Slice(index * maxHits, maxHits);
                 new Span<RaycastHit>(found, 0, count).CopyTo(hits);
-                // The first hit without a collider is the end. Later ones are not written.
+                // A hit without a collider marks the end of a ray's hits. Results after it are not written.
                 if (count < maxHits) hits[count] = default;
             }
         }
     }
 
-    /// A started batch runs on the other physics threads until its handle, or another call, requests the results.
+    /// A sphere of a batch. A started batch runs on other physics threads until its handle or another call to physics waits for the results.
     public struct OverlapSphereCommand
     {
         public QueryParameters queryParameters;

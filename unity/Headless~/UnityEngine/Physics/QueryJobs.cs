@@ -4,7 +4,7 @@ using Unity.Jobs;
 
 namespace UnityEngine
 {
-    /// Batches of queries that are scheduled but not started, in their order.
+    /// The batches of queries that were scheduled but not started, in the order in which they were scheduled.
     static class QueryJobs
     {
         struct Job
@@ -38,7 +38,7 @@ namespace UnityEngine
 
         internal static int Count => Waiting.Count;
 
-        /// Starts all batches. Those of rays are complete on return.
+        /// Starts all batches. Batches of rays are complete when it returns.
         internal static void Start()
         {
             for (var i = 0; i < Waiting.Count; i++)

@@ -15,7 +15,7 @@ namespace UnityEngine
         public Vector3 point { get; set; }
         public Vector3 normal { get; set; }
         public float distance { get; set; }
-        /// Index of the triangle of a concave mesh; otherwise -1.
+        /// Index of the triangle if the collider is a concave mesh; otherwise -1.
         public int triangleIndex { get; }
         public Rigidbody rigidbody => collider ? collider.attachedRigidbody : null;
         public Transform transform => rigidbody ? rigidbody.transform : collider ? collider.transform : null;

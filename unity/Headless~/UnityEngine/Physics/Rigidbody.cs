@@ -41,8 +41,8 @@ namespace UnityEngine
         ContinuousSpeculative = 3,
     }
 
-    /// Velocities and poses are those after the last step, with values set by scripts since, but without forces. They are not interpolated, because no frame
-    /// is between steps.
+    /// A body. Its velocity and pose are the results of the last step, or the values that scripts set since then. Forces affect them only in the next step.
+    /// Poses are never interpolated between steps.
     [DisallowMultipleComponent]
     public class Rigidbody : Component
     {
@@ -50,11 +50,11 @@ namespace UnityEngine
         const int DefaultIterations = 6, DefaultVelocityIterations = 1;
 
         internal readonly List<Collider> Colliders = new List<Collider>();
-        /// PhysX's handle; none if inactive.
+        /// PhysX's handle of the body; none while the body is inactive.
         internal int Handle = Physx.None;
-        internal int PlaceInNested = -1;
+        internal int IndexInNested = -1;
 
-        Transform place; // while it is active
+        Transform activeTransform; // while it is active
         Physx.Motion ownMotion; // while it is not
         float ownMass = 1f;
         bool kinematic, gravity = true;
@@ -127,7 +127,7 @@ namespace UnityEngine
             }
         }
 
-        /// Maximum speed at which the solver separates it from overlapping shapes.
+        /// Maximum speed at which the solver separates the body from overlapping shapes.
         public float maxDepenetrationVelocity
         {
             get => ownDepenetration;
@@ -149,7 +149,7 @@ namespace UnityEngine
             }
         }
 
-        /// Kinetic energy per kilogram below which it falls asleep.
+        /// Kinetic energy per kilogram below which the body falls asleep.
         public float sleepThreshold
         {
             get => ownSleepThreshold;
@@ -199,7 +199,8 @@ namespace UnityEngine
                 kinematic = value;
                 Motion.Velocity = Motion.Spin = Vector3.zero;
                 Motion.Asleep = 0;
-                // Only kinematic bodies can have some shapes: remove these before the change, and add them after it.
+                // Only kinematic bodies can have some kinds of shapes. Such shapes must be removed before the body becomes dynamic, and added after it
+                // became kinematic.
                 if (!value) RefreshColliders();
                 Order(Physx.Order.Kinematic, new Vector3(value ? 1f : 0f, 0f, 0f));
                 Order(Physx.Order.Detection, new Vector3((int)detection, 0f, 0f));
@@ -255,7 +256,7 @@ namespace UnityEngine
             }
         }
 
-        /// Position in physics. Setting it moves the transform at the next step.
+        /// Position of the body in physics. If it is set, the transform moves at the next step.
         public Vector3 position
         {
             get => Registered ? Motion.Pose.Position : transform.position;
@@ -270,7 +271,7 @@ namespace UnityEngine
 
         // ---- Mass -----------------------------------------------------------------------------------------------------
 
-        /// Centre of mass in the body's frame; computed from its colliders unless set.
+        /// Centre of mass in the body's frame. Unless it is set, it is computed from the body's colliders.
         public unsafe Vector3 centerOfMass
         {
             get
@@ -357,7 +358,7 @@ namespace UnityEngine
 
         // ---- Control --------------------------------------------------------------------------------------------------
 
-        /// A kinematic body moves there in the next step and pushes other bodies. A dynamic one is placed there.
+        /// Moves the body in the next step. A kinematic body moves continuously and pushes other bodies. A dynamic body is placed at the position.
         public void MovePosition(Vector3 position) => Move(position, HasTarget ? targetRotation : rotation);
 
         public void MoveRotation(Quaternion rotation) => Move(HasTarget ? targetPosition : position, rotation);
@@ -378,7 +379,7 @@ namespace UnityEngine
         public void AddForce(float x, float y, float z) => AddForce(new Vector3(x, y, z));
         public void AddForce(float x, float y, float z, ForceMode mode) => AddForce(new Vector3(x, y, z), mode);
 
-        /// Takes effect in the next step.
+        /// Adds a force, which takes effect in the next step.
         public void AddForce(Vector3 force, ForceMode mode)
         {
             if (!Finite.Accepts(force, "Rigidbody.AddForce", this) || kinematic) return;
@@ -411,7 +412,7 @@ namespace UnityEngine
 
         public void AddForceAtPosition(Vector3 force, Vector3 position) => AddForceAtPosition(force, position, ForceMode.Force);
 
-        /// For `Force` and `Impulse`, the modes that Unity supports here.
+        /// Adds a force at a position. As in Unity, only the modes `Force` and `Impulse` are supported.
         public void AddForceAtPosition(Vector3 force, Vector3 position, ForceMode mode)
         {
             AddForce(force, mode);
@@ -448,7 +449,7 @@ namespace UnityEngine
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
             Queries.SweepAll(this, direction, maxDistance, queryTriggerInteraction);
 
-        /// Returns the nearest point on the bounds of its colliders.
+        /// Returns the nearest point on the bounds of the body's colliders.
         public Vector3 ClosestPointOnBounds(Vector3 position)
         {
             var best = position;
@@ -512,14 +513,14 @@ namespace UnityEngine
 
         internal override unsafe void Activate()
         {
-            place = owner.TransformUnchecked;
-            var pose = new Physx.Pose(place.position, place.rotation);
+            activeTransform = owner.TransformUnchecked;
+            var pose = new Physx.Pose(activeTransform.position, activeTransform.rotation);
             Handle = Physx.physics_actor_create(PhysicsWorld.Handle, 1, &pose);
             PhysicsWorld.Add(this);
             ownMotion.Pose = pose;
             Motion = ownMotion;
-            place.Follow(Handle);
-            PhysicsWorld.SetNested(this, !(place.parentOrNull is null));
+            activeTransform.Follow(Handle);
+            PhysicsWorld.SetNested(this, !(activeTransform.parentOrNull is null));
             SendAll();
             owner.AddPhysics(this);
             foreach (var collider in owner.GetComponentsInChildren<Collider>())
@@ -534,7 +535,7 @@ namespace UnityEngine
             PhysicsWorld.Flush();
             PhysicsWorld.Disconnect(this);
             PhysicsWorld.Remove(this);
-            place.Follow(Physx.None);
+            activeTransform.Follow(Physx.None);
             var oldHandle = Handle;
             Handle = Physx.None;
             foreach (var collider in Colliders.ToArray()) collider.Attach();
@@ -559,8 +560,8 @@ namespace UnityEngine
 
         void SetPose(Vector3 position, Quaternion rotation)
         {
-            // The transform keeps the pose of the last step until the next one.
-            place.Follow();
+            // The transform keeps the pose of the last step until the next step.
+            activeTransform.Follow();
             ref var motion = ref Motion;
             motion.Pose = new Physx.Pose(position, rotation);
             motion.Asleep = 0;
@@ -568,9 +569,9 @@ namespace UnityEngine
         }
 
         /// Moves the transform if the last step moved the body.
-        internal void UpdateTransform() => place.Follow();
+        internal void UpdateTransform() => activeTransform.Follow();
 
-        internal void Publish() => place.Place(Motion.Pose.Position, Motion.Pose.Rotation);
+        internal void Publish() => activeTransform.Place(Motion.Pose.Position, Motion.Pose.Rotation);
 
         internal override void CopyFrom(Component original)
         {

@@ -3,7 +3,8 @@ using UnityEngine.Headless;
 
 namespace UnityEngine
 {
-    /// The surface of a height map, with two triangles per square of samples. It uses the position of its object, but not its rotation or scale.
+    /// A collider with the surface of a height map, which has two triangles per square of samples. It uses the position of its object, but ignores the
+    /// rotation and the scale.
     public class TerrainCollider : Collider
     {
         readonly CookedMesh cooked = new CookedMesh();

@@ -13,7 +13,8 @@ namespace UnityEngine
         /// Number of changes.
         internal int Version { get; private set; }
 
-        /// Samples along each side: a power of two plus one, from 33 to 4097. Other numbers are rounded up. Setting it resets all heights to 0.
+        /// Number of samples along each side, a power of two plus one from 33 to 4097. Other numbers are rounded up. Setting the resolution resets all
+        /// heights to 0.
         public int heightmapResolution
         {
             get => heights.GetLength(0);
@@ -41,7 +42,7 @@ namespace UnityEngine
 
         public float GetHeight(int x, int y) => ownSize.y * heights[Inside(y), Inside(x)];
 
-        /// `heights` has a row for each step along z.
+        /// Sets a block of heights. `heights` has a row for each sample along z.
         public void SetHeights(int xBase, int yBase, float[,] heights)
         {
             int rows = heights.GetLength(0), columns = heights.GetLength(1);

@@ -2,8 +2,8 @@ using System;
 
 namespace UnityEngine
 {
-    /// Sends PhysX's reports to scripts: Enter in the first step of a touch, Stay in later ones (for triggers also in the first), and Exit in the first
-    /// step without it. A collider that was disabled or destroyed in between sends no Exit.
+    /// Sends PhysX's reports to scripts. Enter is sent in the first step of a touch, Stay in later steps (for triggers also in the first step), and Exit in
+    /// the first step without the touch. If a collider was disabled or destroyed in between, no Exit is sent.
     sealed unsafe class Touches
     {
         struct Touch
@@ -27,7 +27,7 @@ namespace UnityEngine
         {
             Copy(result);
             Orders.Shuffle(touches, count);
-            // A message can do anything except step physics.
+            // A message may change or destroy any object, but must not step physics.
             for (var index = 0; index < count; index++)
             {
                 if (!touches[index].StillRegistered) continue;
@@ -122,7 +122,7 @@ namespace UnityEngine
             }
         }
 
-        /// Fills the message with the touch from one side; the sign is 1 for A. An Exit has no contacts.
+        /// Fills the message with the touch, as seen from one of the two sides. The sign is 1 for side A. An Exit has no contacts.
         void Fill(in Touch touch, Collider to, Collider other, float sign)
         {
             message.collider = other;

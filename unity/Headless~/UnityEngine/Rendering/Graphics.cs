@@ -19,7 +19,7 @@ namespace UnityEngine
         public bool receiveShadows { get; set; }
     }
 
-    /// Draw calls are not executed but recorded for the frame (`Headless.DrawLog`).
+    /// Records the draw calls of the frame in `Headless.DrawLog` instead of executing them.
     public class Graphics
     {
         public static void RenderPrimitives(in RenderParams rparams, MeshTopology topology, int vertexCount, int instanceCount = 1)

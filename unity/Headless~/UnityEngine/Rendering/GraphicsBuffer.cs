@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace UnityEngine
 {
-    /// Simulates memory of a graphics card. Tests read the content (`Data`).
+    /// Simulates a buffer on the graphics card. Tests read its content with `Data`.
     public sealed class GraphicsBuffer : IDisposable
     {
         [Flags]
@@ -43,7 +43,7 @@ namespace UnityEngine
         public int count { get; }
         public int stride { get; }
 
-        /// The elements as a shader reads them.
+        /// Returns the elements in the form that a shader reads.
         internal T[] Data<T>()
             where T : struct => MemoryMarshal.Cast<byte, T>(memory).ToArray();
 

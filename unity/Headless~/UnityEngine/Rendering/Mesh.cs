@@ -19,7 +19,7 @@ namespace UnityEngine
         readonly List<Color> ownColors = new List<Color>();
         readonly List<int> indices = new List<int>();
 
-        /// Number of changes of vertices and triangles.
+        /// Number of times that vertices or triangles were changed.
         internal int Version { get; private set; }
 
         public IndexFormat indexFormat { get; set; }
@@ -118,7 +118,7 @@ namespace UnityEngine
 
         internal static void ResetState() => Array.Clear(Primitives, 0, Primitives.Length);
 
-        /// Has the name and size of Unity's mesh, but no vertices.
+        /// Returns a mesh with the name and size of Unity's mesh for a primitive, but without vertices.
         internal static Mesh Primitive(PrimitiveType type)
         {
             var size = type switch

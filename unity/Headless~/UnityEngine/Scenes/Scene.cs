@@ -5,7 +5,7 @@ namespace UnityEngine.SceneManagement
     /// A loaded scene, or a preview scene of the editor.
     public struct Scene
     {
-        /// The loaded scenes; the first is the player's own.
+        /// The loaded scenes. The first is the player's scene.
         internal static readonly List<Scene> Loaded = new List<Scene> { new Scene("Scene") };
 
         internal static Scene Active = Loaded[0];

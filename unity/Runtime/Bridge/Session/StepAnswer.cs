@@ -128,8 +128,8 @@ namespace Collektive.Bridge
 
         private unsafe Span<T> Vector<T>(int field) where T : unmanaged
         {
-            var fieldOffset = table.__offset(field);
-            return fieldOffset == 0 ? default : MemoryMarshal.Cast<byte, T>(table.bb.ToSpan(table.__vector(fieldOffset), table.__vector_len(fieldOffset) * sizeof(T)));
+            var offset = table.__offset(field);
+            return offset == 0 ? default : MemoryMarshal.Cast<byte, T>(table.bb.ToSpan(table.__vector(offset), table.__vector_len(offset) * sizeof(T)));
         }
     }
 
