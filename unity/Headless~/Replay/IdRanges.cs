@@ -3,37 +3,37 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>A set of ids as ranges. Ids that are assigned in order form few ranges.</summary>
+    /// <summary>A set of ids, stored as ranges. Ids that were assigned in order form only a few ranges.</summary>
     internal sealed class IdRanges
     {
-        // The ranges in ascending order, with a gap between two ranges.
+        // The bounds of the ranges, in ascending order. Ranges without a gap between them are merged.
         private readonly List<int> first = new List<int>();
         private readonly List<int> last = new List<int>();
 
         internal void Add(int id)
         {
-            // Returns the first range that ends at or after the id.
-            var place = last.BinarySearch(id);
-            if (place < 0) place = ~place;
-            if (place < first.Count && first[place] <= id) return;
-            var continues = place > 0 && last[place - 1] == id - 1;
-            var precedes = place < first.Count && first[place] == id + 1;
+            // The first range that ends at or after the id.
+            var index = last.BinarySearch(id);
+            if (index < 0) index = ~index;
+            if (index < first.Count && first[index] <= id) return;
+            var continues = index > 0 && last[index - 1] == id - 1;
+            var precedes = index < first.Count && first[index] == id + 1;
             if (continues && precedes)
             {
-                last[place - 1] = last[place];
-                first.RemoveAt(place);
-                last.RemoveAt(place);
+                last[index - 1] = last[index];
+                first.RemoveAt(index);
+                last.RemoveAt(index);
             }
-            else if (continues) last[place - 1] = id;
-            else if (precedes) first[place] = id;
+            else if (continues) last[index - 1] = id;
+            else if (precedes) first[index] = id;
             else
             {
-                first.Insert(place, id);
-                last.Insert(place, id);
+                first.Insert(index, id);
+                last.Insert(index, id);
             }
         }
 
-        /// <summary>First and last id of each range.</summary>
+        /// <summary>Returns the first and the last id of each range.</summary>
         internal JArray ToJson()
         {
             var json = new JArray();

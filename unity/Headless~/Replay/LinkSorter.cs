@@ -3,16 +3,16 @@ using System;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Sorts links by their slots with a counting sort, because a comparison sort is ten times slower and allocates. Reuses its memory.
+    /// Sorts links by their slots. It uses a counting sort and reuses its memory, because a comparison sort is ten times slower and allocates.
     /// </summary>
     internal sealed class LinkSorter
     {
         private long[] other = new long[256];
         private int[] places = new int[64];
 
-        /// <param name="keys">As <see cref="ReplayFrame.LinkKeys"/>.</param>
+        /// <param name="keys">Keys in the format of <see cref="ReplayFrame.LinkKeys"/>.</param>
         /// <param name="count">Number of keys.</param>
-        /// <param name="slots">Upper bound of the slots, exclusive.</param>
+        /// <param name="slots">A number that is greater than all slots.</param>
         internal void Sort(long[] keys, int count, int slots)
         {
             if (other.Length < count) other = new long[keys.Length];
@@ -21,7 +21,7 @@ namespace Collektive.Headless
             Pass(other, keys, count, slots, 26);
         }
 
-        /// <summary>Copies the keys in the order of one slot. The sort is stable.</summary>
+        /// <summary>Copies the keys, sorted by one of their two slots. The sort is stable.</summary>
         private void Pass(long[] from, long[] to, int count, int slots, int shift)
         {
             Array.Clear(places, 0, slots + 1);

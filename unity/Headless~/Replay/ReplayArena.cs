@@ -6,28 +6,28 @@ namespace Collektive.Headless
     /// <summary>The space of the page's first view, in metres.</summary>
     internal sealed class ReplayArena
     {
-        private readonly float[] least;
-        private readonly float[] greatest;
+        private readonly float[] minimum;
+        private readonly float[] maximum;
         // Maximum growth in metres at each end of an axis.
         private readonly float maxGrowth;
         private readonly float[] reachedMin;
         private readonly float[] reachedMax;
 
-        internal ReplayArena(float[] least, float[] greatest, bool grows)
+        internal ReplayArena(float[] minimum, float[] maximum, bool grows)
         {
-            this.least = least;
-            this.greatest = greatest;
-            for (var axis = 0; axis < 3; axis++) LongestSide = Math.Max(LongestSide, (double)greatest[axis] - least[axis]);
+            this.minimum = minimum;
+            this.maximum = maximum;
+            for (var axis = 0; axis < 3; axis++) LongestSide = Math.Max(LongestSide, (double)maximum[axis] - minimum[axis]);
             maxGrowth = grows ? (float)LongestSide : 0;
-            reachedMin = (float[])least.Clone();
-            reachedMax = (float[])greatest.Clone();
+            reachedMin = (float[])minimum.Clone();
+            reachedMax = (float[])maximum.Clone();
         }
 
-        /// <summary>Bounds of the arena before it grows.</summary>
+        /// <summary>Longest side of the arena before it grows, in metres.</summary>
         internal double LongestSide { get; }
 
-        /// <summary>The initial arena.</summary>
-        internal ReplayArena Copy() => new ReplayArena(least, greatest, maxGrowth > 0);
+        /// <summary>Returns a copy of the arena as it was before it grew.</summary>
+        internal ReplayArena Copy() => new ReplayArena(minimum, maximum, maxGrowth > 0);
 
         /// <summary>Extends the arena to a point, within its limits.</summary>
         internal void Include(float x, float y, float z)
@@ -40,10 +40,10 @@ namespace Collektive.Headless
         internal JObject ToJson() =>
             new JObject { ["min"] = ReplayMetadata.Numbers(reachedMin), ["max"] = ReplayMetadata.Numbers(reachedMax) };
 
-        private void Include(int axis, float place)
+        private void Include(int axis, float coordinate)
         {
-            if (place < reachedMin[axis]) reachedMin[axis] = Math.Max(place, least[axis] - maxGrowth);
-            if (place > reachedMax[axis]) reachedMax[axis] = Math.Min(place, greatest[axis] + maxGrowth);
+            if (coordinate < reachedMin[axis]) reachedMin[axis] = Math.Max(coordinate, minimum[axis] - maxGrowth);
+            if (coordinate > reachedMax[axis]) reachedMax[axis] = Math.Min(coordinate, maximum[axis] + maxGrowth);
         }
     }
 }

@@ -8,7 +8,7 @@ namespace Collektive.Headless
     /// <summary>Kinds of fields, which determine how values are stored and shown.</summary>
     public enum ReplayFieldKind
     {
-        /// <summary>Numbers on a scale, stored in 65,534 steps of their range in a segment.</summary>
+        /// <summary>Numbers on a scale. They are rounded to 65,534 steps of their range in a segment.</summary>
         Number,
 
         /// <summary>Integers that identify a category, such as ids. Each has its own colour and is stored exactly.</summary>
@@ -18,18 +18,18 @@ namespace Collektive.Headless
         Colour,
     }
 
-    /// <summary>A value that each node has in each frame and that can colour the node.</summary>
+    /// <summary>A value that nodes have in each frame, and by which they can be coloured.</summary>
     public sealed class ReplayField
     {
         private const int MaxInteger = 1 << 30;
 
-        // Coloured categories, in the order of appearance.
+        // Number of categories whose order of appearance is stored for their colours.
         private const int MaxColouredCategories = 256;
 
         private readonly HashSet<int> categories = new HashSet<int>();
         private readonly JArray order = new JArray();
 
-        /// <param name="name">Shown in the legend; different for each field.</param>
+        /// <param name="name">Name in the legend, unique among the fields.</param>
         /// <param name="kind">Kind of the values.</param>
         public ReplayField(string name, ReplayFieldKind kind = ReplayFieldKind.Number)
         {
@@ -56,7 +56,7 @@ namespace Collektive.Headless
         internal double Greatest { get; private set; } = double.NegativeInfinity;
         internal bool HasMissingValues { get; private set; }
 
-        /// <summary>Returns why a value cannot be stored, or null if it can.</summary>
+        /// <summary>Returns the reason why a value cannot be stored, or null if it can be stored.</summary>
         internal string FindProblem(double value)
         {
             if (double.IsNaN(value)) return null;
@@ -65,7 +65,7 @@ namespace Collektive.Headless
             return "the " + Name + " " + value.ToString("R", CultureInfo.InvariantCulture) + ", which is not a whole number below 2^30";
         }
 
-        /// <summary>Widens the field's range.</summary>
+        /// <summary>Extends the field's range to include a value.</summary>
         internal void Include(double value)
         {
             if (double.IsNaN(value)) HasMissingValues = true;

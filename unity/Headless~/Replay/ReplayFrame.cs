@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Headless
 {
-    /// <summary>One frame: its links, and for each slot the presence of a node, its position in steps and its values.</summary>
+    /// <summary>One frame with its links. For each slot, it stores whether a node is present, and the node's position in steps and values.</summary>
     internal sealed class ReplayFrame
     {
         private bool[] present = new bool[0];
@@ -21,10 +21,10 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Slots in use up to this frame.</summary>
+        /// <summary>Number of slots in use up to this frame.</summary>
         internal int Slots { get; private set; }
 
-        /// <summary>By axis and slot.</summary>
+        /// <summary>Positions in steps, by axis and slot.</summary>
         internal int[][] Positions { get; } = { new int[0], new int[0], new int[0] };
 
         /// <summary>Values by field and slot, set by <see cref="Quantise"/>: 0 if the value is missing, otherwise coded as in FORMAT.md.</summary>
@@ -33,12 +33,12 @@ namespace Collektive.Headless
         /// <summary>Number of links in the frame, each direction counted.</summary>
         internal int Links { get; set; }
 
-        /// <summary>Stored pairs of linked nodes.</summary>
+        /// <summary>Number of stored pairs of linked nodes.</summary>
         internal int PairCount { get; private set; }
 
         /// <summary>
-        /// The keys of pairs. Bits from 26 contain the lower slot of a pair, bits from 2 the higher one. Bit 0 is set for a link to the higher slot, bit 1 for
-        /// one to the lower slot. Sorted and unique after <see cref="End"/>.
+        /// The keys of the linked pairs, sorted and unique after <see cref="End"/>. Bits from 26 on contain the lower slot of a pair, and bits 2 to 25 the
+        /// higher slot. Bit 0 is set for a link to the higher slot, and bit 1 for a link to the lower slot.
         /// </summary>
         internal long[] LinkKeys { get; private set; } = new long[256];
 
@@ -72,7 +72,7 @@ namespace Collektive.Headless
             LinkKeys[PairCount++] = (long)Math.Min(from, to) << 26 | (long)Math.Max(from, to) << 2 | (uint)direction;
         }
 
-        /// <summary>Sorts the links, merges those of a pair, and returns the number of stored links, each direction counted.</summary>
+        /// <summary>Sorts the links and merges the links of each pair. Returns the number of stored links, each direction counted.</summary>
         internal int End(LinkSorter sorter)
         {
             sorter.Sort(LinkKeys, PairCount, Slots);
@@ -87,7 +87,7 @@ namespace Collektive.Headless
             return links;
         }
 
-        /// <summary>Widens a range by the frame's values of a field.</summary>
+        /// <summary>Extends a range to include the frame's values of a field.</summary>
         internal void Widen(int field, ref float min, ref float max)
         {
             for (var slot = 0; slot < Slots; slot++)

@@ -6,8 +6,8 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// The parts of a replay outside its frames, in metres, seconds and Unity's axes. Fill it before you create the <see cref="ReplayWriter"/>; later changes
-    /// have no effect. Every number must be finite.
+    /// The data of a replay that does not change from frame to frame, in metres, seconds and Unity's axes. Fill it before you create the <see
+    /// cref="ReplayWriter"/>, because later changes have no effect. All numbers must be finite.
     /// </summary>
     public sealed class ReplayMetadata
     {
@@ -25,22 +25,22 @@ namespace Collektive.Headless
         /// <summary>Height of nodes that are upright capsules, including both caps; 0 for spheres.</summary>
         public float NodeHeight { get; set; }
 
-        /// <summary>Fields that can colour the nodes, at least one. The page starts with the first.</summary>
+        /// <summary>Fields by which nodes can be coloured, at least one. The page starts with the first field.</summary>
         public IReadOnlyList<ReplayField> Fields { get; set; } = new[] { new ReplayField("value") };
 
         /// <summary>Metrics for charts, or null. Rows may be added until the replay is finished.</summary>
         public ReplayMetrics Metrics { get; set; }
 
-        /// <summary>The space of the first view. The floor is at <paramref name="minY"/>.</summary>
+        /// <summary>Sets the space that the first view shows. The floor is at <paramref name="minY"/>.</summary>
         /// <param name="grows">
-        /// Whether it grows to include nodes outside it: at each end of an axis by at most its longest side, so that a distant node does not make all others
-        /// small.
+        /// Whether the space grows to include nodes outside it. Each end of an axis moves by at most the longest side, so that a distant node does not make
+        /// all others small.
         /// </param>
         public void SetArena(float minX, float minY, float minZ, float maxX, float maxY, float maxZ, bool grows = false)
         {
             if (!(minX < maxX && minY <= maxY && minZ < maxZ))
                 throw new ArgumentException("Pass the arena's minimum corner first; its width and depth must be greater than 0.");
-            foreach (var place in new[] { minX, minY, minZ, maxX, maxY, maxZ }) Number(place);
+            foreach (var coordinate in new[] { minX, minY, minZ, maxX, maxY, maxZ }) Number(coordinate);
             Arena = new ReplayArena(new[] { minX, minY, minZ }, new[] { maxX, maxY, maxZ }, grows);
         }
 
@@ -62,10 +62,10 @@ namespace Collektive.Headless
             shapes.Add(ShapeAt(mesh, x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
-        /// <summary>Adds a moving box. Add its pose in each frame.</summary>
+        /// <summary>Adds a moving box. Its pose must be added in each frame.</summary>
         public ReplayMover AddMovingBox(float width, float height, float depth) => AddMover(Box(width, height, depth));
 
-        /// <summary>Adds a moving sphere. Add its pose in each frame.</summary>
+        /// <summary>Adds a moving sphere. Its pose must be added in each frame.</summary>
         public ReplayMover AddMovingSphere(float radius) => AddMover(new JObject { ["kind"] = "sphere", ["radius"] = Number(radius) });
 
         /// <summary>Adds a static sphere.</summary>
@@ -83,7 +83,7 @@ namespace Collektive.Headless
             shapes.Add(ShapeAt(Capsule(radius, height, axis), x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
-        /// <summary>Adds a moving capsule, as in <see cref="AddCapsule"/>. Add its pose in each frame.</summary>
+        /// <summary>Adds a moving capsule with the parameters of <see cref="AddCapsule"/>. Its pose must be added in each frame.</summary>
         public ReplayMover AddMovingCapsule(float radius, float height, int axis) => AddMover(Capsule(radius, height, axis));
 
         /// <summary>Adds a named place.</summary>
@@ -102,7 +102,7 @@ namespace Collektive.Headless
             return new JObject
             {
                 ["title"] = Text(Title),
-                // As text, because it may exceed JavaScript's exact integers.
+                // The seed is stored as text, because it may exceed the integers that JavaScript represents exactly.
                 ["seed"] = Seed.ToString(CultureInfo.InvariantCulture),
                 ["deltaTime"] = Number(DeltaTime),
                 ["nodeRadius"] = Number(NodeRadius),
@@ -136,7 +136,7 @@ namespace Collektive.Headless
 
         internal static JArray Numbers(params float[] numbers) => new JArray(Array.ConvertAll(numbers, number => (object)Number(number)));
 
-        // JSON cannot represent other numbers.
+        // Rejects NaN and infinity, which JSON cannot represent.
         internal static double Number(double value)
         {
             if (double.IsNaN(value) || double.IsInfinity(value))

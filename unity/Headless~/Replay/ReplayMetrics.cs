@@ -9,14 +9,14 @@ namespace Collektive.Headless
         private readonly JArray times = new JArray();
         private readonly JArray series = new JArray();
 
-        /// <param name="names">One for each number of a row.</param>
+        /// <param name="names">The names of the metrics, in the order of the values in a row.</param>
         public ReplayMetrics(IEnumerable<string> names)
         {
             foreach (var name in names) series.Add(new JObject { ["name"] = name, ["values"] = new JArray() });
         }
 
-        /// <param name="time">Simulated seconds, later than those of the previous row.</param>
-        /// <param name="values">One for each name. Non-finite values are gaps in the chart.</param>
+        /// <param name="time">Simulated seconds, greater than in the previous row.</param>
+        /// <param name="values">One value for each name. Values that are not finite become gaps in the chart.</param>
         public void Add(double time, IReadOnlyList<double> values)
         {
             times.Add(time);

@@ -3,7 +3,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
 {
-    /// <summary>The poses of a moving shape that is not a node, by frame.</summary>
+    /// <summary>A moving shape that is not a node, with its pose in each frame.</summary>
     public sealed class ReplayMover
     {
         private readonly JObject shape;
@@ -11,19 +11,19 @@ namespace Collektive.Headless
 
         internal ReplayMover(JObject shape) => this.shape = shape;
 
-        /// <summary>Adds the pose of the next frame: metres, and a unit quaternion. Call it once for each frame.</summary>
+        /// <summary>Adds the pose of the next frame, with a position in metres and a unit quaternion. Call it once for each frame.</summary>
         public void Add(float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
         {
-            // Rounded to thousandths, which are precise enough for display and short.
+            // Thousandths are precise enough for display, and need few characters.
             foreach (var number in new[] { x, y, z, rotationX, rotationY, rotationZ, rotationW }) poses.Add(Math.Round(ReplayMetadata.Number(number), 3));
         }
 
-        /// <summary>Returns and removes the poses so far.</summary>
+        /// <summary>Returns the poses added so far, and removes them.</summary>
         internal JArray TakePoses()
         {
-            var taken = new JArray(poses);
+            var result = new JArray(poses);
             poses.Clear();
-            return taken;
+            return result;
         }
 
         internal JObject ToJson() => new JObject { ["shape"] = shape, ["poses"] = poses };

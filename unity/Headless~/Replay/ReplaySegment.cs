@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Collektive.Headless
 {
-    /// <summary>Frames that are encoded together, each as the difference from the previous one (FORMAT.md, Segment).</summary>
+    /// <summary>Frames that are encoded together. Each frame is stored as its difference from the previous one (FORMAT.md, Segment).</summary>
     internal sealed class ReplaySegment
     {
         private const int Axes = 3;
@@ -13,11 +13,11 @@ namespace Collektive.Headless
         private readonly ReplayFrame[] frames = new ReplayFrame[ReplayWriter.FramesPerSegment];
         private readonly ReplayField[] fields;
         private readonly double[] scales;
-        private readonly float[] least;
+        private readonly float[] minimum;
         // Indexed by column (x, y and z, followed by the fields) and slot.
         private readonly int[][] last;
         private readonly int[][] motion;
-        private bool[] seen = new bool[0];
+        private bool[] hasPrevious = new bool[0];
         private byte[] bytes = new byte[1 << 12];
         private int length;
 
@@ -25,7 +25,7 @@ namespace Collektive.Headless
         {
             this.fields = fields;
             scales = new double[fields.Length];
-            least = new float[fields.Length];
+            minimum = new float[fields.Length];
             last = new int[Axes + fields.Length][];
             motion = new int[Axes + fields.Length][];
             for (var column = 0; column < last.Length; column++) last[column] = motion[column] = new int[0];
@@ -45,7 +45,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>Encodes the frames and removes them.</summary>
-        /// <param name="ids">By slot, the node that uses it in these frames.</param>
+        /// <param name="ids">The id of the node in each slot.</param>
         /// <param name="coded">The encoded segment; valid until the next call.</param>
         /// <returns>Length of the segment in bytes.</returns>
         internal int Encode(List<int> ids, out byte[] coded)
@@ -61,10 +61,10 @@ namespace Collektive.Headless
                 for (var axis = 0; axis < 3; axis++) WriteColumn(frame, frame.Positions[axis], last[axis], motion[axis]);
                 for (var field = 0; field < fields.Length; field++)
                 {
-                    frame.Quantise(field, least[field], scales[field]);
+                    frame.Quantise(field, minimum[field], scales[field]);
                     WriteColumn(frame, frame.Steps[field], last[Axes + field], motion[Axes + field]);
                 }
-                for (var slot = 0; slot < frame.Slots; slot++) seen[slot] |= frame.Has(slot);
+                for (var slot = 0; slot < frame.Slots; slot++) hasPrevious[slot] |= frame.Has(slot);
                 WriteLinks(i == 0 ? null : frames[i - 1], frame);
             }
             Count = 0;
@@ -74,16 +74,16 @@ namespace Collektive.Headless
 
         private void Reset(int slots)
         {
-            if (seen.Length < slots)
+            if (hasPrevious.Length < slots)
             {
-                seen = new bool[slots];
+                hasPrevious = new bool[slots];
                 for (var column = 0; column < last.Length; column++)
                 {
                     last[column] = new int[slots];
                     motion[column] = new int[slots];
                 }
             }
-            Array.Clear(seen, 0, slots);
+            Array.Clear(hasPrevious, 0, slots);
             for (var column = 0; column < last.Length; column++)
             {
                 Array.Clear(last[column], 0, slots);
@@ -100,8 +100,8 @@ namespace Collektive.Headless
             Reserve(8);
             WriteFloat(min);
             WriteFloat(max);
-            least[field] = min;
-            // Computed in double, because the difference of two floats may overflow.
+            minimum[field] = min;
+            // The scale is computed in double precision, because the difference of two floats may overflow.
             scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
         }
 
@@ -125,7 +125,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Writes the difference of each value from its linear prediction. All sums wrap around.</summary>
+        /// <summary>Writes the difference between each value and its linear prediction. All sums wrap around.</summary>
         private void WriteColumn(ReplayFrame frame, int[] values, int[] last, int[] motion)
         {
             Reserve(MaxBytesPerNumber * frame.Slots);
@@ -138,7 +138,7 @@ namespace Collektive.Headless
                     var residual = step - motion[slot];
                     WriteSigned(residual);
                     last[slot] = values[slot];
-                    if (seen[slot]) motion[slot] = step;
+                    if (hasPrevious[slot]) motion[slot] = step;
                 }
             }
         }
@@ -147,27 +147,27 @@ namespace Collektive.Headless
         {
             Reserve(MaxBytesPerNumber * (3 + 2 * (frame.PairCount + (before?.PairCount ?? 0))));
             WriteNumber((uint)frame.Links);
-            // The size precedes each set.
+            // Removed pairs come first, then added pairs.
             WritePairs(before, frame);
             WritePairs(frame, before);
         }
 
-        /// <summary>Writes the links of one frame that are missing in another.</summary>
-        private void WritePairs(ReplayFrame of, ReplayFrame without)
+        /// <summary>Writes the pairs of a frame that another frame does not contain.</summary>
+        private void WritePairs(ReplayFrame frame, ReplayFrame excluded)
         {
-            WriteNumber((uint)WalkPairs(of, without, false));
-            WalkPairs(of, without, true);
+            WriteNumber((uint)WalkPairs(frame, excluded, false));
+            WalkPairs(frame, excluded, true);
         }
 
-        private int WalkPairs(ReplayFrame of, ReplayFrame without, bool write)
+        private int WalkPairs(ReplayFrame frame, ReplayFrame excluded, bool write)
         {
-            if (of == null) return 0;
-            int others = without?.PairCount ?? 0, other = 0, count = 0, a = -1, b = 0;
-            for (var i = 0; i < of.PairCount; i++)
+            if (frame == null) return 0;
+            int excludedCount = excluded?.PairCount ?? 0, other = 0, count = 0, a = -1, b = 0;
+            for (var i = 0; i < frame.PairCount; i++)
             {
-                var key = of.LinkKeys[i];
-                while (other < others && without.LinkKeys[other] < key) other++;
-                if (other < others && without.LinkKeys[other] == key) continue;
+                var key = frame.LinkKeys[i];
+                while (other < excludedCount && excluded.LinkKeys[other] < key) other++;
+                if (other < excludedCount && excluded.LinkKeys[other] == key) continue;
                 count++;
                 if (!write) continue;
                 int nextA = (int)(key >> 26), nextB = (int)(key >> 2) & 0xFFFFFF;

@@ -10,15 +10,15 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Writes a run as a replay page in the format of FORMAT.md. For each frame, call <see cref="BeginFrame"/>, add each node and then each link
-    /// between them, and call <see cref="EndFrame"/>. Call <see cref="Finish"/> at the end. Every <see cref="FramesPerSegment"/> frames are written to
-    /// a scratch file, and slots of departed nodes are reused. Memory therefore grows by eight bytes per frame. Within a segment, frames do not
-    /// allocate unless they have more nodes or links than any earlier frame. Not thread-safe. After an exception, dispose of the writer: the
-    /// recording is unusable.
+    /// Writes a run as a replay page in the format of FORMAT.md. For each frame, call <see cref="BeginFrame"/>, add all nodes and then all links, and call
+    /// <see cref="EndFrame"/>. Call <see cref="Finish"/> at the end. After every <see cref="FramesPerSegment"/> frames, the frames are written to a scratch
+    /// file, and slots of departed nodes are reused. Memory therefore grows by only eight bytes per frame. Frames allocate only at the end of a segment, or
+    /// if they have more nodes or links than any earlier frame. Not thread-safe. After an exception, the recording is unusable and the writer must be
+    /// disposed of.
     /// </summary>
     public sealed class ReplayWriter : IDisposable
     {
-        /// <summary>Frames that are compressed together. The first one is a key frame.</summary>
+        /// <summary>Number of frames that are compressed together as a segment. The first frame of a segment is a key frame.</summary>
         public const int FramesPerSegment = 20;
 
         /// <summary>Approximate limit of stored links per frame, each direction counted.</summary>
@@ -46,11 +46,11 @@ namespace Collektive.Headless
         private long textLength;
 
         private readonly Dictionary<int, int> slotOfId = new Dictionary<int, int>();
-        // The current or last node of each slot.
+        // The id of the current or last node of each slot.
         private readonly List<int> ids = new List<int>();
         // Slots of nodes that left before this segment, in descending order.
         private readonly List<int> free = new List<int>();
-        private readonly IdRanges known = new IdRanges();
+        private readonly IdRanges allIds = new IdRanges();
         private readonly List<double> times = new List<double>();
         private int slotOfLast;
         private int maxSlots;
@@ -61,7 +61,9 @@ namespace Collektive.Headless
         private bool inFrame;
         private bool finished;
 
-        /// <param name="scratchPath">A file for the frames until <see cref="Finish"/>: created or replaced now, deleted by <see cref="Dispose"/>.</param>
+        /// <param name="scratchPath">
+        /// File that stores the frames until <see cref="Finish"/>. It is created or replaced now, and deleted by <see cref="Dispose"/>.
+        /// </param>
         /// <param name="metadata">The content of the page other than frames.</param>
         public ReplayWriter(string scratchPath, ReplayMetadata metadata)
             : this(metadata, FramesPerSegment)
@@ -70,8 +72,8 @@ namespace Collektive.Headless
             scratch = ResultFile.Create(scratchPath);
         }
 
-        /// <summary>Creates a writer without a page. Each frame is a separate segment, so that a reader can miss others.</summary>
-        /// <param name="live">Receives the bytes of each frame and their number; the array is reused.</param>
+        /// <summary>Creates a writer that does not write a page. Each frame is a separate segment, so that a reader can skip frames.</summary>
+        /// <param name="live">Called for each frame with its bytes and their number. The array is reused.</param>
         internal ReplayWriter(ReplayMetadata metadata, Action<byte[], int> live)
             : this(metadata, 1)
         {
@@ -100,10 +102,10 @@ namespace Collektive.Headless
         /// <summary>Maximum number of slots so far.</summary>
         internal int Slots => maxSlots;
 
-        /// <param name="time">Simulated seconds, later than those of the previous frame.</param>
+        /// <param name="time">Simulated seconds, greater than in the previous frame.</param>
         /// <param name="links">
-        /// Number of different links in the frame, each direction counted. Above <see cref="LinkBudget"/>, a sample is stored: the links with the smallest
-        /// hash of their nodes' ids, so that the sample is stable from frame to frame.
+        /// Number of different links in the frame, each direction counted. If it exceeds <see cref="LinkBudget"/>, only a sample of the links is stored.
+        /// The sample consists of the links with the smallest hashes of their nodes' ids, so it changes little from frame to frame.
         /// </param>
         public void BeginFrame(double time, int links = 0)
         {
@@ -123,11 +125,10 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Adds a node to this frame. Its position is rounded to 1/65535 of the arena's longest side, and kept within 2^30 such steps
-        /// of the origin.
+        /// Adds a node to this frame. Its position is rounded to steps of 1/65535 of the arena's longest side, and limited to 2^30 steps from the origin.
         /// </summary>
         /// <param name="id">The node's id, the same in all frames.</param>
-        /// <param name="value">Its value of the first field; NaN if missing.</param>
+        /// <param name="value">The node's value of the first field; NaN if it has none.</param>
         public void Node(int id, float x, float y, float z, double value)
         {
             if (!inFrame) throw Order(nameof(Node), "no frame has begun");
@@ -143,7 +144,7 @@ namespace Collektive.Headless
             Value(0, value);
         }
 
-        /// <summary>Sets a value of the last added node. Fields without a call have no value.</summary>
+        /// <summary>Sets a value of the node that was added last. Fields that are not set have no value.</summary>
         /// <param name="field">Index in <see cref="ReplayMetadata.Fields"/>.</param>
         /// <param name="value">The value; NaN if missing.</param>
         public void Value(int field, double value)
@@ -159,7 +160,7 @@ namespace Collektive.Headless
         /// <summary>Adds a link between two different nodes of this frame. Repetitions have no effect.</summary>
         /// <param name="from">Id of the sender.</param>
         /// <param name="to">Id of the receiver.</param>
-        /// <param name="isMutual">Whether to add a link in the other direction too.</param>
+        /// <param name="isMutual">Whether to add the link in the other direction too.</param>
         public void Link(int from, int to, bool isMutual = false)
         {
             if (!inFrame) throw Order(nameof(Link), "no frame has begun");
@@ -175,8 +176,8 @@ namespace Collektive.Headless
         {
             if (!inFrame) throw Order(nameof(EndFrame), "no frame has begun");
             inFrame = false;
-            var kept = frame.End(sorter);
-            if (frame.Links <= LinkBudget) frame.Links = kept;
+            var storedLinks = frame.End(sorter);
+            if (frame.Links <= LinkBudget) frame.Links = storedLinks;
             maxPairs = Math.Max(maxPairs, frame.PairCount);
             if (segment.Count == framesPerSegment) FlushSegment();
         }
@@ -209,7 +210,7 @@ namespace Collektive.Headless
             });
         }
 
-        /// <summary>Closes and deletes the scratch file; the finished page stays.</summary>
+        /// <summary>Closes and deletes the scratch file, but not a finished page.</summary>
         public void Dispose()
         {
             finished = true;
@@ -223,7 +224,9 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Frees the slots of nodes that are not in the last frame. Called between segments, in which slots must not change.</summary>
+        /// <summary>
+        /// Frees the slots of nodes that are not in the last frame. Called between segments only, because slots must not change within a segment.
+        /// </summary>
         private void FreeSlots()
         {
             free.Clear();
@@ -241,7 +244,7 @@ namespace Collektive.Headless
             var slot = free.Count == 0 ? ids.Count : free[free.Count - 1];
             if (slot == MaxSlots)
                 throw new InvalidOperationException("The replay has " + Number(MaxSlots) + " nodes in a segment, which is the maximum: use fewer nodes.");
-            known.Add(id);
+            allIds.Add(id);
             slotOfId.Add(id, slot);
             if (slot == ids.Count)
             {
@@ -267,7 +270,7 @@ namespace Collektive.Headless
             return (int)Math.Floor(Math.Max(-Limit, Math.Min(Limit, metres / positionStep)) + 0.5);
         }
 
-        /// <summary>Returns the header of the frames so far or, without a page, of the last frame.</summary>
+        /// <summary>Returns the header of the frames so far or, for a writer without a page, of the last frame.</summary>
         internal JObject Header()
         {
             metadata["arena"] = arena.ToJson();
@@ -281,7 +284,7 @@ namespace Collektive.Headless
                 ["maxPairs"] = maxPairs,
                 ["times"] = new JArray(times),
                 ["slots"] = maxSlots,
-                ["ids"] = known.ToJson(),
+                ["ids"] = allIds.ToJson(),
                 ["metrics"] = (metrics ?? new ReplayMetrics(new string[0])).ToJson(),
                 ["movers"] = new JArray(movers.ConvertAll(mover => (object)mover.ToJson())),
                 ["metadata"] = metadata,

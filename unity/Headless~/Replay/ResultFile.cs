@@ -6,10 +6,10 @@ using Mono.Unix.Native;
 
 namespace Collektive.Headless
 {
-    /// <summary>Creates the files of a run. Never writes through a symbolic link. Synced files survive a power failure.</summary>
+    /// <summary>Creates the files of a run. It never writes through a symbolic link. Files that were synced survive a power failure.</summary>
     internal static class ResultFile
     {
-        /// <summary>Creates a file that grows during the run, and replaces an existing one.</summary>
+        /// <summary>Creates a file that grows during the run. An existing file is replaced.</summary>
         internal static StreamWriter Create(string path)
         {
             File.Delete(path);
@@ -17,7 +17,7 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Writes a temporary file beside <paramref name="path"/>, syncs it, and replaces the target. After an exception the target is unchanged.
+        /// Writes a temporary file beside <paramref name="path"/>, syncs it, and renames it to the target. After an exception, the target is unchanged.
         /// </summary>
         internal static void Write(string path, Action<TextWriter> write)
         {
@@ -36,7 +36,7 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Waits until a file or the entries of a folder are on disk. Ignores a missing file.</summary>
+        /// <summary>Waits until a file, or the list of files in a folder, is on disk. Does nothing if the file does not exist.</summary>
         internal static void Sync(string path)
         {
             var descriptor = Syscall.open(path, OpenFlags.O_RDONLY | OpenFlags.O_NOFOLLOW);

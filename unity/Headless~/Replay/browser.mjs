@@ -8,8 +8,8 @@ const FLAGS = [
 ];
 
 /**
- * `modules` is the folder of playwright-core and of the browser that `./collektive setup` creates. CHROMIUM selects another browser.
-  * The browser uses the libraries and fonts beside it, so that pictures are the same on all systems.
+ * Starts the browser. `modules` is the folder with playwright-core and the browser, which `./collektive setup` creates. CHROMIUM selects another browser.
+ * The browser uses the libraries and fonts in the same folder, so that pictures are the same on all systems.
  */
 export function launch(modules = process.env.COLLEKTIVE_NODE_MODULES, extraFlags = []) {
   if (!modules) {

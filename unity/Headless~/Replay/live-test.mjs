@@ -1,5 +1,5 @@
 // Tests the live page in headless Chromium: node [TEST OPTIONS] live-test.mjs COLLEKTIVE FOLDER
-// Runs `COLLEKTIVE live` in the folder, which keeps pictures of the page.
+// Runs `COLLEKTIVE live` in the folder, and saves pictures of the page there.
 import assert from 'node:assert/strict';
 import { spawn } from 'node:child_process';
 import { once } from 'node:events';
@@ -93,11 +93,11 @@ async function inaccessible(tab) {
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`);
 }
 
-/** Saves a picture. While the simulation runs, a browser without a graphics card may be too busy to take one. */
+/** Saves a picture, if possible. While the simulation runs, a browser without a graphics card may be too busy. */
 const picture = (tab, name) => tab.screenshot({ path: join(folder, `${name}.png`), timeout: 5000 })
   .catch((error) => console.error(`${name}: ${error.message}`));
 
-/** Returns the status of a request with other headers. */
+/** Returns the status code of a request with the given headers. */
 const statusOf = (address, headers, path = '') => new Promise((resolve, reject) => {
   const url = new URL(path, address);
   request(url, { headers }, (response) => {
@@ -208,7 +208,7 @@ suite('live', { timeout: 600000 }, async (t) => {
   });
 
   await t.test('a second page watches, and controls the simulation when the first one has gone', async () => {
-    // Drawing two running simulations without a graphics card takes long.
+    // Pause first: drawing two running simulations without a graphics card takes long.
     await view.click('#play');
     const second = await open(live.address);
     await view.click('#play');
@@ -385,7 +385,7 @@ suite('live', { timeout: 600000 }, async (t) => {
     await picture(current, 'lesson');
     await current.evaluate(() => window.live.send({ open: 'nothing' }));
     await current.waitForSelector('#warning >> text=unknown example');
-    // A program that cannot be compiled opens, too.
+    // A program that cannot be compiled can also be opened.
     const broken = join(folder, 'out/live/channel');
     mkdirSync(join(broken, 'programs'), { recursive: true });
     const lesson = new URL('../../../scripts/lessons/channel/', import.meta.url);

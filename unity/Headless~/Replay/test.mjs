@@ -56,10 +56,10 @@ const state = (tab) => tab.evaluate(() => {
 
 const seek = (tab, frame) => tab.evaluate((i) => window.replay.seek(i), frame);
 
-/** Waits for a frame, which may have to be loaded first. */
+/** Waits until the page shows a frame. */
 const arrives = (tab, frame, message) => eventually(tab, (now) => now.frame === frame, message);
 
-/** The canvas as it is drawn now. */
+/** Returns the current content of the canvas. */
 const canvas = (tab) => tab.evaluate(() => {
   window.replay.draw();
   return document.getElementById('canvas').toDataURL();
@@ -73,14 +73,14 @@ const colours = (tab) => tab.evaluate(() => {
   return new Set(new Uint32Array(to.getImageData(0, 0, from.width, from.height).data.buffer)).size;
 });
 
-/** Points of the page where a click selects a node, one for every four square pixels, the middle one first. */
+/** Returns points of the page where a click selects a node, one for every four square pixels. The middle one comes first. */
 const placesOf = (tab, node) => tab.evaluate((id) => {
   const found = [];
   for (let x = 0; x < window.innerWidth; x += 2) for (let y = 0; y < window.innerHeight; y += 2) if (window.replay.at(x, y) === id) found.push([x, y]);
   return [[0, 1].map((axis) => found.reduce((sum, point) => sum + point[axis], 0) / found.length), ...found];
 }, node);
 
-/** Number of pixels of the picture near a colour; `element` limits them to those below it. */
+/** Returns the number of pixels of the picture with nearly a given colour. `element` limits the search to the pixels below it. */
 const pixels = (tab, wanted, element = '#canvas') => tab.evaluate(([rgb, selector]) => {
   window.replay.draw();
   const from = document.getElementById('canvas');
@@ -114,20 +114,20 @@ async function resize(tab, size) {
   }, size, { timeout: 5000 });
 }
 
-/** Violations that axe-core finds: the rules of WCAG 2.2 A and AA, and its best practices. */
+/** Returns violations of WCAG 2.2 A and AA and of axe-core's best practices. */
 async function inaccessible(tab) {
   await tab.evaluate(axe);
   const { violations } = await tab.evaluate(() => window.axe.run());
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ target, failureSummary }) => `${target} ${failureSummary}`).join('; ')}`);
 }
 
-/** The file that a click downloads. */
+/** Returns the file that a click downloads. */
 async function download(tab, button) {
   const [file] = await Promise.all([tab.waitForEvent('download'), tab.click(button)]);
   return { name: file.suggestedFilename(), bytes: readFileSync(await file.path()) };
 }
 
-/** A copy of the page with another header or other segments. */
+/** Returns a copy of the page with a changed header or changed segments. */
 const withHeader = (name, change) => withData(name, (data) => {
   const [first, ...segments] = data.split('\n');
   const header = JSON.parse(gunzipSync(Buffer.from(first, 'base64')));
@@ -136,7 +136,7 @@ const withHeader = (name, change) => withData(name, (data) => {
   return [gzipSync(JSON.stringify(header)).toString('base64'), ...segments].join('\n');
 });
 
-/** A copy of the page with other data. */
+/** Returns a copy of the page with changed data. */
 function withData(name, change) {
   const path = join(folder, `${name}.html`);
   writeFileSync(path, html.replace(DATA, (_, before, data, after) => before + change(data) + after));
@@ -163,7 +163,7 @@ async function expectMessage(path, words, options) {
   assert.deepEqual(complaints, []);
 }
 
-/** Tests that need a run with known content. */
+/** Runs the tests that need a run with known content. */
 async function testSample(test, tab) {
   await resize(tab, { width: 1280, height: 720 });
   if (await tab.locator('#charts').isHidden()) await tab.click('#charts-shown');

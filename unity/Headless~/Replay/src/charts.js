@@ -1,4 +1,4 @@
-// Charts of values over time, with a line for each run and a mark at the current time.
+// Draws charts of values over time, with a line for each run and a mark at the current time.
 import './language.js';
 import uPlot from 'uplot';
 import { part } from './dom.js';
@@ -7,7 +7,7 @@ import { extent, lastAt, nameOf, short, textOf } from './fields.js';
 const HEIGHT = 80;
 
 export class Charts {
-  /** Each run has `times` and `series`, which are fields with `values` (null if missing). `onSeek` is called with the time of a click. */
+  /** Each run has `times` and `series`. A series is a field with `values` (null: missing). `onSeek` is called with the time that the user clicks. */
   constructor(holder, runs, onSeek, time) {
     this.time = time; // of the clock
     this.axis = 0; // pixels, the same for all charts
@@ -54,7 +54,7 @@ export class Charts {
     };
   }
 
-  /** Returns the width of an axis with some labels. */
+  /** Returns the width of an axis with the given labels. */
   widen(plot, words) {
     [plot.ctx.font] = plot.axes[1].font;
     for (const text of words) this.axis = Math.max(this.axis, Math.ceil(plot.ctx.measureText(text).width / devicePixelRatio) + 6);
@@ -65,7 +65,7 @@ export class Charts {
     return Math.max(figure.clientWidth, 120);
   }
 
-  /** Moves the marks to a time, and prints the values last measured by then. */
+  /** Moves the marks to a time, and shows the last values measured up to that time. */
   show(time) {
     this.time = time;
     for (const { plot, field, lines, value, line } of this.charts) {

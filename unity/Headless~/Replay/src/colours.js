@@ -1,4 +1,4 @@
-// The colours of values, as numbers 0xRRGGBB. The scales are perceptually uniform or at least ordered. Viridis and Cividis are readable with all common forms
+// Colours for values, as numbers 0xRRGGBB. The scales are perceptually uniform or at least ordered. Viridis and Cividis are readable with all common forms
 // of colour blindness.
 import {
   interpolateCividis, interpolatePlasma, interpolateRdBu, interpolateTurbo, interpolateViridis, schemeObservable10,

@@ -109,12 +109,12 @@ export function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
-/** Whether this browser can record videos. */
+/** Returns whether this browser can record videos. */
 export function canRecord() {
   return typeof MediaRecorder !== 'undefined' && FORMATS.some(([type]) => MediaRecorder.isTypeSupported(type));
 }
 
-/** Records what `frame` paints. */
+/** Records a video of the views that `frame` adds. */
 export class Video {
   constructor(legend) {
     this.legend = legend;
@@ -132,7 +132,7 @@ export class Video {
 
   /** Adds the current view. */
   frame() {
-    // A canvas of another size would end the recording.
+    // Skip the view if the size has changed, because a canvas of another size would end the recording.
     const width = Math.round(window.innerWidth * scaleOf(element('canvas')));
     if (this.canvas.width === width && this.canvas.height === element('canvas').height) compose(this.canvas, this.legend);
   }

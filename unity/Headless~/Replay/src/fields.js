@@ -1,8 +1,8 @@
-// Fields that can colour nodes: the recorded ones, and those derived from positions and links.
+// The fields by which nodes can be coloured. Some are recorded, and others are derived from positions and links.
 
 const SAME_TIME = 1e-6; // seconds: 0.3 is the time of the frame at 0.30000000000000004
 
-/** Fields have `name`, `kind`, `unit`, `words`, their range `least` to `greatest` (undefined: unknown), and `valuesOf(frame)`, by slot. */
+/** Each field has `name`, `kind`, `unit`, `words`, a range `least` to `greatest` (undefined: unknown), and `valuesOf(frame)`, which returns values by slot. */
 export function fieldsOf(recording) {
   const recorded = recording.fields.map((field, index) => ({ words: [], ...field, valuesOf: (frame) => frame.values[index] }));
   const { least, greatest } = extent(recording.ids);
@@ -17,7 +17,7 @@ export function fieldsOf(recording) {
   return [...recorded, ...derived.filter(({ name }) => !recorded.some((field) => field.name === name)).map((field) => ({ words: [], ...field }))];
 }
 
-/** Returns the values of a field at a node in each frame, null where it has none; or null once `needed` returns false. */
+/** Returns a node's values of a field in all frames, with null where it has no value. Stops and returns null when `needed` returns false. */
 export async function historyOf({ recording, fields }, { name }, id, needed) {
   const field = fields.find((each) => each.name === name);
   const values = [];
@@ -38,7 +38,7 @@ export function slotOf({ slots, ids }, id) {
   return slots.find((slot) => ids[slot] === id) ?? -1;
 }
 
-/** Returns the least and the greatest of some values; 0 without values. */
+/** Returns the least and the greatest of the values; 0 if there are none. */
 export function extent(values) {
   let [least, greatest] = [Infinity, -Infinity];
   for (const value of values) {
@@ -48,7 +48,7 @@ export function extent(values) {
   return least <= greatest ? { least, greatest } : { least: 0, greatest: 0 };
 }
 
-/** Returns the index of the last of `times` that is at or before a time; otherwise 0. */
+/** Returns the index of the last of `times` that is not after a time, or 0 if all are after it. */
 export function lastAt(times, time) {
   let low = 0;
   let high = times.length - 1;
@@ -92,7 +92,7 @@ function degrees(frame) {
   return counts;
 }
 
-/** Speeds between this frame and the next, or the previous one at the end of a segment. */
+/** Returns the nodes' speeds between this frame and the next one, or the previous one at the end of a segment. */
 function speeds(recording, frame) {
   const result = new Float32Array(frame.present.length).fill(NaN);
   const { first, count } = frame.segment;

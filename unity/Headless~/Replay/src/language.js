@@ -1,5 +1,5 @@
-// Must be imported before uPlot, which creates number formatters when it is loaded. Without a system locale, Chromium reports the language
-// 'en-US@posix', which formatters reject.
+// Replaces an invalid language of the browser. Without a system locale, Chromium reports the language 'en-US@posix', which number formatters reject. Import
+// this module before uPlot, which creates formatters when it is loaded.
 try {
   new Intl.NumberFormat(navigator.language);
 } catch {

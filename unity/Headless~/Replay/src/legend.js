@@ -7,7 +7,7 @@ const MAX_CATEGORIES = 8;
 const BARS = 24;
 
 export class Legend {
-  /** After each choice, `onChange` is called with the function that colours a value. */
+  /** `onChange` is called after each choice, with the function that returns the colour of a value. */
   constructor(fields, onChange) {
     this.onChange = onChange;
     this.otherFields = [];
@@ -21,13 +21,13 @@ export class Legend {
     element('no-value').querySelector('i').style.background = css(NO_VALUE);
   }
 
-  /** Offers other fields. Call `choose` for one of them afterwards. */
+  /** Replaces the fields that the legend offers. Call `choose` for one of them afterwards. */
   setFields(fields) {
     this.fields = fields;
     element('field').replaceChildren(...fields.map((field) => option(nameOf(field))));
   }
 
-  /** Colours by a field, on the range of the whole run or, if unknown, of the current frame. */
+  /** Selects the field that colours the nodes. The scale has the range of the whole run or, if that is unknown, of the current frame. */
   choose(index) {
     this.field = this.fields[index];
     element('field').selectedIndex = index;
@@ -48,7 +48,7 @@ export class Legend {
     this.choose(this.fields.indexOf(this.field));
   }
 
-  /** The whole runs' range and categories of a field. */
+  /** Returns a field's range and categories over all compared runs. */
   wholeOf({ name, kind, least, greatest, order }) {
     const same = this.otherFields.filter((each) => each.name === name && each.kind === kind);
     const all = [{ least, greatest, order }, ...same];
@@ -101,7 +101,7 @@ export class Legend {
     this.onChange();
   }
 
-  /** Describes the frame: its histogram, or its categories (those with the most nodes first), and whether some nodes have no value. */
+  /** Shows the histogram of the frame, or its categories, sorted by their number of nodes. Also shows whether some nodes have no value. */
   show(frame) {
     this.frame = frame;
     if (this.shown === frame) return;
@@ -121,7 +121,7 @@ export class Legend {
     element('categories').replaceChildren(...rows);
   }
 
-  /** Draws a histogram over the scale. As with the colours, the outermost bars include values beyond the scale. */
+  /** Draws a histogram over the scale. Like the outermost colours, the outermost bars include values beyond the scale. */
   drawHistogram({ slots }, values) {
     const counts = new Array(BARS).fill(0);
     const scale = this.max > this.min ? BARS / (this.max - this.min) : 0;

@@ -1,4 +1,4 @@
-// The last frames of a running simulation, with the interface of a recording. Frames may be missing between two of them.
+// The last frames of a running simulation, with the interface of a recording. They need not be consecutive.
 import { extent, lastAt } from './fields.js';
 import { Segment } from './recording.js';
 
@@ -6,7 +6,7 @@ const KEPT_FRAMES = 300;
 const KEPT_ROWS = 600; // of metrics
 
 export class LiveRecording {
-  /** `header` is as in FORMAT.md, with the names of the metrics and without frames. */
+  /** `header` is the header of FORMAT.md without frames. Its metrics are only names. */
   constructor(header) {
     Object.assign(this, header);
     this.times = [];
@@ -17,7 +17,7 @@ export class LiveRecording {
     for (const field of this.fields) [field.least, field.greatest] = [0, 0];
   }
 
-  /** Whether the view of this recording can show frames of another header. */
+  /** Returns whether the view of this recording can show frames with the given header. */
   fits(header) {
     const shape = ({ metadata, slots, fields, metrics, movers }) => JSON.stringify(
       [{ ...metadata, arena: null }, slots, fields.map(({ name, kind, words }) => [name, kind, words]), metrics.series?.map(({ name }) => name) ?? metrics,
@@ -83,7 +83,7 @@ export class LiveRecording {
       const isFirst = !field.known;
       const margin = 0.1 * (field.greatest - field.least);
       if (!isFirst && least >= field.least && greatest <= field.greatest) return;
-      // Grows in large steps rather than at each frame.
+      // The range grows in large steps, so that it does not change at each frame.
       field.least = isFirst ? least : Math.min(field.least, least - (least < field.least ? margin : 0));
       field.greatest = isFirst ? greatest : Math.max(field.greatest, greatest + (greatest > field.greatest ? margin : 0));
       field.known = true;

@@ -1,4 +1,4 @@
-// The view of the live page. It shows a running simulation; the page that contains it passes on the events.
+// The view of the live page, which shows a running simulation. The page that contains it passes the events on to it.
 import { element, part } from './dom.js';
 import { LiveRecording } from './live-recording.js';
 import { Player, plural, requireGraphics, showMessage } from './player.js';
@@ -19,7 +19,7 @@ class LivePlayer extends Player {
     document.title = `${recording.metadata.title}, live`;
   }
 
-  /** Shows another recording, after a restart or when the view has too little space for the nodes. */
+  /** Shows another recording, after a restart or when the current view cannot hold all nodes. */
   adopt(recording) {
     const [{ view: old, recording: { metadata } }] = this.runs;
     const isSame = metadata.title === recording.metadata.title;
@@ -48,7 +48,7 @@ class LivePlayer extends Player {
     this.show(recording.times.at(-1));
   }
 
-  /** Adds a frame and shows it over the time until the next one. */
+  /** Adds a frame, and moves the picture to it until the next frame is expected. */
   add(event, bytes) {
     const { recording } = this;
     const now = performance.now();
@@ -68,7 +68,7 @@ class LivePlayer extends Player {
     if (!this.resting) this.showNow(now);
   }
 
-  /** Fits the scale of the colours to all values so far. */
+  /** Extends the scale of the colours to all values so far. */
   widen() {
     this.recording.fields.forEach(({ least, greatest }, i) => Object.assign(this.fields[i], { least, greatest }));
     if (!this.hasOwnRange) this.legend.setRange(...this.legend.wholeRange());
@@ -82,7 +82,7 @@ class LivePlayer extends Player {
     this.resize();
   }
 
-  /** Called before each picture. A machine that draws slowly pauses between two pictures, and shows no times between frames. */
+  /** Called before each picture. If drawing is slow, there is a pause between two pictures, and only times of frames are shown. */
   tick(now) {
     const latency = now - this.requested;
     this.isSlow = latency > SLOW_MS;
@@ -96,7 +96,7 @@ class LivePlayer extends Player {
     }
   }
 
-  /** Shows the current time unless it is already shown. Showing it requests the next picture. */
+  /** Shows the current time, and thereby requests the next picture. Does nothing if the time is already shown. */
   showNow(now) {
     const { times, frames } = this.recording;
     const last = times.length - 1;

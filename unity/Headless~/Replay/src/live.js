@@ -35,7 +35,7 @@ const THEME = EditorView.theme({
   '.cm-tooltip, .cm-panels': { backgroundColor: 'var(--background)', color: 'var(--text)' },
 });
 
-/** The files of the programs, one of them in the editor. */
+/** The files of the programs. One of them is open in the editor. */
 class Files {
   constructor(onSave) {
     this.files = new Map(); // name -> { state, saved, problem, problems }; a file with a problem cannot be edited
@@ -64,7 +64,7 @@ class Files {
     this.setProblems([]);
   }
 
-  /** Shows the content of files on disk. A file with unsaved changes keeps them. */
+  /** Updates the files from disk, except files with unsaved changes. */
   update(files) {
     for (const name of this.files.keys()) if (!(name in files)) this.files.delete(name);
     for (const [name, file] of Object.entries(files)) this.updateFile(name, file);
@@ -140,7 +140,7 @@ class Files {
     this.describe();
   }
 
-  /** Underlines errors of the compiler; each has `file`, `line`, `column` and `message`. */
+  /** Underlines the errors of the compiler. Each has `file`, `line`, `column` and `message`. */
   setProblems(problems) {
     for (const [name, file] of this.files) file.problems = problems.filter((problem) => problem.file === name);
     this.underline();
@@ -165,7 +165,7 @@ class Files {
     })));
   }
 
-  /** Returns the place of a problem in the open file. */
+  /** Returns the range of a problem in the open file. */
   placeOf({ line, column }) {
     const { doc } = this.view.state;
     const { from, to } = doc.line(Math.min(Math.max(line, 1), doc.lines));
@@ -369,7 +369,7 @@ class Live {
     element(id).querySelector('.grid').replaceChildren(...rows.flat());
   }
 
-  /** `apply` applies a value at once; without it, a value is used at the next start. */
+  /** Creates the row of a control. `apply` applies a value immediately; without `apply`, the value takes effect at the next start. */
   rowOf({ key, name, value, hint = '', initial = value, most, apply }) {
     const id = `control-${key}`;
     const holder = part('span', '');
@@ -468,7 +468,7 @@ class Live {
   }
 }
 
-/** Returns the value that all nodes share, or the first one. */
+/** Returns the value that all nodes share, or else the first value. */
 function single(value) {
   return Array.isArray(value) ? value[0] : value;
 }

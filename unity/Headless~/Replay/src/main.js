@@ -1,4 +1,4 @@
-// The replay page: plays the recording in the page, and offers `window.replay` to scripts.
+// The replay page. It plays the recording that the page contains, and offers `window.replay` to scripts.
 import { Player, requireGraphics, showMessage } from './player.js';
 import { open } from './recording.js';
 import { commandsOf } from './scripting.js';

@@ -1,4 +1,4 @@
-// Joins a recording, its view and the controls.
+// Connects recordings, their views and the controls.
 import { Charts } from './charts.js';
 import { element, part } from './dom.js';
 import { canRecord, compose, save, Video } from './exports.js';
@@ -61,7 +61,7 @@ export class Player {
     return this.runs[0].here;
   }
 
-  /** The recording that ends last, whose frames the playback bar shows. */
+  /** The recording that ends last. The playback bar shows its frames. */
   get clock() {
     return this.runs.reduce((last, run) => (run.lastTime > last.lastTime ? run : last)).recording;
   }
@@ -71,8 +71,8 @@ export class Player {
   }
 
   /**
-   * Shows the time `time`. Node positions are interpolated between two frames, and all other data belongs to the earlier frame. The promise
-    * resolves when this or a later request is shown.
+   * Shows a time. Positions of nodes are interpolated between two frames; all other data belongs to the earlier frame. The returned
+   * promise resolves when this request or a later one is shown.
    */
   show(time) {
     this.time = Math.min(Math.max(time, this.recording.times[0]), this.lastTime);
@@ -138,7 +138,7 @@ export class Player {
     if (this.here) this.refresh();
   }
 
-  /** Charts the legend's field for the selected node, once all frames are read. */
+  /** Shows a chart of the legend's field for the selected node, once all frames have been read. */
   async showHistory() {
     const { runs, selected } = this;
     const { field } = this.legend;
@@ -240,7 +240,7 @@ export class Player {
     this.show(this.time);
   }
 
-  /** Selects the node with that id; null deselects. */
+  /** Selects the node with the given id; null deselects. */
   select(id) {
     this.selected = id;
     element('find').value = id ?? '';
@@ -269,7 +269,7 @@ export class Player {
     element('scrub').max = this.clock.count - 1;
   }
 
-  /** Shows the run of another page, given as its HTML, beside this one; null shows this one alone. */
+  /** Shows the run of another page beside this one. `page` is the HTML of the other page; null ends the comparison. */
   async compare(page) {
     this.pause();
     if (page !== null) {
@@ -333,7 +333,7 @@ export class Player {
     save(await new Promise((resolve) => { canvas.toBlob(resolve); }), `${this.fileName()}-${this.time.toFixed(1)}s.png`);
   }
 
-  /** Records a video until the end, a pause or the next call. */
+  /** Starts recording a video, which ends at the end of the run, at a pause or at the next call. */
   async toggleVideo() {
     if (this.video) {
       this.pause();
@@ -470,7 +470,7 @@ export function plural(count, noun) {
   return `${count.toLocaleString('en')} ${noun}${count === 1 ? '' : 's'}`;
 }
 
-/** Returns the number of links of a frame, each direction counted, and the number of visible links if some are hidden. */
+/** Returns a text with the number of links of a frame, each direction counted. If some are hidden, it also contains the number of visible links. */
 function linksOf({ linksInAll, links }) {
   return (linksInAll > links ? `${links.toLocaleString('en')} of ` : '') + plural(linksInAll, 'link');
 }

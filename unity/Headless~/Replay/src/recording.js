@@ -1,4 +1,4 @@
-// Reads a recording (FORMAT.md). The header is read at once, a segment of frames when it is first shown.
+// Reads a recording (FORMAT.md). The header is read immediately. A segment of frames is read when it is first shown.
 
 import { lastAt } from './fields.js';
 
@@ -7,7 +7,7 @@ const KEPT_NODES = 1e6; // nodes in all cached frames, about 30 bytes each
 const PAIR = 2 ** 26; // in a link's key: times the lesser slot
 export const TEXELS = 1024; // nodes in a row of a frame's texture
 
-/** Missing, damaged or incompatible data of the page. The message is shown on the page. */
+/** An error for missing, damaged or incompatible data of the page. The page shows its message. */
 export class ReplayError extends Error {}
 
 export async function open(text) {
@@ -62,17 +62,17 @@ class Recording {
     return this.times.length;
   }
 
-  /** Nodes of the whole run. */
+  /** Number of nodes in the whole run. */
   get nodes() {
     return this.ids.reduce((sum, id, i) => sum + (i % 2 === 0 ? -id : id + 1), 0);
   }
 
-  /** Returns whether a node of the run has that id. */
+  /** Returns whether a node of the run has the given id. */
   has(id) {
     return this.ids.some((first, i) => i % 2 === 0 && first <= id && id <= this.ids[i + 1]);
   }
 
-  /** Returns the last frame at or before a time; the first one for earlier times. */
+  /** Returns the index of the last frame that is not after a time, or 0 if all frames are after it. */
   frameAt(time) {
     return lastAt(this.times, time);
   }
@@ -109,13 +109,13 @@ class Recording {
   }
 }
 
-/** Frames encoded as differences, which must be decoded once and in order. */
+/** A segment of frames. They are encoded as differences, so each must be decoded once and in order. */
 export class Segment {
   constructor(buffer, recording, first, count) {
     this.bytes = new Uint8Array(buffer);
     const data = new DataView(buffer);
     this.at = 0;
-    // By field: converts a code, which is positive, to a number.
+    // For each field, a function that converts a positive code to a value.
     this.decoders = recording.fields.map(({ kind }) => {
       if (kind !== 'number') return (code) => ((code - 1) >>> 1) ^ -((code - 1) & 1);
       const [min, max] = [data.getFloat32(this.at, true), data.getFloat32(this.at + 4, true)];
@@ -248,7 +248,7 @@ export class Segment {
   }
 }
 
-/** Returns a sorted set of links after removals and additions. */
+/** Returns a sorted set of links after removing and adding links. */
 function changed(links, removed, added) {
   const result = new Float64Array(links.length - removed.length + added.length);
   let count = 0;

@@ -1,4 +1,4 @@
-// A recording with its picture.
+// A recording with the view that shows it.
 import { fieldsOf, slotOf, textOf } from './fields.js';
 import { View } from './view.js';
 
@@ -16,14 +16,14 @@ export class Run {
     return this.recording.times.at(-1);
   }
 
-  /** Loads the frames of a time. */
+  /** Loads the frames that are needed to show a time. */
   load(time) {
     const { recording } = this;
     const frame = recording.frameAt(time);
     return Promise.all([recording.load(frame), recording.load(Math.min(frame + 1, recording.count - 1))]);
   }
 
-  /** Shows a time and returns whether its frames are loaded. `id` is the id of the selected node; for the other parameters see `View.show`. */
+  /** Shows a time if its frames are loaded, and returns whether they are. `id` is the selected node. For the other parameters, see `View.show`. */
   show(time, id, { trails, ...how }) {
     const { recording, view } = this;
     const { times } = recording;

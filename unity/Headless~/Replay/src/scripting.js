@@ -1,11 +1,11 @@
-// The commands of the pages for scripts.
+// The commands that pages offer to scripts.
 
 export function commandsOf(player) {
   const { recording } = player;
   return {
     frames: recording.count,
     metadata: recording.metadata,
-    /** Both return a promise if the frame must be read first. */
+    /** `seek` and `show` return a promise if the frame must be read first. */
     seek: (frame) => player.seek(frame),
     show: (time) => player.show(time),
     play: () => player.play(),
@@ -16,14 +16,14 @@ export function commandsOf(player) {
     setControls: (visible) => player.setControls(visible),
     select: (id) => player.selectId(id),
     view: (from) => player.view.frame(from),
-    /** The id of the node at a point of the page, or null. */
+    /** Returns the id of the node at a point of the page, or null. */
     at: (x, y) => player.here.ids[player.view.pick(x, y)] ?? null,
-    /** Names of the fields that can colour the nodes, and the selection of one. */
+    /** The names of the fields by which nodes can be coloured, and a command that selects one. */
     fields: player.fields.map(({ name }) => name),
     colourBy: (name) => player.legend.choose(player.fields.findIndex((field) => field.name === name)),
     /** Shows a second run, given as its page's HTML; null ends the comparison. */
     compare: (page) => player.compare(page),
-    /** The current frame as recorded, in Unity's axes. */
+    /** Returns the current frame as it was recorded, in Unity's axes. */
     state: () => {
       const { here } = player;
       const { ids } = here;

@@ -1,5 +1,5 @@
-// Nodes and links of the picture. Textures contain the positions of two recorded frames, with one texel per slot. Vertex shaders
-// interpolate between them, so that the script's cost per picture does not depend on the number of nodes.
+// Draws nodes and links. Textures contain the positions of two recorded frames, with one texel per slot. Vertex shaders interpolate between the two, so the
+// time that scripts need per picture does not depend on the number of nodes.
 import {
   BufferAttribute, BufferGeometry, CircleGeometry, DataTexture, DynamicDrawUsage, FloatType, FrontSide, InstancedBufferAttribute, InstancedBufferGeometry,
   LineSegments, Mesh, MeshDepthMaterial, MeshLambertMaterial, RGBAFormat, Sphere, SphereGeometry,
@@ -16,7 +16,7 @@ uniform float share, radius, halfLength;
 vec4 texelOf(float slot) {
   ivec2 at = ivec2(int(slot) % ${TEXELS}, int(slot) / ${TEXELS});
   vec4 from = texelFetch(here, at, 0), to = texelFetch(next, at, 0);
-  // Unity's z is mirrored. A node that is missing in the next frame stays where it is.
+  // Unity's z axis is mirrored. A node that is missing in the next frame does not move.
   return vec4(mix(from.xyz, to.xyz, to.w < 0.0 ? 0.0 : share) * vec3(1.0, 1.0, -1.0), from.w);
 }
 `;
@@ -41,7 +41,7 @@ vec3 bodyPoint(vec3 v, vec3 centre) {
 `;
 
 export class Swarm {
-  /** `slots` and `links` are the maximum numbers in calls of `show`; `materials` belong to the theme: `outline`, `halo`, `link`, `accentLine`, `trail`. */
+  /** `slots` and `links` are the maximum numbers that `show` can draw. `materials` are the theme's `outline`, `halo`, `link`, `accentLine` and `trail`. */
   constructor(scene, slots, links, materials) {
     this.colours = null; // see setColours
     this.detailed = slots <= DETAILED_NODES;
@@ -81,13 +81,13 @@ export class Swarm {
     }
   }
 
-  /** Metres, as drawn; `halfLength` is the distance of a capsule's centre from those of its caps. */
+  /** Sets the drawn size in metres. `halfLength` is the distance between the centre of a capsule and the centres of its caps. */
   setSize(radius, halfLength) {
     this.uniforms.radius.value = radius;
     this.uniforms.halfLength.value = halfLength;
   }
 
-  /** Sets the colours of nodes: `colours` returns a function from slots to colours, 0xRRGGBB, for a frame. */
+  /** Sets the colours of nodes. For a frame, `colours` returns a function from slots to colours (0xRRGGBB). */
   setColours(colours) {
     this.colours = colours;
     for (const texture of this.textures) texture.frame = null;
@@ -161,7 +161,7 @@ export class Swarm {
 
   placeLines(material) {
     return this.patch(material, (shader) => {
-      // A line's ends have their slots in the place of x; those where a one-way link fades out have -1 - slot.
+      // The x coordinate of a line's end is the slot of its node, or -1 - slot where a one-way link fades out.
       shader.vertexShader = (`${PLACES}varying float strength;\n${shader.vertexShader}`).replace('#include <begin_vertex>', `
         strength = position.x < 0.0 ? 0.0 : 1.0;
         vec3 transformed = texelOf(position.x < 0.0 ? -1.0 - position.x : position.x).xyz;`);
@@ -180,7 +180,7 @@ export class Swarm {
   }
 }
 
-/** The slots that are linked with one; `way` is 1 for a link to the neighbour, 2 for one from it, 3 for both. */
+/** Returns the slots that are linked to a slot. `way` is 1 for a link to the neighbour, 2 for a link from it, and 3 for both. */
 export function neighboursOf({ pairs, ways }, slot) {
   const found = [];
   for (let i = 0; i < pairs.length; i++) {
@@ -223,7 +223,7 @@ function setSlots(mesh, slots) {
   mesh.geometry.instanceCount = slots.length;
 }
 
-/** `ways` as in a frame. */
+/** Sets the lines of links. `ways` has the format of a frame. */
 function setLines(object, pairs, ways) {
   const ends = new Float32Array(pairs.length);
   for (let i = 0; i < ends.length; i++) ends[i] = ways[i >> 1] === 2 - (i & 1) ? -1 - pairs[i] : pairs[i];

@@ -1,4 +1,4 @@
-// Trails of nodes: lines through their earlier positions, fading with age.
+// Draws trails of nodes. A trail is a line through earlier positions, which fades with age.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, LineSegments, Sphere } from 'three';
 
 const SECONDS = 3;
@@ -12,7 +12,7 @@ export class Trails {
     this.object.renderOrder = 1;
   }
 
-  /** Draws the trails of some slots up to a frame. Missing frames are requested; then `again` is called. */
+  /** Draws the trails of some slots up to a frame. If frames are missing, loads them and then calls `again`. */
   show(recording, frame, slots, again) {
     const pieces = slots.length === 0 ? 0 : Math.floor(MAX_PIECES / slots.length);
     const first = Math.max(recording.frameAt(recording.times[frame.index] - SECONDS), frame.index - pieces, 0);

@@ -1,4 +1,4 @@
-// The 3D picture. Data comes in Unity's axes; z is mirrored on the way in (FORMAT.md, Axes).
+// Draws the 3D picture. Input is in Unity's axes, and its z axis is mirrored here (FORMAT.md, Axes).
 import {
   BackSide, BoxGeometry, BufferAttribute, BufferGeometry, CanvasTexture, CapsuleGeometry, Color, DirectionalLight, DoubleSide, EdgesGeometry,
   Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MathUtils, MeshBasicMaterial, MeshLambertMaterial, PerspectiveCamera, PlaneGeometry,
@@ -24,7 +24,7 @@ const FOLLOWED_PIXELS = 12; // minimum radius of a followed node
 const LINE_GAP = 0.012; // metres between the floor and its lines, to avoid flicker
 
 export class View {
-  /** Fills the canvas and the labels of `holder`. `slots` and `maxPairs` are the maximum numbers in calls of `show`. */
+  /** Draws on the canvas of `holder`, and fills its labels. `slots` and `maxPairs` are the maximum numbers that `show` can draw. */
   constructor(holder, { metadata, movers, slots, maxPairs }) {
     this.holder = holder;
     const canvas = holder.querySelector('canvas');
@@ -44,7 +44,7 @@ export class View {
     this.pending = null;
     this.framed = 'above'; // the predefined view of the camera, null once the user has moved it
 
-    // The buffer is kept so that scripts can read the canvas at any time.
+    // With preserveDrawingBuffer, scripts can read the canvas at any time.
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true, powerPreference: 'high-performance' });
     this.renderer.shadowMap.enabled = true;
     this.scene = new Scene();
@@ -140,7 +140,7 @@ export class View {
     object.quaternion.set(-qx, -qy, qz, qw);
   }
 
-  /** Interpolates moving shapes between two frames. */
+  /** Moves the moving shapes to poses between two frames. */
   move(here, next, share) {
     for (const { object, poses } of this.movers) {
       const [from, to] = [here, next].map((index) => poses.slice(7 * index, 7 * index + 7));
@@ -182,7 +182,7 @@ export class View {
     this.request();
   }
 
-  /** Fits the view to its place in the page; `insets` are the pixels at each side that panels cover. */
+  /** Fits the view to its area of the page. `insets` are the pixels that panels cover at each side. */
   resize(left, width, height, insets) {
     Object.assign(this.holder.style, { left: `${left}px`, width: `${width}px` });
     this.insets = insets;
@@ -197,7 +197,7 @@ export class View {
     this.request();
   }
 
-  /** Shows the whole arena, `from` 'above' at an angle or from the 'top'. */
+  /** Shows the whole arena. `from` is 'above' for a view at an angle, or 'top'. */
   frame(from) {
     this.framed = from;
     this.controls.enableDamping = false; // stops the remaining rotation
@@ -272,8 +272,8 @@ export class View {
   }
 
   /**
-   * Shows the time that is `share` of the way from the frame `here` to `next`. `selected` is a slot or -1, `factor` scales nodes, and `links` is
-    * 'all', 'none', or 'selected' for links of the selected node.
+   * Shows a time between the frames `here` and `next`, where `share` is 0 for `here` and 1 for `next`. `selected` is a slot or -1, `factor`
+   * scales nodes, and `links` is 'all', 'none', or 'selected' for links of the selected node.
    */
   show({ here, next, share, links, selected, factor }) {
     const { swarm } = this;
@@ -303,7 +303,7 @@ export class View {
     this.request();
   }
 
-  /** The drawn position of a slot in the picture's axes. */
+  /** Returns the drawn position of a slot in the picture's axes. */
   pointOf(slot, point) {
     point.fromArray(this.swarm.placeOf(slot, [0, 0, 0]));
     point.z = -point.z;
@@ -317,7 +317,7 @@ export class View {
     this.controls.target.copy(place);
   }
 
-  /** The point of the floor at a point of the canvas, in Unity's axes. */
+  /** Returns the point of the floor at a point of the canvas, in Unity's axes. */
   floorAt(x, y) {
     const ray = new Vector3((2 * x) / this.width - 1, 1 - (2 * y) / this.height, 0.5).unproject(this.camera).sub(this.camera.position);
     const distance = (this.arena.min.y - this.camera.position.y) / Math.min(ray.y, -1e-6);
@@ -325,7 +325,7 @@ export class View {
     return [point.x, point.y, -point.z];
   }
 
-  /** The slot of the node nearest to a point of the canvas, within reach of a finger, or -1. */
+  /** Returns the slot of the node nearest to a point of the canvas, or -1 if no node is within the reach of a finger. */
   pick(x, y) {
     const { here, uniforms } = this.swarm;
     const point = new Vector3();
@@ -338,7 +338,7 @@ export class View {
       if (point.z > 1) continue;
       const distance = Math.hypot(((point.x + 1) / 2) * this.width - x, ((1 - point.y) / 2) * this.height - y);
       const reach = Math.max(uniforms.radius.value / (this.pixel * depth), 9);
-      // Selects the front node at the point, otherwise the nearest one on the screen.
+      // Prefer the front node at the point, otherwise the nearest node on the screen.
       const score = distance <= reach ? distance / reach + depth * 1e-3 : Infinity;
       if (score < bestScore) {
         best = slot;
@@ -348,7 +348,7 @@ export class View {
     return best;
   }
 
-  /** Requests one redraw for any number of calls. */
+  /** Requests a redraw. Several calls before the redraw request only one. */
   request() {
     this.pending ??= requestAnimationFrame((now) => {
       this.pending = null;
@@ -357,7 +357,7 @@ export class View {
     });
   }
 
-  /** Draws immediately instead of the requested redraw. */
+  /** Draws immediately, and cancels a requested redraw. */
   draw() {
     cancelAnimationFrame(this.pending);
     this.pending = null;
@@ -408,7 +408,7 @@ function geometryOf(shape) {
   const geometry = new BufferGeometry();
   const points = new Float32Array(shape.vertices).map((x, i) => (i % 3 === 2 ? -x : x));
   geometry.setAttribute('position', new BufferAttribute(points, 3));
-  // Mirrored triangles need their corners in reverse order.
+  // Mirroring reverses the order of a triangle's corners.
   geometry.setIndex(shape.triangles.map((_, i) => shape.triangles[3 * Math.floor(i / 3) + 2 - (i % 3)]));
   const flat = geometry.toNonIndexed();
   flat.computeVertexNormals();
