@@ -5,8 +5,8 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Draws a reference to a program. Unity tests only the main object of a dragged file, so the drawer itself accepts a dragged library and offers its
-    /// programs.
+    /// Draws a reference to a program. Unity would reject a dragged library, because it checks only the main object of a dragged file. The drawer therefore
+    /// accepts dragged libraries itself, and offers their programs.
     /// </summary>
     [CustomPropertyDrawer(typeof(AggregateProgram))]
     internal sealed class AggregateProgramDrawer : PropertyDrawer
@@ -34,7 +34,9 @@ namespace Collektive.Unity.Editor
 
         private static bool IsNamed(SerializedProperty name) => name != null && name.stringValue.Length > 0;
 
-        /// <summary>Returns the sibling field with the program's name, which takes precedence over the reference; null in users' scripts.</summary>
+        /// <summary>
+        /// Returns the field beside the reference that contains the program's name and takes precedence. Returns null for fields of users' scripts.
+        /// </summary>
         private static SerializedProperty NameOf(SerializedProperty property)
         {
             var path = property.propertyPath;

@@ -9,7 +9,7 @@ namespace Collektive.Unity.Editor
         private const string Menu = "GameObject/Collektive/";
         private const int Priority = 10;
 
-        // By GUID, because the name of the package's folder depends on how it was installed.
+        // Prefabs are found by GUID, because the path of the package's folder depends on how the package was installed.
         internal const string ManagerPrefab = "de7f1c418113b5c64bd5634bfb1c00c4";
         internal const string NodePrefab = "4294b6f679fa2bac2a9edd1a9a796341";
 
@@ -40,7 +40,7 @@ namespace Collektive.Unity.Editor
             var scale = created.transform.localScale;
             var parent = command.context as GameObject;
             ObjectFactory.PlaceGameObject(created, parent != null && !EditorUtility.IsPersistent(parent) ? parent : null);
-            // Placing resets it.
+            // PlaceGameObject has reset the scale.
             created.transform.localScale = scale;
             Undo.RegisterCreatedObjectUndo(created, "Create " + created.name);
             Selection.activeGameObject = created;

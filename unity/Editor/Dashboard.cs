@@ -5,7 +5,7 @@ using Collektive.Bridge;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The state of a running simulation as names and values, for the manager's inspector.</summary>
+    /// <summary>Describes the state of a running simulation as names and values, for the manager's inspector.</summary>
     internal static class Dashboard
     {
         internal static List<KeyValuePair<string, string>> Of(SimulationManager manager)
@@ -39,7 +39,7 @@ namespace Collektive.Unity.Editor
             return manager.Paused ? "paused" : "running";
         }
 
-        /// <summary>Message counts of the last tick.</summary>
+        /// <summary>Returns the message counts of the last tick as text.</summary>
         private static string Messages(in NetworkCounts counts) =>
             FormattableString.Invariant($"{counts.Sent} sent, {counts.Dropped} dropped, {counts.Delayed} delayed, {counts.Expired} expired");
 

@@ -8,7 +8,7 @@ using Collektive.Bridge;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// The programs of a jar, read without a JVM from the index that the compiler plugin writes for each class with programs
+    /// Reads the programs of a jar without a JVM. The compiler plugin writes an index for each class with programs
     /// (<c>META-INF/collektive/programs/CLASS</c>; ProgramIndex.kt defines the format).
     /// </summary>
     internal sealed class ProgramArchive
@@ -16,7 +16,7 @@ namespace Collektive.Unity.Editor
         private const string Index = "META-INF/collektive/programs/";
         private const string SchemaService = "META-INF/services/org.collektive.frames.data.DataSchema";
 
-        /// <summary>Columns before the possible values.</summary>
+        /// <summary>Number of columns before the possible values.</summary>
         private const int ParameterColumns = 4;
 
         private readonly SortedDictionary<string, ProgramInfo> programs = new SortedDictionary<string, ProgramInfo>(StringComparer.Ordinal);
@@ -35,7 +35,7 @@ namespace Collektive.Unity.Editor
             foreach (var entry in jar.Entries)
             {
                 if (!entry.FullName.StartsWith(Index, StringComparison.Ordinal) || entry.Name.Length == 0) continue;
-                // An incremental build can leave the index of a removed class.
+                // An incremental build can leave the index of a class that was removed.
                 if (jar.GetEntry(entry.Name.Replace('.', '/') + ".class") == null) continue;
                 ReadIndex(Lines(jar, entry.FullName));
             }
@@ -47,13 +47,13 @@ namespace Collektive.Unity.Editor
         /// <summary>SHA-256 of the binary schema, in hexadecimal.</summary>
         internal string SchemaHash { get; }
 
-        /// <summary>The runtime that the programs were compiled for, as in the manifest.</summary>
+        /// <summary>The manifest's value for the runtime that the programs were compiled for.</summary>
         internal string Runtime { get; }
 
-        /// <summary>The hash of the sources in the manifest, or an empty text.</summary>
+        /// <summary>The manifest's hash of the sources, or an empty string.</summary>
         internal string SourcesHash { get; }
 
-        /// <summary>The programs, by name in ordinal order.</summary>
+        /// <summary>The programs, in ordinal order of their names.</summary>
         internal ICollection<ProgramInfo> Programs => programs.Values;
 
         /// <exception cref="InvalidDataException">The file is not a jar with programs.</exception>
@@ -66,7 +66,7 @@ namespace Collektive.Unity.Editor
                 {
                     using (var jar = new ZipArchive(file, ZipArchiveMode.Read)) return new ProgramArchive(jar);
                 }
-                // The decoders also throw these for damaged archives.
+                // Damaged archives make the decoders throw these exceptions, too.
                 catch (Exception error) when (error is ArgumentException || error is NotSupportedException || error is EndOfStreamException)
                 {
                     throw new InvalidDataException(error.Message, error);

@@ -10,7 +10,7 @@ namespace Collektive.Unity.Editor
     [ScriptedImporter(2, ProgramLibrary.Extension)]
     internal sealed class ProgramLibraryImporter : ScriptedImporter
     {
-        /// <summary>References in scenes contain a hash of the identifier.</summary>
+        /// <summary>Identifier of the library. It must not change, because references in scenes contain a hash of it.</summary>
         private const string MainIdentifier = "<root>";
 
         /// <inheritdoc/>

@@ -9,12 +9,12 @@ using UnityEngine.SceneManagement;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Replaces the names of programs and jars in scenes of earlier versions and in their prefabs with references, when a scene is opened and before
-    /// Play. Names without a matching library are kept and reported.
+    /// Migrates scenes of earlier versions, and their prefabs, when a scene is opened and before Play. Names of programs and jars are replaced with
+    /// references. Names without a matching library are kept and reported.
     /// </summary>
     internal static class ProgramNames
     {
-        /// <summary>Jar of all samples in earlier versions.</summary>
+        /// <summary>Name of the jar that contained all samples in earlier versions.</summary>
         private const string SamplesJar = "collektive-samples.jar";
 
         [InitializeOnLoadMethod]
@@ -39,7 +39,7 @@ namespace Collektive.Unity.Editor
             var prefabs = PrefabsOf(scene);
             var roots = scene.GetRootGameObjects();
             var unknown = new HashSet<string>();
-            // Prefabs are saved first, because instances in the scene inherit their values.
+            // Prefabs must be saved first, because instances in the scene inherit their values.
             var settings = ReplaceInManagers(prefabs, new SimulationSettings());
             Array.ForEach(prefabs, AssetDatabase.SaveAssetIfDirty);
             settings = ReplaceInManagers(roots, settings);
@@ -57,7 +57,7 @@ namespace Collektive.Unity.Editor
             return Array.FindAll(Array.ConvertAll(paths, AssetDatabase.LoadAssetAtPath<GameObject>), prefab => prefab != null);
         }
 
-        /// <returns>The settings of the last manager, or <paramref name="settings"/> without a manager.</returns>
+        /// <returns>The settings of the last manager, or <paramref name="settings"/> if there are no managers.</returns>
         private static SimulationSettings ReplaceInManagers(GameObject[] roots, SimulationSettings settings)
         {
             foreach (var root in roots)
@@ -141,7 +141,7 @@ namespace Collektive.Unity.Editor
             return true;
         }
 
-        /// <summary>Returns the library that replaces a jar; null if none or several fit.</summary>
+        /// <summary>Returns the library that replaces a jar, or null if no library or several libraries match.</summary>
         private static ProgramLibrary LibraryOf(string jar, string schema)
         {
             var name = Path.GetFileNameWithoutExtension(jar).Replace("-collektive", "");

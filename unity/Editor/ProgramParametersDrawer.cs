@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Draws the parameters of the program that the selected nodes run, each with a field of its type.</summary>
+    /// <summary>Draws the parameters of the program that the selected nodes run. Each parameter has a field of its type.</summary>
     [CustomPropertyDrawer(typeof(ProgramParametersAttribute))]
     internal sealed class ProgramParametersDrawer : PropertyDrawer
     {
@@ -47,7 +47,7 @@ namespace Collektive.Unity.Editor
 
         private static Rect Below(Rect line, int lines) => new Rect(line.x, line.y + lines * Line, line.width, line.height);
 
-        /// <summary>Returns the program that all selected nodes run; null if they differ, or if it is unknown.</summary>
+        /// <summary>Returns the program that all selected nodes run, or null if the nodes run different programs or an unknown program.</summary>
         private static AggregateProgram ProgramOf(SerializedProperty property)
         {
             var manager = UnityEngine.Object.FindAnyObjectByType<SimulationManager>();
@@ -90,7 +90,7 @@ namespace Collektive.Unity.Editor
             if (EditorGUI.EndChangeCheck()) Set(property, parameter, edited);
         }
 
-        /// <summary>Draws a field of the parameter's type, or of text if the value has another type.</summary>
+        /// <summary>Draws a field of the parameter's type, or a text field if the value has another type.</summary>
         private static string Edit(Rect line, ProgramParameter parameter, string value)
         {
             var label = new GUIContent(parameter.Name, (parameter.Description + " Default: " + parameter.DefaultValue).Trim());
@@ -112,7 +112,10 @@ namespace Collektive.Unity.Editor
             return place < 0 ? parameter.DefaultValue : node.Parameters[place].value;
         }
 
-        /// <summary>Stores a value in each node, or removes it if it equals the default. The nodes' lists differ, so each is edited separately.</summary>
+        /// <summary>
+        /// Stores a value in each selected node, or removes the stored value if the new value is the default. Each node is edited separately, because the
+        /// lists of the nodes differ.
+        /// </summary>
         private static void Set(SerializedProperty property, ProgramParameter parameter, string value)
         {
             foreach (var target in property.serializedObject.targetObjects)

@@ -10,7 +10,7 @@ namespace Collektive.Unity.Editor
     /// <summary>Draws the JVM and the controls of flight recordings in an inspector or a window.</summary>
     internal sealed class Recorder
     {
-        /// <summary>Folder of recordings, outside the assets so that Unity does not import them.</summary>
+        /// <summary>Folder of recordings. It is outside of the assets, so that Unity does not import recordings.</summary>
         internal const string Folder = "Recordings";
 
         private static readonly GUIContent Settings = new GUIContent(

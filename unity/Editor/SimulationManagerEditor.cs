@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The manager's inspector: its settings, and a dashboard while it runs.</summary>
+    /// <summary>The manager's inspector. It shows the settings and, while the simulation runs, a dashboard.</summary>
     [CustomEditor(typeof(SimulationManager))]
     internal sealed class SimulationManagerEditor : UnityEditor.Editor
     {
@@ -12,7 +12,7 @@ namespace Collektive.Unity.Editor
         private UnityEditor.Editor jvm;
         private bool isJvmShown;
 
-        /// <summary>The dashboard changes with each tick.</summary>
+        /// <summary>Returns true during play, because the dashboard changes with each tick.</summary>
         public override bool RequiresConstantRepaint() => EditorApplication.isPlaying;
 
         /// <inheritdoc/>
@@ -32,7 +32,7 @@ namespace Collektive.Unity.Editor
             if (jvm != null) DestroyImmediate(jvm);
         }
 
-        /// <summary>Draws the settings of the manager's asset in place.</summary>
+        /// <summary>Draws the settings of the JVM asset within the manager's inspector.</summary>
         private void DrawJvm(JvmSettingsAsset asset)
         {
             if (asset == null) return;

@@ -4,8 +4,8 @@ using System.IO;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Writes files atomically: under a temporary name, then renamed. Another editor may write the same file of the project at the same time, and readers see
-    /// either the old or the new content.
+    /// Writes files atomically, under a temporary name that is then renamed. Readers see either the old or the new content, even if another editor writes
+    /// the same file at the same time.
     /// </summary>
     internal static class AtomicFile
     {

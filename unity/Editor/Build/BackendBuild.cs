@@ -5,7 +5,7 @@ namespace Collektive.Unity.Editor
     /// <summary>Builds the package from a source checkout, for developers of the package.</summary>
     internal static class BackendBuild
     {
-        /// <returns>The path of the new tarball, or null after a failed build, which is logged.</returns>
+        /// <returns>The path of the new tarball, or null if the build failed. The failure is logged.</returns>
         /// <exception cref="ToolException">The preferences do not name a source checkout.</exception>
         internal static string Make()
         {
@@ -19,7 +19,7 @@ namespace Collektive.Unity.Editor
             var (code, output) = ToolRun.Try(checkout, command, "package");
             ToolConsole.Show("collektive package", code, output);
             if (code != 0) return null;
-            // The last line of the command's output names the archive.
+            // The last line of the command's output is the path of the archive.
             var lines = output.TrimEnd().Split('\n');
             return lines[lines.Length - 1];
         }

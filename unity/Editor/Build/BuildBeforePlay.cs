@@ -3,7 +3,9 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Waits for the build of programs when Play is pressed. If it fails, Play does not start with the previous programs.</summary>
+    /// <summary>
+    /// Waits for the build of programs when Play is pressed. If the build fails, the settings decide whether Play starts with the previous programs.
+    /// </summary>
     internal static class BuildBeforePlay
     {
         [InitializeOnLoadMethod]

@@ -9,17 +9,17 @@ using UnityEditor;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// The process that keeps the compilers loaded, and the folder through which it receives requests (<c>CompileServer.kt</c>). It outlives reloads
-    /// of the editor's code, and ends with the editor.
+    /// The process that keeps the compilers loaded. It receives requests as files in a folder (<c>CompileServer.kt</c>). It outlives reloads of the
+    /// editor's code, and ends with the editor.
     /// </summary>
     internal static class CompilerProcess
     {
         private const string Folder = "Library/Collektive/Compiler";
 
-        /// <summary>Key in the session state: the process, its start time, and the tools that it has loaded.</summary>
+        /// <summary>Key in the session state for the process, its start time, and the tools that it has loaded.</summary>
         private const string Key = "Collektive.Compiler";
 
-        /// <summary>Oldest Java that writes an archive of loaded classes by itself.</summary>
+        /// <summary>Oldest version of Java that automatically writes an archive of loaded classes.</summary>
         private const int FirstWithAutomaticArchive = 19;
 
         /// <summary>Tolerance for start times, which are rounded.</summary>
@@ -27,13 +27,13 @@ namespace Collektive.Unity.Editor
 
         private static readonly StringBuilder Messages = new StringBuilder();
 
-        /// <summary>The started process, for reading its messages. Null after a reload of code, which the process survives.</summary>
+        /// <summary>The started process, whose messages are read. Null after a reload of code, although the process still runs.</summary>
         private static Process started;
 
-        /// <summary>Submits a request, and starts the process if none runs with these tools.</summary>
+        /// <summary>Submits a request. Starts the process first if no process with these tools is running.</summary>
         /// <param name="jdk">Root of the JDK.</param>
         /// <param name="kotlin">Root of the Kotlin compiler.</param>
-        /// <param name="libraries">Jars that compilations read: a process with earlier versions of them is replaced.</param>
+        /// <param name="libraries">Jars that compilations read. A process that has loaded other versions of the jars is replaced.</param>
         /// <param name="options">Options of the compilation.</param>
         /// <returns>The name of the request.</returns>
         /// <exception cref="ToolException">The process cannot be started.</exception>
@@ -55,7 +55,7 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>Returns the answer to a request.</summary>
-        /// <returns>False while the process still works on it.</returns>
+        /// <returns>False while the process is still working on the request.</returns>
         /// <exception cref="ToolException">The process ended without an answer.</exception>
         internal static bool TryTake(string name, out int code, out string output)
         {
@@ -88,7 +88,7 @@ namespace Collektive.Unity.Editor
             }
             catch (InvalidOperationException)
             {
-                // It has ended in the meantime.
+                // The process has ended in the meantime.
             }
             process?.Dispose();
             started?.Dispose();

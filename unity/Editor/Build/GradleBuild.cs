@@ -6,10 +6,10 @@ namespace Collektive.Unity.Editor
     /// <summary>The Gradle build that IDEs use to complete and check a project's Kotlin code. Unity does not use it.</summary>
     internal static class GradleBuild
     {
-        /// <summary>Folder in the project: Unity would import Gradle's outputs below <c>Assets</c>.</summary>
+        /// <summary>Folder of the build in the project. It is outside of <c>Assets</c>, because Unity would import Gradle's outputs there.</summary>
         internal const string Folder = "CollektivePrograms";
 
-        /// <summary>Writes the build of all programs with the built-in runtime.</summary>
+        /// <summary>Writes the build of all programs that use the built-in runtime.</summary>
         /// <exception cref="ToolException">A tool of the package is missing.</exception>
         internal static void Write(IReadOnlyList<SchemaProject> projects)
         {
@@ -43,7 +43,7 @@ namespace Collektive.Unity.Editor
             AtomicFile.Rename(part, path);
         }
 
-        /// <summary>Returns a path as the content of a string of Kotlin.</summary>
+        /// <summary>Returns a path in the form of a Kotlin string literal, without quotes.</summary>
         private static string Escape(string path) => Path.GetFullPath(path).Replace('\\', '/').Replace("\"", "\\\"").Replace("$", "\\$");
     }
 }

@@ -9,14 +9,14 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Adds the JVM, the host's jars and the libraries of programs to players with simulations. They are copied
-    /// below the player's streaming assets, where <see cref="Installation"/> finds them.
+    /// Adds the JVM, the host's jars and the program libraries to players that contain simulations. The files are copied to the player's streaming assets,
+    /// where <see cref="Installation"/> finds them.
     /// </summary>
     internal sealed class PlayerBuild : BuildPlayerProcessor
     {
         private static readonly string[] HostJars = { "collektive-host.jar", "collektive-library.jar", "collektive-adapter.jar" };
 
-        /// <exception cref="BuildFailedException">A simulation of the player could not start.</exception>
+        /// <exception cref="BuildFailedException">A simulation in the player would fail to start.</exception>
         public override void PrepareForBuild(BuildPlayerContext buildPlayerContext)
         {
             var options = buildPlayerContext.BuildPlayerOptions;
@@ -37,7 +37,7 @@ namespace Collektive.Unity.Editor
             foreach (var file in files) buildPlayerContext.AddAdditionalPathToStreamingAssets(file.Value, file.Key);
         }
 
-        /// <summary>Returns the named scenes or, without names, the open scenes that are saved.</summary>
+        /// <summary>Returns the scenes that the build names or, if it names none, the open scenes that have been saved.</summary>
         private static string[] ScenesOf(BuildPlayerOptions options, List<SceneSimulation> simulations) =>
             options.scenes?.Length > 0 ? options.scenes : simulations.ConvertAll(simulation => simulation.Scene).FindAll(scene => scene.Length > 0).ToArray();
 

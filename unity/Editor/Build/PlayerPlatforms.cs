@@ -3,11 +3,11 @@ using UnityEditor;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The platforms of a player, under the package's names for them.</summary>
+    /// <summary>Finds the platforms that a player supports, with the package's names for platforms.</summary>
     internal static class PlayerPlatforms
     {
-        /// <summary>Finds the platforms that a build for this target runs on, with the architecture in the build settings.</summary>
-        /// <returns>The reason why the simulation cannot run there, or null.</returns>
+        /// <summary>Finds the platforms on which a build for a target runs, depending on the architecture in the build settings.</summary>
+        /// <returns>The reason why simulations cannot run on the target, or null.</returns>
         internal static string Find(BuildTarget target, out string[] platforms)
         {
             var architecture = EditorUserBuildSettings.GetPlatformSettings(BuildPipeline.GetBuildTargetName(target), "Architecture").ToLowerInvariant();
@@ -22,7 +22,7 @@ namespace Collektive.Unity.Editor
             return null;
         }
 
-        /// <returns>Null for unsupported targets.</returns>
+        /// <returns>The names of the platforms, or null for an unsupported target.</returns>
         private static string[] Of(BuildTarget target, string architecture)
         {
             switch (target)

@@ -8,17 +8,17 @@ using UnityEngine;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// Builds the jars of programs, and the C# of their schemas, one after the other in the <see cref="CompilerProcess"/>, without blocking the editor. The
-    /// Progress window shows the current build. Call it from the main thread only.
+    /// Builds the jars of programs and the C# code of their schemas. The builds run one after the other in the <see cref="CompilerProcess"/>, without
+    /// blocking the editor. The Progress window shows the current build. Call all members from the main thread.
     /// </summary>
     internal static class ProgramBuild
     {
-        /// <summary>The exit code of the compiler after an exception in the Kotlin compiler or in a plugin.</summary>
+        /// <summary>The compiler's exit code after an exception in the Kotlin compiler or in a plugin.</summary>
         private const int CompilerCrashed = 2;
 
         private const int PollMs = 10;
 
-        /// <summary>Key in the session state: the jar whose build a code reload interrupted.</summary>
+        /// <summary>Key in the session state for the jar whose build was interrupted by a reload of code.</summary>
         private const string CurrentKey = "Collektive.Build";
 
         private const string Work = "Library/Collektive/Build";
@@ -31,12 +31,12 @@ namespace Collektive.Unity.Editor
         private static string request;
         private static int progress;
 
-        /// <summary>Set by the Progress window, possibly on another thread.</summary>
+        /// <summary>Whether the user cancelled the build. The Progress window may set it on another thread.</summary>
         private static volatile bool isCanceled;
 
         internal static bool IsRunning => current != null || Waiting.Count > 0;
 
-        /// <summary>Builds programs in the background. A program whose build is already running is built again afterwards.</summary>
+        /// <summary>Builds programs in the background. If the build of a program is already running, the program is built again afterwards.</summary>
         internal static void Start(List<SchemaProject> projects)
         {
             if (!IsRunning) isCanceled = false;
@@ -58,7 +58,7 @@ namespace Collektive.Unity.Editor
             var projects = SchemaProject.FindAll();
             ToolsMenu.TryRun(() =>
             {
-                // A failed build is not repeated at each reload of code.
+                // A failed build must not be repeated at each reload of code.
                 projects = projects.FindAll(project => project.Jar == interrupted
                     || project.IsStale && (project.HasAny(changed) || SessionState.GetString(KeyOf(project), "") != project.Sources));
                 return true;
@@ -140,7 +140,8 @@ namespace Collektive.Unity.Editor
             try
             {
                 if (!CompilerProcess.TryTake(request, out var code, out var output)) return;
-                // A file was saved in the meantime. Killing the process would lose the loaded compilers.
+                // A file was saved in the meantime, so the program is built again. The process was not killed then, because the compilers would have to be
+                // loaded again.
                 if (current.Sources != sources) Submit();
                 else End(code, output);
             }
@@ -163,8 +164,8 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>
-        /// Loads the new programs into a running simulation, or shows in the Game view that it continues with the previous ones. Does nothing if the project's
-        /// settings disable it.
+        /// Loads the new programs into a running simulation. If the build failed, shows in the Game view that the simulation continues with the previous
+        /// programs. Does nothing if the project's settings disable reloading.
         /// </summary>
         internal static void UpdateWhilePlaying(bool isBuilt)
         {
@@ -173,7 +174,7 @@ namespace Collektive.Unity.Editor
             if (isBuilt) SimulationManager.Current.ReloadPrograms();
         }
 
-        /// <summary>Cancels the waiting builds, which would fail for the same reason: a missing tool.</summary>
+        /// <summary>Cancels the waiting builds, because they would also fail if a tool is missing.</summary>
         private static void Fail(Exception error)
         {
             Waiting.Clear();

@@ -25,7 +25,7 @@ namespace Collektive.Unity.Editor
 
         internal AggregateRuntime Kind { get; } = AggregateRuntime.BuiltIn;
 
-        /// <summary>The value in a jar's manifest by which the host rejects programs for another runtime.</summary>
+        /// <summary>The runtime's value in the manifest of a jar. The host rejects programs for another runtime by it.</summary>
         /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
         internal string ManifestValue => Kind == AggregateRuntime.BuiltIn ? "builtIn" : "collektive " + Hash(Jars());
 
@@ -58,7 +58,7 @@ namespace Collektive.Unity.Editor
             return found;
         }
 
-        /// <summary>The names of a jar's entries are not compressed.</summary>
+        /// <summary>Returns whether a jar is a compiler plugin. The names of a jar's entries are not compressed, so they can be searched directly.</summary>
         private static bool IsPlugin(string path) => Encoding.ASCII.GetString(File.ReadAllBytes(path)).Contains(PluginEntry);
 
         private static string Hash(string[] jars)

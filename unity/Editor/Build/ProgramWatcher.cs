@@ -4,7 +4,9 @@ using UnityEditor;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Builds programs when their Kotlin files or schema changed, and after a reload of code, which may have interrupted a build.</summary>
+    /// <summary>
+    /// Builds programs when their Kotlin files or their schema changed. Also runs after a reload of code, because the reload may have interrupted a build.
+    /// </summary>
     internal sealed class ProgramWatcher : AssetPostprocessor
     {
         private static void OnPostprocessAllAssets(
@@ -13,7 +15,7 @@ namespace Collektive.Unity.Editor
             var changed = new List<string>();
             foreach (var paths in new[] { importedAssets, deletedAssets, movedAssets, movedFromAssetPaths })
                 changed.AddRange(Array.FindAll(paths, IsSource));
-            // Delayed, because an import may be running.
+            // The call is delayed, because an import may be running now.
             if (changed.Count > 0 || didDomainReload) EditorApplication.delayCall += () => ProgramBuild.StartOutdated(changed);
         }
 

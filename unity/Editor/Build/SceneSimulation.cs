@@ -15,7 +15,7 @@ namespace Collektive.Unity.Editor
             Settings = settings;
         }
 
-        /// <summary>The scene's path from the project's folder.</summary>
+        /// <summary>The scene's path, relative to the project's folder.</summary>
         internal string Scene { get; }
 
         internal SimulationSettings Settings { get; }
@@ -30,7 +30,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Returns the managers of the named scenes as saved on disk, or of the open scenes if no scene is named.</summary>
+        /// <summary>Returns the managers of the given scenes, as saved on disk. If no scene is given, returns the managers of the open scenes.</summary>
         internal static List<SceneSimulation> FindAll(string[] scenes)
         {
             var found = new List<SceneSimulation>();

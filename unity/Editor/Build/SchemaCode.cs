@@ -6,7 +6,7 @@ namespace Collektive.Unity.Editor
     internal static class SchemaCode
     {
         /// <summary>Generates the C# code that sensors and actuators use.</summary>
-        /// <returns>Whether the code was generated; otherwise the errors are logged.</returns>
+        /// <returns>Whether the code was generated. If not, the errors are logged.</returns>
         internal static bool MakeCSharp(SchemaProject project)
         {
             var java = Toolchain.FindJava();

@@ -7,8 +7,8 @@ using Object = UnityEngine.Object;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// A user's schema and the files beside it: the generated C# in <c>Generated</c>, the Kotlin in <c>Programs</c>, and the jar that is built from schema and
-    /// Kotlin, <c>NAME.clkprograms</c>.
+    /// A user's schema and the files that belong to it. In the schema's folder, <c>Generated</c> contains the generated C# code, <c>Programs</c> the Kotlin
+    /// files, and <c>NAME.clkprograms</c> is the jar built from the schema and the Kotlin files.
     /// </summary>
     internal sealed class SchemaProject
     {
@@ -20,13 +20,15 @@ namespace Collektive.Unity.Editor
             Runtime = new ProgramRuntime(user ?? (simulations.Count > 0 ? simulations[0] : new SimulationSettings()));
         }
 
-        /// <summary>The runtime for which the programs are compiled. It comes from a simulation that uses them, otherwise from the first simulation.</summary>
+        /// <summary>
+        /// The runtime for which the programs are compiled. It is taken from a simulation that uses the programs, or else from the first simulation.
+        /// </summary>
         internal ProgramRuntime Runtime { get; }
 
-        /// <summary>Whether one of the simulations runs its programs.</summary>
+        /// <summary>Whether one of the simulations runs the project's programs.</summary>
         internal bool IsUsed { get; }
 
-        /// <summary>The schema's path from the project's folder.</summary>
+        /// <summary>The schema's path, relative to the project's folder.</summary>
         internal string Schema { get; }
 
         internal string Name => Path.GetFileNameWithoutExtension(Schema);
@@ -35,17 +37,17 @@ namespace Collektive.Unity.Editor
 
         internal string Programs => Path.Combine(Path.GetDirectoryName(Schema), "Programs");
 
-        /// <summary>The jar, an asset that can be committed.</summary>
+        /// <summary>The path of the jar, which is an asset that can be committed.</summary>
         internal string Jar => Path.ChangeExtension(Schema, ProgramLibrary.Extension);
 
         internal bool HasPrograms => SourceHash.KotlinFiles(Programs).Length > 0;
 
-        /// <summary>The hash of the schema and the programs as they are now.</summary>
+        /// <summary>The hash of the present schema and programs.</summary>
         internal string Sources => SourceHash.Of(Schema, Programs);
 
         /// <summary>
-        /// Whether the jar was built from other sources, for another runtime or by another version of the package, whose generated code is specific to it.
-        /// A project with neither programs nor a jar is not.
+        /// Whether the jar is outdated: it was built from other sources, for another runtime, or by another package version, whose generated code would not
+        /// fit. A project that has neither programs nor a jar is not outdated.
         /// </summary>
         /// <exception cref="ToolException">The runtime's jars are missing.</exception>
         internal bool IsStale
@@ -71,11 +73,11 @@ namespace Collektive.Unity.Editor
             return false;
         }
 
-        /// <summary>Whether any of its C# was written since then.</summary>
+        /// <summary>Returns whether any of the generated C# files was written at or after a time.</summary>
         internal bool HasGeneratedSince(DateTime time) => Directory.Exists(Generated)
             && Array.Exists(Directory.GetFiles(Generated, "*.cs", SearchOption.AllDirectories), file => File.GetLastWriteTimeUtc(file) >= time);
 
-        /// <summary>The same, for the simulations of the loaded scenes.</summary>
+        /// <summary>Returns all schemas, with the runtimes of the simulations in the loaded scenes.</summary>
         internal static List<SchemaProject> FindAll()
         {
 #if UNITY_6000_5_OR_NEWER
@@ -86,7 +88,7 @@ namespace Collektive.Unity.Editor
             return FindAll(Array.ConvertAll(managers, manager => manager.Settings));
         }
 
-        /// <summary>All schemas below <c>Assets</c>, by path, without folders that Unity ignores.</summary>
+        /// <summary>Returns all schemas below <c>Assets</c>, sorted by path, except in folders that Unity ignores.</summary>
         internal static List<SchemaProject> FindAll(IReadOnlyList<SimulationSettings> simulations)
         {
             var found = new List<SchemaProject>();

@@ -8,8 +8,8 @@ using System.Text.RegularExpressions;
 namespace Collektive.Unity.Editor
 {
     /// <summary>
-    /// The hash of a jar's sources, which the compiler records in the jar. It finds outdated jars without a JVM and without file times, which Git does not
-    /// keep. <c>SourceHash.kt</c> describes it and computes the same hash.
+    /// Computes the hash of a jar's sources, which the compiler records in the jar. By comparing hashes, the editor finds outdated jars without a JVM, and
+    /// without file times, which Git does not preserve. <c>SourceHash.kt</c> defines the hash and computes it too.
     /// </summary>
     internal static class SourceHash
     {

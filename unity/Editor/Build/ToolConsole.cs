@@ -6,10 +6,10 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Logs the output of tools to the console. A click selects the file; the link opens it at the line.</summary>
+    /// <summary>Logs the output of tools to the console. A click on a message selects the file, and a link opens the file at the line.</summary>
     internal static class ToolConsole
     {
-        /// <summary>Logs the messages in a tool's output, or the whole output as one error if the tool failed without naming a place.</summary>
+        /// <summary>Logs the messages in a tool's output. If the tool failed without naming a position, logs the whole output as one error.</summary>
         internal static void Show(string tool, int code, string output)
         {
             var hasError = false;
@@ -32,7 +32,10 @@ namespace Collektive.Unity.Editor
             else Debug.LogWarning(text, asset);
         }
 
-        /// <summary>The path from the project's folder, as the editor names assets; a file elsewhere keeps its own.</summary>
+        /// <summary>
+        /// Returns the path of a file relative to the project's folder, as the editor names assets. Paths of files outside of that folder are returned
+        /// unchanged.
+        /// </summary>
         private static string InProject(string file)
         {
             var full = Path.GetFullPath(file).Replace('\\', '/');

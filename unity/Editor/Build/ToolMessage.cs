@@ -27,10 +27,10 @@ namespace Collektive.Unity.Editor
 
         internal string File { get; }
 
-        /// <summary>From 1.</summary>
+        /// <summary>The line, starting from 1.</summary>
         internal int Line { get; }
 
-        /// <summary>From 1; 0 if the tool does not report it.</summary>
+        /// <summary>The column, starting from 1; 0 if the tool does not report it.</summary>
         internal int Column { get; }
 
         internal bool IsError { get; }

@@ -9,7 +9,7 @@ namespace Collektive.Unity.Editor
     internal static class ToolRun
     {
         /// <summary>Runs a program to its end.</summary>
-        /// <returns>Its exit code, and its output, including errors.</returns>
+        /// <returns>The exit code of the program, and its output, including standard error.</returns>
         internal static (int Code, string Output) Try(string folder, string program, params string[] arguments)
         {
             var output = new StringBuilder();
@@ -20,8 +20,10 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Starts a program whose messages are appended to <paramref name="output"/> on other threads; lock it to read them.</summary>
-        /// <exception cref="ToolException">It cannot be started.</exception>
+        /// <summary>
+        /// Starts a program. Its messages are appended to <paramref name="output"/> on other threads, so lock <paramref name="output"/> to read them.
+        /// </summary>
+        /// <exception cref="ToolException">The program cannot be started.</exception>
         internal static Process Start(string folder, string program, StringBuilder output, params string[] arguments)
         {
             var process = new Process
@@ -53,7 +55,7 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>Runs a program that must succeed.</summary>
-        /// <exception cref="ToolException">It did not.</exception>
+        /// <exception cref="ToolException">The program failed.</exception>
         internal static void Do(string program, params string[] arguments)
         {
             var (code, output) = Try(".", program, arguments);
@@ -73,7 +75,7 @@ namespace Collektive.Unity.Editor
             return text.ToString();
         }
 
-        /// <summary>Quotes an argument. On Windows, a backslash is doubled only before a quote, so that <c>\\server\share</c> stays as it is.</summary>
+        /// <summary>Quotes an argument. On Windows, a backslash is doubled only before a quote, so that <c>\\server\share</c> is not changed.</summary>
         internal static string Quoted(string argument, bool isWindows)
         {
             var escaped = isWindows ? Regex.Replace(argument, "(\\\\*)(\"|$)", match => match.Groups[1].Value + match.Groups[1].Value

@@ -13,7 +13,7 @@ namespace Collektive.Unity.Editor
     /// </summary>
     internal static class Toolchain
     {
-        /// <summary>The plugin works with this version of the compiler only.</summary>
+        /// <summary>The version of the Kotlin compiler. The compiler plugin works with this version only.</summary>
         internal const string KotlinVersion = "2.4";
 
         private static readonly bool Windows = RuntimeInformation.IsOSPlatform(OSPlatform.Windows);
@@ -24,24 +24,30 @@ namespace Collektive.Unity.Editor
 
         internal static string CompilerPlugin => PackageTool("collektive-compiler-plugin.jar");
 
-        /// <summary>Source of the functions on links: part of the built-in library, and compiled with programs for other runtimes.</summary>
+        /// <summary>
+        /// Path of the source of the functions on links. The built-in library contains these functions; for other runtimes, they are compiled with the
+        /// programs.
+        /// </summary>
         internal static string Links => PackageTool("Links.kt");
 
-        /// <summary>API for tests of programs.</summary>
+        /// <summary>Path of the API for tests of programs.</summary>
         internal static string Testing => PackageTool("collektive-testing.jar");
 
         internal static string GradleTemplate => PackageTool("build.gradle.kts");
 
-        /// <summary>Folder of <c>types.fbs</c>, which schemas may include.</summary>
+        /// <summary>Folder that contains <c>types.fbs</c>, which schemas may include.</summary>
         internal static string SchemaFolder => Path.GetDirectoryName(PackageTool("types.fbs"));
 
-        /// <summary>Returns an executable copy of flatc: package managers do not keep the permission, and the package's folder is read-only.</summary>
+        /// <summary>
+        /// Returns the path of an executable copy of flatc. A copy is needed because package managers do not preserve the permission, and the package's
+        /// folder is read-only.
+        /// </summary>
         internal static string Flatc()
         {
             if (Installation.Platform == "mac-x64" || Installation.Platform == "linux-arm64")
                 throw new ToolException("flatc is not available for " + Installation.Platform + ": generate the code on another machine and commit it");
             var packageTool = PackageTool(Installation.Platform + "/flatc" + (Windows ? ".exe" : ""));
-            // Named after its content, because package managers set arbitrary file times.
+            // The copy's name contains a hash of the content, because package managers set arbitrary file times.
             var copy = Path.GetFullPath("Library/Collektive/Tools/flatc-" + Hash(packageTool) + (Windows ? ".exe" : ""));
             if (File.Exists(copy)) return copy;
             Directory.CreateDirectory(Path.GetDirectoryName(copy));
@@ -53,8 +59,8 @@ namespace Collektive.Unity.Editor
         }
 
         /// <summary>
-        /// Returns the command java of version 17 or newer, for steps without a compiler: from the JVM package, the JDK in the settings,
-        /// <c>JAVA_HOME</c>, or the usual folders.
+        /// Returns the path of a <c>java</c> command of version 17 or newer, for steps that need no compiler. It is searched for in the JVM package, the
+        /// JDK in the settings, <c>JAVA_HOME</c>, and the usual folders.
         /// </summary>
         /// <exception cref="ToolException">Not found.</exception>
         internal static string FindJava()
@@ -67,7 +73,7 @@ namespace Collektive.Unity.Editor
                 + "adoptium.net), and set JAVA_HOME or its folder in Preferences > Collektive");
         }
 
-        /// <summary>Returns the root of the JDK: from the settings, <c>JAVA_HOME</c>, or the newest of the usual folders.</summary>
+        /// <summary>Returns the root of the JDK. It is taken from the settings or <c>JAVA_HOME</c>, or is the newest JDK in the usual folders.</summary>
         /// <exception cref="ToolException">Not found.</exception>
         internal static string FindJdk()
         {
@@ -84,15 +90,15 @@ namespace Collektive.Unity.Editor
                 + "and set its folder in Preferences > Collektive, or JAVA_HOME");
         }
 
-        /// <summary>Returns the root of the Kotlin compiler: from the settings, <c>KOTLIN_HOME</c> or <c>PATH</c>.</summary>
-        /// <param name="runtime">With Collektive, any version is accepted, because its plugin determines it.</param>
+        /// <summary>Returns the root of the Kotlin compiler, from the settings, <c>KOTLIN_HOME</c> or <c>PATH</c>.</summary>
+        /// <param name="runtime">The runtime. For Collektive, any version is accepted, because it must match Collektive's plugin.</param>
         /// <exception cref="ToolException">The compiler was not found, or has an unsupported version.</exception>
         internal static string FindKotlin(AggregateRuntime runtime)
         {
             var candidates = new List<string> { PersonalSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
             foreach (var folder in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
             {
-                // The compiler's own bin folder; a link in /usr/bin does not reveal the compiler's folder.
+                // Accept only the bin folder of a compiler, because a link in /usr/bin does not reveal the compiler's folder.
                 var parent = Path.GetDirectoryName(folder.TrimEnd('/', '\\'));
                 if (File.Exists(Path.Combine(folder, Windows ? "kotlinc.bat" : "kotlinc")) && File.Exists(Path.Combine(parent ?? "", "build.txt")))
                     candidates.Add(parent);
@@ -119,7 +125,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Adds the JVM of <c>JAVA_HOME</c>, then those of the usual folders, the newest first.</summary>
+        /// <summary>Adds the JVM of <c>JAVA_HOME</c>, and then the JVMs in the usual folders, newest first.</summary>
         private static void AddInstalled(List<string> candidates)
         {
             candidates.Add(Environment.GetEnvironmentVariable("JAVA_HOME") ?? "");
@@ -128,7 +134,7 @@ namespace Collektive.Unity.Editor
             {
                 if (Directory.Exists(folder)) installed.AddRange(Directory.GetDirectories(folder));
             }
-            // A JDK of macOS is a bundle.
+            // On macOS, a JDK is a bundle.
             installed = installed.ConvertAll(home => Directory.Exists(home + "/Contents/Home") ? home + "/Contents/Home" : home);
             installed.Sort((a, b) => Version(b).CompareTo(Version(a)));
             candidates.AddRange(installed);

@@ -11,7 +11,7 @@ namespace Collektive.Unity.Editor
     {
         private const int MaxElements = 8;
 
-        /// <summary>The fields of a struct's mirror or a table's draft, the properties of a table's reader.</summary>
+        /// <summary>Returns the fields of a struct or a draft, or the properties of a FlatBuffers reader.</summary>
         internal static List<KeyValuePair<string, string>> Of(object data)
         {
             var lines = new List<KeyValuePair<string, string>>();
@@ -25,7 +25,7 @@ namespace Collektive.Unity.Editor
             members.AddRange(type.GetFields(BindingFlags.Instance | BindingFlags.Public));
             foreach (var property in type.GetProperties(BindingFlags.Instance | BindingFlags.Public))
             {
-                // FlatBuffers' readers expose their memory as a property.
+                // The property ByteBuffer of FlatBuffers readers is their memory, not a field of the schema.
                 if (property.CanRead && property.GetIndexParameters().Length == 0 && property.Name != "ByteBuffer") members.Add(property);
             }
             return members;

@@ -11,7 +11,7 @@ namespace Collektive.Unity.Editor
 
         private readonly List<LinkRecord> links = new List<LinkRecord>();
         private readonly List<NodeRow> rows = new List<NodeRow>();
-        // By node id.
+        // Numbers of links, by node id.
         private readonly PagedArray<(int Senders, int Receivers)> counts = new PagedArray<(int Senders, int Receivers)>();
         private readonly Queue<string> log = new Queue<string>();
 
@@ -36,7 +36,7 @@ namespace Collektive.Unity.Editor
             Manager.Logged -= Logged;
         }
 
-        /// <summary>The nodes whose id, name or program contains the filter, valid until the next call.</summary>
+        /// <summary>Returns the nodes whose id, name or program contains the filter. The list is valid until the next call.</summary>
         internal List<NodeRow> Nodes(string filter)
         {
             CountLinks();
@@ -52,7 +52,7 @@ namespace Collektive.Unity.Editor
             return rows;
         }
 
-        /// <summary>The links of a node, incoming ones first, by the other's id.</summary>
+        /// <summary>Returns the links of a node. Incoming links come first; both groups are sorted by the id of the other node.</summary>
         internal List<NeighbourRow> Neighbours(int id)
         {
             Manager.CopyLinks(links);
@@ -69,7 +69,7 @@ namespace Collektive.Unity.Editor
         /// <summary>Returns a heading with the tick of the node's last answer.</summary>
         internal static string TitleOf(Node node) => node.AnswerTick == 0 ? "No answer yet" : "Answer of tick " + node.AnswerTick;
 
-        /// <summary>The last answer of the node's program; empty before the first.</summary>
+        /// <summary>Returns the last answer of a node's program, or an empty list before the first answer.</summary>
         internal List<KeyValuePair<string, string>> Values(int id)
         {
             var node = Manager.Find(id);
@@ -77,7 +77,7 @@ namespace Collektive.Unity.Editor
             return data == null ? new List<KeyValuePair<string, string>>() : DataText.Of(data);
         }
 
-        /// <summary>Errors by program, component or handler and node, the most frequent first.</summary>
+        /// <summary>Returns the errors by source and node, the most frequent first.</summary>
         internal List<NodeErrors> Errors()
         {
             var errors = new List<NodeErrors>(Manager.Errors);

@@ -6,8 +6,10 @@ using UnityEngine.UIElements;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Tools &gt; Collektive &gt; Diagnostics: nodes with their values and neighbours, errors, durations, the JVM's log, memory and
-    /// recordings.</summary>
+    /// <summary>
+    /// The window Tools &gt; Collektive &gt; Diagnostics. It shows nodes with their values and neighbours, errors, durations, and the JVM's log, memory and
+    /// recordings.
+    /// </summary>
     internal sealed class DiagnosticsWindow : EditorWindow
     {
         private const int MaxErrors = 200;

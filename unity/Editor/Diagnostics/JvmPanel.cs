@@ -14,11 +14,11 @@ namespace Collektive.Unity.Editor
 
         private double lastQuery = double.NegativeInfinity;
 
-        // On another thread, because the JVM answers only between two ticks, and a tick may take as long as its limit.
+        // The query runs on another thread, because the JVM answers only between two ticks, and a tick may take long.
         private Task<JvmStatus> query;
         private string failure = "";
 
-        /// <summary>The last answer; null without a running JVM.</summary>
+        /// <summary>The last status of the JVM; null if no JVM is running.</summary>
         internal JvmStatus Status { get; private set; }
 
         internal void Draw()
@@ -46,7 +46,7 @@ namespace Collektive.Unity.Editor
             else if (EditorApplication.isPlaying) EditorGUILayout.LabelField(" ", "Leave play mode to restart the JVM.");
         }
 
-        /// <summary>Acts on the JVM after the query in progress, and then queries the status.</summary>
+        /// <summary>Runs an action on the JVM after the query in progress, and then queries the status.</summary>
         internal void Enqueue(Action action)
         {
             lastQuery = EditorApplication.timeSinceStartup;
@@ -58,7 +58,7 @@ namespace Collektive.Unity.Editor
             }, TaskScheduler.Default);
         }
 
-        /// <summary>Reads the answer of the last query, and begins the next one when it is due.</summary>
+        /// <summary>Reads the answer of the last query, and begins the next query when it is due.</summary>
         private void Update()
         {
             if (query != null && query.IsCompleted)

@@ -12,10 +12,10 @@ namespace Collektive.Unity.Editor
             Link = link;
         }
 
-        /// <summary>The node at the other end.</summary>
+        /// <summary>Id of the node at the other end.</summary>
         internal int Id { get; }
 
-        /// <summary>Whether the other node sends to the selected one; otherwise it receives.</summary>
+        /// <summary>Whether the other node is the sender. Otherwise, it is the receiver.</summary>
         internal bool IsSender { get; }
 
         internal LinkRecord Link { get; }

@@ -12,23 +12,23 @@ namespace Collektive.Unity.Editor
             ReceiverCount = receiverCount;
         }
 
-        /// <summary>Equal to null if it has been destroyed since.</summary>
+        /// <summary>The node. It compares equal to null if it was destroyed in the meantime.</summary>
         internal Node Node { get; }
 
         internal int Id { get; }
 
         internal string Name => Node == null ? "(destroyed)" : Node.name;
 
-        /// <summary>The node's last error, or an empty text.</summary>
+        /// <summary>The node's last error, or an empty string.</summary>
         internal string Error => Node == null ? "" : Node.LastError;
 
-        /// <summary>Its own program, or the manager's.</summary>
+        /// <summary>Name of the program that the node runs.</summary>
         internal string Program { get; }
 
-        /// <summary>Number of nodes that it receives messages from.</summary>
+        /// <summary>Number of nodes from which the node receives messages.</summary>
         internal int SenderCount { get; }
 
-        /// <summary>Number of nodes that receive its messages.</summary>
+        /// <summary>Number of nodes that receive the node's messages.</summary>
         internal int ReceiverCount { get; }
     }
 }

@@ -2,7 +2,7 @@ using System;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Mean and largest durations of the last ticks, by phase.</summary>
+    /// <summary>Computes mean and maximum durations of the phases of the last ticks.</summary>
     internal sealed class TimeAverages
     {
         internal const int Ticks = 100;

@@ -7,7 +7,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The inspector of JVM settings. Shows the running JVM, and the unit, the value in effect and the error of each setting.</summary>
+    /// <summary>The inspector of JVM settings. It shows the running JVM, and for each setting the unit, the value in effect and the error.</summary>
     [CustomEditor(typeof(JvmSettingsAsset))]
     internal sealed class JvmSettingsEditor : UnityEditor.Editor
     {
@@ -17,7 +17,7 @@ namespace Collektive.Unity.Editor
         private string reported;
         private Task<JvmReport> check;
 
-        /// <summary>The JVM answers in the background, and its memory changes.</summary>
+        /// <summary>Returns true while the JVM runs, because its answers arrive in the background and its memory use changes.</summary>
         public override bool RequiresConstantRepaint() => Jvm.State == JvmState.Running;
 
         /// <inheritdoc/>
@@ -57,7 +57,7 @@ namespace Collektive.Unity.Editor
             var now = Jvm.State + " " + Jvm.Process + TextOf(settings);
             if (now == reported || check != null) return;
             reported = now;
-            // Files of the package are located on the main thread, but not during a GUI event.
+            // The package's files must be located on the main thread, but not during a GUI event.
             EditorApplication.delayCall += () => Start(settings.Copy());
         }
 

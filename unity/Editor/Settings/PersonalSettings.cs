@@ -2,7 +2,7 @@ using UnityEditor;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>One user's Collektive settings for this project: <c>UserSettings/Collektive.asset</c>, which is not committed.</summary>
+    /// <summary>One user's Collektive settings for this project. They are stored in <c>UserSettings/Collektive.asset</c>, which is not committed.</summary>
     [FilePath("UserSettings/Collektive.asset", FilePathAttribute.Location.ProjectFolder)]
     internal sealed class PersonalSettings : ScriptableSingleton<PersonalSettings>
     {
@@ -17,7 +17,7 @@ namespace Collektive.Unity.Editor
 
         internal void Store() => Save(true);
 
-        /// <summary>Moves the paths that earlier versions stored in the project settings, once.</summary>
+        /// <summary>Moves paths that earlier versions stored in the project settings to the personal settings.</summary>
         [InitializeOnLoadMethod]
         private static void MigratePaths()
         {

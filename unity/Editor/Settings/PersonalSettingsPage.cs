@@ -7,7 +7,7 @@ using Object = UnityEngine.Object;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Preferences &gt; Collektive. Shows the tools in use, which it searches for when it opens and after changes.</summary>
+    /// <summary>The page Preferences &gt; Collektive. It shows the tools in use, and searches for them when it opens and after changes.</summary>
     internal sealed class PersonalSettingsPage : SettingsPage
     {
         private (string Text, bool IsProblem) jdk, kotlin;
@@ -45,7 +45,7 @@ namespace Collektive.Unity.Editor
         protected override void Store()
         {
             PersonalSettings.instance.Store();
-            // Not during a GUI event.
+            // The tools must not be searched for during a GUI event.
             EditorApplication.delayCall += FindTools;
         }
 

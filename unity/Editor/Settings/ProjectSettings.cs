@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>The project's Collektive settings, shared by all users of the project: <c>ProjectSettings/Collektive.asset</c>.</summary>
+    /// <summary>The Collektive settings that all users of the project share, stored in <c>ProjectSettings/Collektive.asset</c>.</summary>
     [FilePath("ProjectSettings/Collektive.asset", FilePathAttribute.Location.ProjectFolder)]
     internal sealed class ProjectSettings : ScriptableSingleton<ProjectSettings>
     {
@@ -13,15 +13,15 @@ namespace Collektive.Unity.Editor
         /// <summary>Whether a running simulation continues with programs that are saved and built while it runs.</summary>
         public bool reloadWhilePlaying = true;
 
-        /// <summary>Used up to version 0.2, now in <see cref="PersonalSettings"/>.</summary>
+        /// <summary>Used up to version 0.2. <see cref="PersonalSettings"/> has replaced this field.</summary>
         [HideInInspector]
         public string jdk = "";
 
-        /// <summary>Used up to version 0.2, now in <see cref="PersonalSettings"/>.</summary>
+        /// <summary>Used up to version 0.2. <see cref="PersonalSettings"/> has replaced this field.</summary>
         [HideInInspector]
         public string kotlin = "";
 
-        /// <summary>Used up to version 0.2, now in <see cref="PersonalSettings"/>.</summary>
+        /// <summary>Used up to version 0.2. <see cref="PersonalSettings"/> has replaced this field.</summary>
         [HideInInspector]
         public string sourceCheckout = "";
 

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>Project Settings &gt; Collektive.</summary>
+    /// <summary>The page Project Settings &gt; Collektive.</summary>
     internal sealed class ProjectSettingsPage : SettingsPage
     {
         private ProjectSettingsPage() : base("Project/Collektive", SettingsScope.Project)

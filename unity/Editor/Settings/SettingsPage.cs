@@ -4,7 +4,7 @@ using UnityEngine.UIElements;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>A page for settings in a file. They are stored when a field is committed and after Undo.</summary>
+    /// <summary>A page for settings in a file. The file is written when the user commits a field, and after Undo.</summary>
     internal abstract class SettingsPage : SettingsProvider
     {
         protected SettingsPage(string path, SettingsScope scope)
