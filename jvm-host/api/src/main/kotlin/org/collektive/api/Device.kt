@@ -2,7 +2,7 @@ package org.collektive.api
 
 import kotlin.random.Random
 
-/** The node that a program runs on, apart from its sensor data. Valid only during the node's round, on the thread that runs it. */
+/** The node that runs a program, without its sensor data. It is valid only during the node's round, on the thread that runs the round. */
 public interface Device {
     /** The node's id, 0 or greater. */
     public val id: Int
@@ -13,7 +13,7 @@ public interface Device {
     /** Simulated seconds since this node's last successful round; in its first round, since the previous tick. */
     public val deltaTime: Double
 
-    /** This node's random stream. Equal seeds give equal numbers. A failed round does not rewind the stream. */
+    /** This node's random stream. The same seed gives the same numbers. A failed round does not rewind the stream. */
     public val random: Random
 
     /** The program's parameters with this node's values. */

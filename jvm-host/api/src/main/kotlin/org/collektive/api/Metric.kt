@@ -35,7 +35,7 @@ public class NetworkSnapshot<S : Any, A : Any>(public val time: Double, public v
  * A node after the rounds of a tick.
  *
  * @property id the node's id, 0 or greater.
- * @property sensors the sensor data of this tick, valid until the metric returns; `null` if the node did not run a round in it.
+ * @property sensors the sensor data of this tick, valid until the metric returns; `null` if the node did not run a round in this tick.
  * @property answer the last answer; `null` before the first.
  * @property links the links on which the node receives messages, by ascending id of their senders.
  */
@@ -47,10 +47,10 @@ public class NodeSnapshot<S : Any, A : Any>(
 )
 
 /**
- * A link into a node.
+ * A link on which a node receives messages.
  *
  * @property from id of the sender.
  * @property length the length in metres.
- * @property attenuation 0 (clear) or greater.
+ * @property attenuation the attenuation, 0 (clear) or greater.
  */
 public class LinkSnapshot(public val from: Int, public val length: Double, public val attenuation: Double)

@@ -7,7 +7,7 @@ public class Parameters(values: Map<String, String>) {
     private val names = values.keys.toTypedArray()
     private val texts = values.values.toTypedArray()
 
-    // Parsed once: programs read parameters in every round.
+    // Numbers are parsed only once, because programs read parameters in every round.
     private val numbers = Array(texts.size) { texts[it].toDoubleOrNull() }
 
     /**

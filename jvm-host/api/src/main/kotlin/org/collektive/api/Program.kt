@@ -25,7 +25,8 @@ public annotation class Program(val name: String, val parameters: Array<Paramete
  * @property name unique in its program.
  * @property default the value of nodes that do not override it, as text.
  * @property description one line for the inspector with meaning, unit and range.
- * @property values an enum class whose constants are the possible values; [default] is the name of one. Without it any text is possible.
+ * @property values an enum class whose constants are the possible values; [default] must be the name of a constant. Without it, any text
+ * is possible.
  */
 @Target()
 @Retention(AnnotationRetention.RUNTIME)

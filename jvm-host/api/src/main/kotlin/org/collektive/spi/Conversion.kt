@@ -1,11 +1,11 @@
 package org.collektive.spi
 
-/** Converts values of previous programs to values of the programs that replace them. Used by one thread. */
+/** Converts values of previous programs to values of the programs that replace them. Not thread-safe. */
 public interface Conversion {
-    /** Returns [value] as the new programs know it, or [Lost]. */
+    /** Returns [value] with the classes of the new programs, or [Lost]. */
     public fun value(value: Any?): Any?
 
-    /** Returns [token], a call or a pivot on a path, as the new programs know it, or [Lost]. */
+    /** Returns [token], a call or a pivot on a path, with the classes of the new programs, or [Lost]. */
     public fun token(token: Any?): Any?
 
     /** Marks a value that the new programs cannot read. */

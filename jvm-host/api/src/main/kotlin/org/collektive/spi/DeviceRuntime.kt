@@ -3,7 +3,7 @@ package org.collektive.spi
 /** Runs the rounds of one device on an implementation of the Collektive API. Not thread-safe: call it from one thread at a time. */
 public interface DeviceRuntime {
     /**
-     * Runs one round of [program] and returns its result. Does not change the device's state and messages: [commit] does.
+     * Runs one round of [program] and returns its result. Only [commit] changes the device's state and messages.
      *
      * @param inbox the links into this device.
      * @param sensors passed on to [program].
@@ -11,16 +11,22 @@ public interface DeviceRuntime {
      */
     public fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any?
 
-    /** Number of values that the last round sends, one per path, even without neighbours. Expensive: walks all paths. */
+    /**
+     * Number of values that the last round sends, one per path, even without neighbours. Reading it is expensive, because it visits all
+     * paths.
+     */
     public val exports: Int
 
-    /** Returns the place where the last round failed with [failure], such as `node 3 at helper > share (Swarm.kt:12)`, or `null` if unknown. */
+    /**
+     * Returns the place where the last round failed with [failure], such as `node 3 at helper > share (Swarm.kt:12)`, or `null` if
+     * unknown.
+     */
     public fun placeOf(failure: Throwable): String?
 
     /**
      * Makes the state of the last round current and returns the export of that round.
      *
-     * The export stays readable until the first [round] after the next [commit], or longer while it is [retained][Export.retain].
+     * The export remains readable until the first [round] after the next [commit], and longer while it is [retained][Export.retain].
      */
     public fun commit(): Export
 
@@ -40,13 +46,13 @@ public interface Inbox {
     /** Number of links. */
     public val size: Int
 
-    /** The senders' ids; its length is [size]. Shared: do not modify the array. */
+    /** The senders' ids, [size] in number. The array is shared, so do not modify it. */
     public val ids: Array<Any>
 
     /** Returns the last export that arrived on link [index], or `null` before the first one and after it has expired. */
     public fun export(index: Int): Export?
 
-    /** Returns whether link [index] existed when its export was sent. If not, the receiver reads the export's default. */
+    /** Returns whether link [index] existed when its export was sent. Otherwise, the receiver reads the default value of the export. */
     public fun wasKnown(index: Int): Boolean
 }
 
@@ -62,17 +68,17 @@ public interface DeviceRuntimes {
     public fun device(id: Int): DeviceRuntime
 
     /**
-     * Frees the shared state that none of [devices], all devices of the session, uses any more.
+     * Frees the shared state that no device uses any more. [devices] are all devices of the session.
      *
-     * Call it only while no round runs. Cheap if nothing can be freed.
+     * Call it only while no round runs. It is cheap if nothing can be freed.
      */
     public fun freeUnused(devices: List<DeviceRuntime>)
 
     /**
-     * Applies [conversion] to all values that [devices], all devices of the session, have stored or sent, and to the pivots of their paths.
-     * Removes values that are lost, and all values at a path with a lost pivot.
+     * Applies [conversion] to all values that [devices] have stored or sent, and to the pivots of their paths. Removes values that are
+     * lost, and all values at a path with a lost pivot. [devices] are all devices of the session.
      *
-     * Call it only while no round runs. The default removes everything.
+     * Call it only while no round runs. The default implementation removes everything.
      */
     public fun convert(devices: List<DeviceRuntime>, conversion: Conversion): StoredValues {
         devices.forEach(DeviceRuntime::forget)
@@ -80,8 +86,8 @@ public interface DeviceRuntimes {
     }
 }
 
-/** Decides which values must not outlive a round. Thread-safe. */
+/** Decides which values must not be kept after a round. Thread-safe. */
 public fun interface SharingRule {
-    /** Returns why [value] must not be shared, stored or used as a pivot, or `null` if it may. */
+    /** Returns the reason why [value] must not be shared, stored or used as a pivot, or `null` if it is allowed. */
     public fun refusal(value: Any?): String?
 }

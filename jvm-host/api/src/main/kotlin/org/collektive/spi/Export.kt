@@ -5,7 +5,7 @@ import java.util.concurrent.atomic.AtomicIntegerFieldUpdater
 /**
  * The messages of one device's round to all its neighbours. Receivers read it in place, on any thread.
  *
- * The device reuses it for a later round once another export has replaced it and it is not retained.
+ * Once another export has replaced it and it is not retained, the device reuses it for a later round.
  */
 public abstract class Export protected constructor() {
     @Volatile

@@ -10,7 +10,7 @@ import java.util.IdentityHashMap
  * A value takes [PATH_BYTES] for its path, plus its content: 1 for `Boolean`, `Byte` and `null`, 2 for `Short` and `Char`, 4 for `Int`, `Float`
  * and enums, 8 for `Long` and `Double`, and 0 for `Unit` and other objects without properties. Strings take 4 bytes plus their UTF-8;
  * collections, maps and arrays take 4 bytes plus their elements. Other objects take the sum of their properties, JDK objects as their text.
- * A value for a single receiver counts with the receiver's id, if it differs from that for all others.
+ * A value for a single receiver is added with the receiver's id, but only if it differs from the value for all other receivers.
  */
 public class MessageSize {
     private val seen = IdentityHashMap<Any, Unit>()
@@ -92,12 +92,12 @@ public class MessageSize {
     }
 
     public companion object {
-        /** Bytes of a path, which a network would send as a hash. */
+        /** Size of a path in bytes. A network would send paths as hashes. */
         public const val PATH_BYTES: Int = 8
 
         private const val LENGTH_BYTES = 4
 
-        /** The fields of each class and of its superclasses; `null` for classes whose fields are not accessible. */
+        /** The fields of a class and of its superclasses; `null` for classes whose fields are not accessible. */
         private val FIELDS = object : ClassValue<List<Field>?>() {
             override fun computeValue(type: Class<*>): List<Field>? {
                 val fields = generateSequence<Class<*>>(type) { it.superclass }.flatMap { it.declaredFields.asSequence() }

@@ -12,7 +12,7 @@ import org.jetbrains.kotlin.config.CompilerConfiguration
 import org.jetbrains.kotlin.config.JVMConfigurationKeys
 import org.jetbrains.kotlin.fir.extensions.FirExtensionRegistrarAdapter
 
-/** The plugin's entry point: the compiler finds it as a service. */
+/** The plugin's entry point, which the compiler finds as a service. */
 public class CollektivePlugin : CompilerPluginRegistrar() {
     override val pluginId: String get() = CollektiveOptions.PLUGIN_ID
 
@@ -22,7 +22,7 @@ public class CollektivePlugin : CompilerPluginRegistrar() {
         if (!configuration.get(CollektiveOptions.ENABLED, true)) return
         FirExtensionRegistrarAdapter.registerExtension(AggregateChecks())
         IrGenerationExtension.registerExtension(AlignmentExtension())
-        // A compiler that writes a jar directly has no output folder, so that jar has no index.
+        // If the compiler writes a jar directly, there is no output folder, and the jar gets no index.
         configuration.get(JVMConfigurationKeys.OUTPUT_DIRECTORY)?.let { IrGenerationExtension.registerExtension(ProgramIndex(it)) }
     }
 }

@@ -4,8 +4,9 @@ import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
 
 /**
- * The alignment stack of an [Aggregate] as compiled programs use it. For an [Aggregate] that does not implement this interface,
- * compiled programs call [Aggregate.align] and [Aggregate.dealign]; then a program that calls `align` without `dealign` stays misaligned.
+ * The alignment stack of an [Aggregate] for compiled programs. If an [Aggregate] does not implement this interface, compiled programs
+ * call [Aggregate.align] and [Aggregate.dealign] instead. In that case, a program that calls `align` without `dealign` remains
+ * misaligned.
  *
  * A token is a string constant that names a place in the program. Constants are interned, so tokens are compared by identity.
  * [readable] and [location] return readable texts.
@@ -17,8 +18,8 @@ public interface AlignmentStack {
     public fun pushToken(token: String): Int
 
     /**
-     * Pushes the id of an entry of a field without values, and returns the depth before the push, for [popTo]. Primitives are aligned on it,
-     * but [projected] is not.
+     * Pushes the id of an entry of a field without values, and returns the depth before the push, for [popTo]. Primitives are aligned on
+     * the id, but [projected] ignores it.
      */
     public fun pushEntry(id: Any): Int
 

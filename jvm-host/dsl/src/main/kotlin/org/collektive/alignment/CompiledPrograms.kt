@@ -9,24 +9,26 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.InMemory
 
-/** Runs before an aligned call or branch. Returns the depth to pass to [popToken]. */
+/** Called before an aligned call or branch. Returns the depth to pass to [popToken]. */
 public fun pushToken(aggregate: Aggregate<*>?, token: String): Int {
     if (aggregate is AlignmentStack) return aggregate.pushToken(token)
     aggregate?.align(token)
     return 0
 }
 
-/** Runs after an aligned call or branch, also when it throws. */
+/** Called after an aligned call or branch, even if it throws an exception. */
 public fun popToken(aggregate: Aggregate<*>?, depth: Int) {
     if (aggregate is AlignmentStack) aggregate.popTo(depth) else aggregate?.dealign()
 }
 
-/** Runs when [failure] leaves an aligned call or branch, before [popToken]. */
+/** Called before [popToken] when [failure] leaves an aligned call or branch. */
 public fun recordFailure(aggregate: Aggregate<*>?, failure: Throwable) {
     if (aggregate is AlignmentStack) aggregate.recordFailure(failure)
 }
 
-/** Restricts [field], made outside a branch or an `alignedOn` body, to the neighbours aligned inside. Runs where the field is read. */
+/**
+ * Restricts [field], created outside a branch or an `alignedOn` body, to the neighbours that are aligned inside. Called where it is read.
+ */
 public fun <ID : Any, T> project(field: Field<ID, T>?, token: String): Field<ID, T>? {
     if (field == null) return null
     val aggregate = field.context

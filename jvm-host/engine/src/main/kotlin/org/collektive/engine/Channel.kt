@@ -5,7 +5,7 @@ import org.collektive.spi.Export
 /** State of a link in the model of burst losses; unknown before the first message. */
 internal enum class Burst { UNKNOWN, GOOD, BAD }
 
-/** The messages of one link under a network model: those in flight, and the one received. Not thread-safe. */
+/** The messages of one link under a network model: the messages in flight, and the received message. Not thread-safe. */
 internal class Channel {
     /** The message received last; `null` once it has expired. */
     var received: Export? = null
@@ -42,7 +42,7 @@ internal class Channel {
         arrivals[count++] = arrival
     }
 
-    /** Receives all messages due by [now], in simulated seconds. Of these and [received], keeps the one sent last. */
+    /** Receives all messages due by [now], in simulated seconds. Of these messages and [received], keeps the message that was sent last. */
     fun receiveDue(now: Double, retention: Double) {
         var index = 0
         while (index < count) {

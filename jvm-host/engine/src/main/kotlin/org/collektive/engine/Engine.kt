@@ -18,7 +18,7 @@ public class Engine @JvmOverloads constructor(
     private val runtimes: DeviceRuntimes,
     limitClock: LongSupplier = LongSupplier(System::nanoTime),
 ) : AutoCloseable {
-    // Declared before `nodes`, because garbage collectors follow the fields in this order.
+    // This is declared before `nodes`, because garbage collectors follow the fields in the order of declaration.
     private val order = RoundOrder()
     private val nodes = NodeList()
     private val validator = TickValidator(nodes)
@@ -39,7 +39,7 @@ public class Engine @JvmOverloads constructor(
         override fun get(index: Int) = nodes.node(index).runtime
     }
 
-    // Initialised last, because it starts threads.
+    // The pool is initialised last, because it starts threads.
     private val pool = RoundPool(if (isSequential) 1 else settings.threads, limitClock)
 
     /** The last tick whose changes were applied; 0 before the first. */
@@ -51,8 +51,8 @@ public class Engine @JvmOverloads constructor(
     }
 
     /**
-     * Returns a new node for each existing one, in order of their ids, from [create], which receives the id and the [NewNode.source]. Changes
-     * nothing.
+     * Returns a new node for each existing node, in the order of ids, without changing the engine. [create] receives the id and the
+     * [NewNode.source] of a node, and returns the new node.
      */
     public fun replacements(create: (Int, Any?) -> NewNode): List<NewNode> =
         List(nodes.size) { create(nodes.keys[it], nodes.node(it).source) }
@@ -90,9 +90,9 @@ public class Engine @JvmOverloads constructor(
     }
 
     /**
-     * Runs [work] once on a round thread. It must catch the exceptions of users' code. Errors refer to it as [name].
+     * Runs [work] once on a round thread. [work] must catch the exceptions of users' code. Errors refer to it as [name].
      *
-     * @throws RoundTimeoutException when it still runs at the [deadline] of [step]; the engine must then be closed.
+     * @throws RoundTimeoutException when [work] still runs at the [deadline] of [step]; the engine must then be closed.
      */
     public fun run(deadline: Long, name: String, work: () -> Unit) {
         runOnPool(workTask, work, 1, deadline, name)
@@ -133,7 +133,7 @@ public class Engine @JvmOverloads constructor(
         tick.globals?.let { clock.globals = it }
         removeNodes(tick)
         addNodes(tick)
-        // By index: an iterator is allocated unless the compiler removes it.
+        // A loop over indices does not allocate an iterator.
         for (index in tick.nodesChanged.indices) {
             val change = tick.nodesChanged[index]
             existing(change.id).change(change)
@@ -318,12 +318,12 @@ public class Engine @JvmOverloads constructor(
         const val MIN_RANGE = 16
         const val MAX_RANGE = 128
 
-        // Enough rounds for their cache misses to overlap, but few enough for the L1 cache.
+        // Large enough for the cache misses of the rounds to overlap, but small enough for the L1 cache.
         const val PREFETCHED_ROUNDS = 64
     }
 }
 
-/** A node's stored values by their paths, and the duration of its last round since the inspection began; 0 nanoseconds without one. */
+/** A node's stored values by their paths, and the duration of its last round since the inspection began, or 0 if it had no round. */
 public class NodeState(public val id: Int, public val roundNanos: Long, public val values: Map<String, Any?>)
 
 /** Thrown when the answer of a program cannot be written; the message states the reason. */

@@ -1,6 +1,6 @@
 package org.collektive.engine
 
-/** Which messages the rounds of a tick read. */
+/** Determines which messages the rounds of a tick read. */
 public enum class Schedule {
     /** All due nodes read the messages of earlier ticks; their rounds run in parallel. */
     LOCKSTEP,

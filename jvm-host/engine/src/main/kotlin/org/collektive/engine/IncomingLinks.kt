@@ -11,10 +11,10 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     private var lengths = FloatArray(keys.size)
     private var attenuations = FloatArray(keys.size)
 
-    // Tick at which each link was added.
+    // The tick in which each link was added.
     private var since = LongArray(keys.size)
 
-    // The last validation that marked each link, see TickValidator.
+    // The number of the last validation that marked each link; see TickValidator.
     private var marks = LongArray(keys.size)
     private var channels = if (isIdeal) null else arrayOfNulls<Channel>(keys.size)
     private var boxedIds: Array<Any>? = NONE
@@ -36,13 +36,13 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
     /** Returns a copy of the links. */
     fun snapshot(): List<LinkSnapshot> = List(size) { LinkSnapshot(keys[it], lengths[it].toDouble(), attenuations[it].toDouble()) }
 
-    /** Moves new exports of the senders to the channels; a no-op in an ideal network. Call it only while no sender's round runs. */
+    /** Moves new exports of the senders to the channels. Does nothing in an ideal network. Call it only while no sender's round runs. */
     fun collect(transmitter: Transmitter) {
         if (channels == null) return
         for (index in 0 until size) if (node(index).sentAt > channel(index).lastSentTick) collect(index, transmitter)
     }
 
-    /** Receives the messages that are due; a no-op in an ideal network. */
+    /** Receives the messages that are due. Does nothing in an ideal network. */
     fun advance(transmitter: Transmitter) {
         if (channels == null) return
         for (index in 0 until size) transmitter.advance(channel(index))

@@ -49,7 +49,10 @@ internal class Node(new: NewNode, val runtime: DeviceRuntime, clock: Clock, seed
         source = new.source
     }
 
-    /** Ends the first round with a new program. If it failed, the node starts afresh: a value of the old program may not fit the new one. */
+    /**
+     * Ends the first round with a new program. If the round failed, the node starts afresh, because a value of the old program may not
+     * fit the new one.
+     */
     fun endFirstRound(hasFailed: Boolean) {
         isReloaded = false
         if (hasFailed) runtime.forget()

@@ -58,7 +58,7 @@ internal open class NodeList {
 
     fun remove(node: Node) = removeAt(indexOf(node.id))
 
-    /** Inserts all of [sorted] in one pass; they must be ascending and not in the list. */
+    /** Inserts all nodes of [sorted] in one pass. They must be in ascending order of their ids, and not in the list. */
     fun insertAll(sorted: List<Node>) {
         reserve(size + sorted.size)
         var old = size - 1

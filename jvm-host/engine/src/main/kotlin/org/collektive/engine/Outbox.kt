@@ -5,14 +5,14 @@ import org.collektive.spi.Export
 /**
  * The exports of a node's last two successful rounds.
  *
- * Rounds of a tick read the export from before the tick, even during or after the sender's own round: they read one slot while that round
- * writes the other. This saves a second pass that publishes exports.
+ * All rounds of a tick read a node's export from before the tick, even during or after the node's own round, which writes the other slot.
+ * Two slots therefore save a second pass that would publish exports.
  *
  * Thread safety: one thread at a time may call [send], while any thread may call [readable]. Read [last], [sentAt] and [sentTime] only
  * while no round runs.
  */
 internal abstract class Outbox {
-    // Neighbours read only these fields of a node. In a superclass, they are adjacent and share a cache line.
+    // Neighbours read only these fields of a node. Because they are in a superclass, they are adjacent and share a cache line.
     private var even: Export? = null
     private var odd: Export? = null
 

@@ -1,7 +1,7 @@
 package org.collektive.engine
 
 /**
- * Orders the rounds of a tick: breadth first along the links, so that the rounds of neighbours run close together.
+ * Orders the rounds of a tick breadth first along the links, so that the rounds of neighbours run close together.
  *
  * A round reads the exports of its neighbours, and in this order most of them are still in the CPU cache. Garbage collectors also place
  * objects in the order in which they reach them. Results do not depend on the order.
@@ -102,7 +102,10 @@ internal class RoundOrder {
     }
 
     private companion object {
-        /** Reorders once the changed links exceed this fraction of nodes and links: at the start, but rarely while a swarm moves. */
+        /**
+         * Nodes are reordered once the changed links exceed this fraction of nodes and links. That happens at the start, but rarely while
+         * a swarm moves.
+         */
         const val REORDER_DIVISOR = 4
     }
 }

@@ -39,7 +39,7 @@ internal class RoundPool @JvmOverloads constructor(
     @Volatile
     private var caller: Thread? = null
 
-    // Idle threads spin until this time of System.nanoTime().
+    // The value of System.nanoTime() until which idle threads spin.
     @Volatile
     private var spinUntil = System.nanoTime()
 
@@ -107,7 +107,10 @@ internal class RoundPool @JvmOverloads constructor(
         }
     }
 
-    /** Processes the share of this thread, then helps with the others. Equal counts give equal shares, so a thread's nodes stay in its cache. */
+    /**
+     * Processes the share of this thread, then helps other threads. The same count always gives the same shares, so a thread's nodes stay
+     * in its cache.
+     */
     private fun work(worker: Worker) {
         for (turn in 0 until needed) {
             val share = (worker.index + turn) % needed

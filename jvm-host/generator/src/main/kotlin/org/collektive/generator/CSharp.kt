@@ -2,7 +2,10 @@ package org.collektive.generator
 
 /** Builds the models of the C# templates. */
 internal class CSharp(private val schema: UserSchema) {
-    /** The files of flatc's readers that generated code needs: those of the actuator table and the types in it, and of all enums. */
+    /**
+     * The names of flatc's files that generated code needs: the readers of the actuator table and the tables and structs in it, and all
+     * enums.
+     */
     private val readers = (reachable(listOfNotNull(schema.actuator as? TableType)).map { it.name } + schema.enums.map { it.name })
         .mapTo(HashSet()) { "${it.toString().replace('.', '/')}.cs" }
 
@@ -40,7 +43,10 @@ internal class CSharp(private val schema: UserSchema) {
         "drafts" to drafted.map(::draft),
     )
 
-    /** How to copy a table of actuator data out of a frame: the out-of-row fields of each reachable table. The first is [actuator]. */
+    /**
+     * Describes how to copy a table of actuator data from a frame, by the fields that each reachable table stores outside its row. The
+     * first table is [actuator].
+     */
     private fun shapes(actuator: Composite): List<Map<String, Any?>> {
         val tables = mutableListOf<TableType>()
         fun reach(type: Type) {
@@ -274,7 +280,7 @@ internal class CSharp(private val schema: UserSchema) {
 
     private fun draft(type: TableType) = "global::${written(type)}"
 
-    /** The name of the class that writes [type]. Only roots have their plain name here; for other types, flatc's reader has it. */
+    /** The name of the class that writes [type]. Only root types keep their name; for other types, flatc's reader has that name. */
     private fun written(type: Composite) = if (type in schema.roots) type.name else type.name.copy(simple = "${type.name.simple}Value")
 
     /** The C# name of a field, with an underscore appended if generated code has a member of that name. */

@@ -13,7 +13,7 @@ public object CompileCommand {
     public fun main(arguments: Array<String>) {
         if (arguments.firstOrNull() != "--serve") exitProcess(ProgramCompiler.compile(arguments.toList(), System.err))
         val client = ProcessHandle.of(arguments[2].toLong())
-        // It may have ended already.
+        // The process may have ended already.
         if (client.isEmpty) return
         client.get().onExit().thenRun { exitProcess(0) }
         CompileServer(Path.of(arguments[1])).run()

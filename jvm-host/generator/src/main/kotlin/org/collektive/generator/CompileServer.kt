@@ -19,7 +19,7 @@ import kotlin.io.path.writeBytes
  * project can create one.
  */
 internal class CompileServer(private val folder: Path) {
-    /** Never returns. */
+    /** Waits for requests and compiles them. Never returns. */
     fun run(): Nothing {
         while (true) {
             val request = Files.newDirectoryStream(folder, "*.request").use { it.minOrNull() }

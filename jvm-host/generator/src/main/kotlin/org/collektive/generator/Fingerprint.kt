@@ -1,7 +1,8 @@
 package org.collektive.generator
 
 /**
- * The canonical text of a type, and its hash. Texts are equal exactly if both sides read the same bytes under the same names.
+ * Creates the canonical text of a type, and its hash. Two texts are the same exactly if both sides read the same bytes under the same
+ * names.
  *
  * The text contains the kind, the fields in the order of their ids with offset or id, name, type and default, and nested types inline. A
  * recursive table is written as the number of levels to its outer occurrence.

@@ -38,7 +38,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         }
         val process = ProcessBuilder(command).redirectErrorStream(true).start()
         process.outputStream.close()
-        // Drops flatc's warnings about the style of names, because field names may be those of Alchemist's molecules.
+        // Warnings about the style of names are removed, because schemas may use the names of Alchemist's molecules for fields.
         val messages = process.inputStream.bufferedReader().readLines().filterNot { STYLE in it }.joinToString("\n").trim()
         val code = process.waitFor()
         if (code > SIGNAL) {

@@ -116,7 +116,7 @@ internal class Kotlin(private val schema: UserSchema) {
         return "target.put$suffix(${if (at == 0) "place" else "place + $at"}, $written)"
     }
 
-    /** How the buffer's methods for [type] end, and the expression that they write for [value]. */
+    /** The suffix of the buffer's methods for [type], and the expression that they write for [value]. */
     private fun written(type: Scalar, value: String): Pair<String, String> = when (type) {
         Scalar.BOOL -> "" to "(if ($value) 1 else 0).toByte()"
         Scalar.BYTE -> "" to value
@@ -134,7 +134,7 @@ internal class Kotlin(private val schema: UserSchema) {
         "type" to value(table),
         "slots" to table.slots,
         "children" to table.fields.mapNotNull { child(it) },
-        // By descending size, to minimise padding.
+        // Fields are added by descending size, which minimises padding.
         "adds" to table.fields.sortedWith(compareBy({ -RowPlaces.alignment(it.type) }, { -it.id })).map { add(it) },
         "checks" to table.fields.mapNotNull { check(it) },
     )
@@ -206,7 +206,7 @@ internal class Kotlin(private val schema: UserSchema) {
 
     private fun built(type: Scalar, value: String): String = if (type == Scalar.BOOL) value else written(type, value).second
 
-    /** The default as the builder compares it. */
+    /** The default value in the form in which the builder compares it. */
     private fun builtDefault(type: Scalar, default: Default): String = when (type) {
         Scalar.BOOL -> literal(type, default)
         Scalar.FLOAT -> "${literal(type, default)}.toDouble()"

@@ -2,7 +2,7 @@ package org.collektive.generator
 
 /** Builds the models of generated table layouts in Java. */
 internal object Layouts {
-    /** The model of the template of `--layouts` for [tables] of [file], all of one namespace. */
+    /** The model of the template for `--layouts`. All [tables] are from [file] and in one namespace. */
     fun model(file: String, tables: List<TableType>): Map<String, Any?> = mapOf(
         "file" to file,
         "namespace" to tables.first().name.namespace,

@@ -39,7 +39,7 @@ internal sealed class Composite(val name: TypeName, val documentation: String) :
 internal class StructType(name: TypeName, documentation: String, val core: Boolean, val bytes: Int, val alignment: Int) :
     Composite(name, documentation)
 
-/** A table; [slots] is the number of its fields with the deprecated ones, which [fields] omits. */
+/** A table. [slots] is the number of its fields including deprecated ones, which [fields] omits. */
 internal class TableType(name: TypeName, documentation: String, val slots: Int) : Composite(name, documentation)
 
 /**
@@ -67,7 +67,7 @@ internal data class TypeName(val namespace: String, val simple: String) {
     override fun toString(): String = "$namespace.$simple"
 }
 
-/** A user's schema. [structs], [tables] and [enums] are those reachable from the root types, the former sorted by name. */
+/** A user's schema. [structs], [tables] and [enums] are reachable from the root types. Structs and tables are sorted by name. */
 internal class UserSchema(
     val file: String,
     val name: TypeName,
@@ -81,7 +81,7 @@ internal class UserSchema(
     val roots: List<Composite> = listOfNotNull(sensor, actuator, global)
 }
 
-/** [roots], and the structs and tables that they contain, sorted by name. */
+/** Returns [roots] and all structs and tables that they contain, sorted by name. */
 internal fun reachable(roots: List<Composite>): List<Composite> {
     val found = LinkedHashSet<Composite>()
     fun visit(type: Type) {

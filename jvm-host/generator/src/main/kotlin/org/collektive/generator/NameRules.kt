@@ -71,7 +71,9 @@ internal class NameRules(
         if (word.length > MAX_WORD) reject(place, "the name has more than $MAX_WORD characters; shorten it")
     }
 
-    /** Each type becomes a file, also on case-insensitive file systems, and a constant in upper case. */
+    /**
+     * Rejects names that are too similar. Each type becomes a file, also on case-insensitive file systems, and a constant in upper case.
+     */
     private fun checkDistinct(generatedTypes: List<String>) {
         val seen = HashMap<String, String>()
         for (name in objects.map { it.name() } + enums.map { it.name() } + generatedTypes) {
@@ -112,7 +114,10 @@ internal class NameRules(
         }
     }
 
-    /** A struct's constructor has a parameter for each nested number, whose name is invalid in C# with a keyword in its middle. */
+    /**
+     * Rejects a name that C# cannot use in a nested struct. The constructor of a struct has a parameter for each nested number, and C#
+     * does not accept a keyword in the middle of the parameter's name.
+     */
     private fun checkInner(field: BinaryField) {
         if (field.type().baseType() != BaseType.Obj) return
         val inner = schema.objects(field.type().index())

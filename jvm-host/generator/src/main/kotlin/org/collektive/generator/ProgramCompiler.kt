@@ -19,8 +19,9 @@ import kotlin.io.path.deleteRecursively
 import kotlin.io.path.isRegularFile
 
 /**
- * Compiles a schema and its programs into a jar: the generator's Java and Kotlin, then the JDK's Java compiler, then the Kotlin compiler, whose jars are
- * on the class path. Compilers stay loaded, so later jars take a fraction of the time of the first one. Confined to one thread.
+ * Compiles a schema and its programs into a jar. It generates Java and Kotlin code, and runs the JDK's Java compiler and then the Kotlin
+ * compiler, whose jars are on the class path. The compilers stay loaded, so later jars take a fraction of the time of the first jar.
+ * Confined to one thread.
  */
 internal object ProgramCompiler {
     const val USAGE: String =
@@ -29,7 +30,7 @@ internal object ProgramCompiler {
 
     private val options = setOf("--jar", "--work", "--source", "--library", "--kotlin", "--mark")
 
-    /** The time of all entries, so that equal sources give equal jars. */
+    /** The modification time of all entries. It is fixed, so that the same sources give the same jar. */
     private val TIME = FileTime.from(Instant.parse("2026-01-01T00:00:00Z"))
 
     init {
@@ -70,7 +71,7 @@ internal object ProgramCompiler {
         classes.deleteRecursively()
         Files.createDirectories(classes)
         val arguments = Arguments.parse((generatorOptions + listOf("--jvm", "$generated")).toTypedArray())
-        // Before the sources are read: changes during the compilation make the jar outdated.
+        // The hash is computed before the sources are read, so that changes during the compilation make the jar outdated.
         val hash = SourceHash.of(arguments.schemas.single(), sources.map(Path::of))
         generate(arguments)
         if (!compileJava(generated, classes, library, log)) return 1
@@ -122,7 +123,7 @@ internal object ProgramCompiler {
         }
     }
 
-    /** Files below [folder] in the order of their names: paths from [folder], after [prefix]. */
+    /** Returns the files below [folder], sorted by their paths relative to [folder]. The keys are these paths after [prefix]. */
     private fun files(folder: Path, prefix: String): Map<String, Path> = Files.walk(folder).use { paths ->
         paths.filter { it.isRegularFile() }.toList().associateBy { prefix + folder.relativize(it).joinToString("/") }.toSortedMap()
     }

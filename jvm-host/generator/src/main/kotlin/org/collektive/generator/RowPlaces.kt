@@ -1,7 +1,8 @@
 package org.collektive.generator
 
 /**
- * The layout of a table's row, in which all fields are present: the vtable offset, then the fields by descending alignment. In bytes.
+ * The layout of a table's row, in bytes. A row has room for all fields. It starts with the vtable offset, followed by the fields by
+ * descending alignment.
  *
  * A sequential C# struct with the same fields has the same layout.
  */

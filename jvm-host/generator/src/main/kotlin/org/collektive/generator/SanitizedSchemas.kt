@@ -4,7 +4,7 @@ import java.nio.file.Files
 import java.nio.file.Path
 
 /**
- * Copies of a schema's [files] below the folder [work], from which flatc generates code. They contain no character sequences that
+ * Copies of a schema's [files] below the folder [work], from which flatc generates code. The copies contain no character sequences that
  * could end comments in the code. Their relative paths are unchanged, so the binary form contains no absolute paths.
  *
  * @param additions texts to append to the copies of files.

@@ -15,7 +15,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
     private val composites = HashMap<Int, Composite>()
     private val enums = HashMap<Int, EnumType>()
 
-    /** The schema file and those that it includes, without the core types: the files for which code is generated. */
+    /** The files for which code is generated: the schema file and the files that it includes, except the core types. */
     val files: List<Path> = (0 until schema.fbsFilesLength())
         .map { plain(schema.fbsFiles(it).filename()) }
         .filter { it != core }
@@ -76,7 +76,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         .sortedBy { it.name.toString() }
         .ifEmpty { throw error("it defines no tables") }
 
-    /** Rejects numbers that do not fit into 64 signed bits: flatc's binary schema silently replaces them with 0. */
+    /** Rejects numbers that do not fit into 64 signed bits, because flatc's binary schema silently replaces them with 0. */
     private fun checkNumbers(source: Path) {
         for ((index, line) in texts.getValue(source).sanitized.lines().withIndex()) {
             for (match in number.findAll(line.substringBefore("//"))) {
@@ -212,7 +212,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** Rejects nested root types: each root type has one class per side, which reads or writes it only as a whole. */
+    /** Rejects nested root types. Each root type has one class per side, which reads or writes the type only as a whole. */
     private fun checkRoots(user: UserSchema) {
         for (type in user.structs + user.tables) {
             for (field in type.fields) {
@@ -238,7 +238,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** Rejects private types: their code does not compile together with that of public types. */
+    /** Rejects private types, because their code does not compile together with the code of public types. */
     private fun checkVisible() {
         for (type in objects().map { it.second }) {
             if (type.attributesByKey("private") != null) throw error("private types are not supported; remove the attribute", type.name())
@@ -248,7 +248,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
     }
 
-    /** Limits the size of the generated code: nested types can expand to many fields. */
+    /** Limits the size of the generated code, because nested types can expand to many fields. */
     private fun checkExtent(user: UserSchema) {
         var expandedFields = 0
         fun visit(type: Composite, outer: List<Composite>) {

@@ -14,7 +14,7 @@ internal class SchemaText(private val text: String) {
     private var depth = 0
     private val words = ArrayDeque<String>()
 
-    /** The same text, line by line, whose comments cannot end the comments of generated code. */
+    /** The same lines, changed so that their comments cannot end comments of generated code. */
     val sanitized: String
 
     init {

@@ -10,10 +10,12 @@ import kotlin.io.path.name
 import kotlin.io.path.readBytes
 
 /**
- * The hash of a jar's sources in its manifest, by which the editor finds outdated jars. `SchemaProject.cs` computes the same one, without a JVM.
+ * The hash of a jar's sources, which the jar's manifest contains. The editor finds outdated jars by it. `SourceHash.cs` computes the same
+ * hash without a JVM.
  *
- * It covers names and contents of the schema, the files that it includes except those of the package, and the Kotlin files, each group in the order
- * of the paths, which start at the schema's or the programs' folder. It ignores carriage returns, which Git adds to files on Windows.
+ * The hash covers the names and contents of the schema, of the files that it includes (except files of the package), and of the Kotlin
+ * files. Paths are relative to the schema's or the programs' folder, and each group is sorted by path. Carriage returns are ignored,
+ * because Git adds them to files on Windows.
  */
 internal object SourceHash {
     private val INCLUDE = Regex("""^\s*include\s+"([^"]+)"\s*;""", RegexOption.MULTILINE)

@@ -29,7 +29,7 @@ internal class StdlibFunction private constructor(
     val isProperty: Boolean get() = callable is KProperty<*>
     val isInfix: Boolean get() = callable is KFunction<*> && callable.isInfix
 
-    /** Whether it is an operator, except `compareTo`: its lifted version returns a field, which `<` does not accept. */
+    /** Whether it is an operator. `compareTo` is excluded, because its lifted version returns a field, which `<` does not accept. */
     val isOperator: Boolean get() = callable is KFunction<*> && callable.isOperator && name != "compareTo"
 
     /**

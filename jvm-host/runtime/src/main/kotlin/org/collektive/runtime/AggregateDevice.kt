@@ -19,7 +19,7 @@ import org.collektive.spi.RoundProgram
 import org.collektive.spi.SharingRule
 
 /**
- * One device: the records of its last and its running round, and older records that neighbours still use.
+ * One device, with the records of its last and its running round, and older records that neighbours still use.
  *
  * Generic in [ID], so that an id is boxed only once.
  */
@@ -37,7 +37,7 @@ internal class AggregateDevice<ID : Any>(
     private val older = ArrayList<RoundRecord>(0)
     private var inbox: Inbox? = null
 
-    // The stack of the thread that runs the round; null between rounds.
+    // The alignment stack of the thread that runs the round; null between rounds.
     private var ownStack: PathStack? = null
     private val stack get() = ownStack ?: error("device $localId, or a field of it, is used outside of its round")
     override val depth get() = stack.depth

@@ -119,7 +119,7 @@ internal class MailboxRound<ID : Any>(
     }
 
     private companion object {
-        /** Sorts [ids] if they are comparable, as fields require of numbers; otherwise keeps their order. */
+        /** Returns [ids], sorted if they are comparable, because fields require sorted numbers. */
         fun <ID : Any> ascending(ids: Set<ID>): List<ID> {
             val type = ids.firstOrNull()?.javaClass
             if (ids.any { it !is Comparable<*> || it.javaClass != type }) return ids.toList()

@@ -1,8 +1,8 @@
 package org.collektive.runtime
 
 /**
- * The alignment stack of a thread, reused by all rounds that run on it. One stack stays in the core's L1 cache, unlike one per
- * device.
+ * The alignment stack of a thread, which all rounds on the thread reuse. A single stack stays in the core's L1 cache, but one stack per
+ * device would not.
  */
 internal class PathStack(private val tree: PathTree) {
     // tokens[0 until depth] is the stack. nodes[0..resolved] are the paths of its first prefixes. Paths are looked up only when a

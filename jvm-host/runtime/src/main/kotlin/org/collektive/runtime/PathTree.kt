@@ -30,7 +30,7 @@ internal class PathTree {
         return node
     }
 
-    /** Whether the tree has grown enough since the last [keepOnly] to repeat it. */
+    /** Whether the tree has grown so much since the last [keepOnly] that another call is worthwhile. */
     val needsSweep: Boolean get() = size > sweepThreshold
 
     /** Removes all paths except those that [visit] passes to its argument, and their ancestors. Call it only while no round runs. */
@@ -65,7 +65,7 @@ internal class PathTree {
     }
 }
 
-/** One path: [parent]'s tokens, then [token]. */
+/** A path that consists of the tokens of [parent], followed by [token]. */
 internal class PathNode(val parent: PathNode?, val token: Any?) {
     private val tokenHash = token.hashCode()
 
@@ -107,14 +107,14 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
         }
     }
 
-    /** Adds [node]; returns this table, or a larger copy when this one is full. */
+    /** Adds [node]. Returns this table, or a larger copy if this table is full. */
     fun with(node: PathNode): PathTable {
         val table = if (2 * (count + 1) <= slots.size) this else resized(count + 1)
         table.put(node)
         return table
     }
 
-    /** Returns a table of the nodes for which [keep] returns `true`, or `null` without such nodes. */
+    /** Returns a table of the nodes for which [keep] returns `true`, or `null` if there are none. */
     inline fun filtered(keep: (PathNode) -> Boolean): PathTable? {
         var kept = 0
         forEach { if (keep(it)) kept++ }

@@ -4,7 +4,7 @@ import it.unibo.collektive.aggregate.Field
 import org.collektive.spi.Export
 import org.collektive.spi.MessageSize
 
-/** The outcome of one round of a device: at each path the value stored and the value sent. */
+/** The outcome of one round of a device, with the stored and the sent value at each path. */
 internal class RoundRecord : Export() {
     // The first two paths are fields of the record; many programs have no more. Neighbours read records at random addresses, and fields
     // save them a second cache miss.
@@ -19,7 +19,7 @@ internal class RoundRecord : Export() {
     private var slots = NONE
     private var count = 0
 
-    // The type check loads the value's header.
+    // The type check loads the header of the value into the cache.
     override fun touch(): Int = if (sent0 is AllButOne || sent1 is AllButOne) 1 else 0
 
     fun clear() {

@@ -31,8 +31,8 @@ import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
 import org.jetbrains.kotlin.ir.visitors.acceptVoid
 
 /**
- * Determines which calls can reach a primitive: calls with an argument that is an Aggregate, a Field, or a function that may use one. Only
- * these are aligned. For all others (`sqrt`, `listOf`, getters of a field) alignment makes no difference.
+ * Determines which calls can reach a primitive. These are calls with an argument that is an Aggregate, a Field, or a function that may
+ * use one. Only such calls are aligned. For all other calls (`sqrt`, `listOf`, getters of a field), alignment makes no difference.
  */
 internal class AggregateReach(private val dsl: DslSymbols) {
     private val known = HashMap<IrFunction, Boolean>()
@@ -48,7 +48,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
 
             dsl.isAggregateMember(callee) -> callee.name == DslNames.neighboring || functionArguments(call).any()
 
-            // These call no primitives themselves, but may call a function that does.
+            // These functions call no primitives themselves, but may call a function argument that does.
             dsl.isFieldMember(callee) || isKotlinBuiltIn(callee) -> functionArguments(call).any(::passesDslType)
 
             callee.isLocal && reachesPrimitive(callee) -> true
@@ -80,12 +80,12 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         else -> mayPassDslType(value)
     }
 
-    /** A function value whose body is unknown may reach a primitive. */
+    /** Whether [value] may pass a DSL type on. A function value whose body is unknown may reach a primitive. */
     private fun mayPassDslType(value: IrExpression) = isFunction(value.type) || dsl.containsDslType(value.type)
 
     private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
-    /** The lambda that initialises the `val` of [read]; `null` if it has none. */
+    /** The lambda that initialises the `val` that [read] reads; `null` if a lambda does not initialise it. */
     private fun functionIn(read: IrGetValue): IrFunction? {
         val variable = read.symbol.owner as? IrVariable ?: return null
         if (variable.isVar) return null

@@ -67,8 +67,8 @@ import org.jetbrains.kotlin.name.Name
  * - An arm of a branch that contains such a call or reads a field also gets a token.
  * - Inside an arm or the body of `alignedOn`, each read of a field from outside goes through `project`.
  *
- * Pops are in `finally` blocks, so no exit from a call (return, break, a caught exception) leaves a token on the stack. A preceding `catch`
- * records the path of the failure before the pops destroy it.
+ * Pops are in `finally` blocks, so that no exit from a call (return, break, a caught exception) leaves a token on the stack. A `catch`
+ * before each `finally` records the path of the failure while the stack still contains it.
  */
 internal class AlignmentTransformer(
     private val plugin: IrPluginContext,
@@ -82,7 +82,7 @@ internal class AlignmentTransformer(
     /** The outermost lambda with an Aggregate; `null` inside named aggregate functions. See [Tokens]. */
     private var entry: IrFunction? = null
 
-    /** An Aggregate that is the [parameter] itself, or is stored in that object's [property]. */
+    /** An Aggregate that is the [parameter] itself, or that the parameter's [property] stores. */
     private class Source(val parameter: IrValueParameter, val property: IrProperty? = null)
 
     /** A part of the program with the same aligned neighbours: the body of a function or an `alignedOn`, or an arm. */
@@ -92,7 +92,7 @@ internal class AlignmentTransformer(
     private val regionOf = HashMap<IrValueDeclaration, Region?>()
     private val alignedBodies = HashSet<IrFunction>()
 
-    /** Lambdas passed to the standard library, for example to `map`: their parameters come from outside the region. */
+    /** Lambdas passed to the standard library, for example to `map`. Their parameters come from outside the region. */
     private val stdlibLambdas = HashSet<IrFunction>()
 
     /** Whether the current arm needs a token, because it contains an aligned call or a projected field. */
@@ -109,7 +109,7 @@ internal class AlignmentTransformer(
     override fun visitAnonymousInitializerNew(declaration: IrAnonymousInitializer): IrStatement =
         withSourceOfConstructor(declaration) { super.visitAnonymousInitializerNew(declaration) }
 
-    /** Initialisers can read the primary constructor's parameters, so the Aggregate may be one of them. */
+    /** Visits an initialiser of a class. It can read the parameters of the primary constructor, so the Aggregate may be one of them. */
     private inline fun <R> withSourceOfConstructor(initializer: IrDeclaration, visit: () -> R): R {
         val outer = source
         source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer
@@ -345,7 +345,7 @@ internal class AlignmentTransformer(
 
     private fun isIgnored(declaration: IrAnnotationContainer) = declaration.hasAnnotation(DslNames.ignore)
 
-    /** Whether [function] only forwards: the compiler generated it for `by`, or it is inherited. */
+    /** Whether [function] only forwards calls, because the compiler generated it for `by` or because it is inherited. */
     private fun isForwarding(function: IrFunction) =
         function.origin == IrDeclarationOrigin.DELEGATED_MEMBER || function is IrSimpleFunction && function.isFakeOverride
 

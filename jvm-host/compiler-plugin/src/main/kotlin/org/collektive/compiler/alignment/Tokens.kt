@@ -12,12 +12,12 @@ import org.jetbrains.kotlin.ir.util.render
  * Creates the tokens of one [file], such as `share@Swarm.kt:12#9c1d3a5e7f00b2d4`: the called function or chosen arm, its location, and a
  * 64-bit hash of module, file, enclosing declarations with their parameters, and the token's number inside these.
  *
- * Inside an entry, a lambda with an Aggregate receiver outside all aggregate code such as the one passed to `Collektive.aggregate`, tokens
- * have no location, and the hash covers only declarations inside the entry: two such lambdas with the same calls in the same order
- * align, wherever they are written.
+ * An entry is a lambda with an Aggregate receiver that is not inside other aggregate code, such as the lambda passed to
+ * `Collektive.aggregate`. Inside an entry, tokens have no location, and the hash covers only declarations inside the entry. Two entries
+ * with the same calls in the same order therefore align, wherever they are written.
  *
- * The whole text is the identity, so error messages need no table of names. It depends only on the sources, so all devices that run
- * the same jar agree on it.
+ * Tokens are compared by their whole text, so error messages need no table of names. The text depends only on the sources, so it is the
+ * same on all devices that run the same jar.
  */
 internal class Tokens(private val module: String, private val file: IrFile) {
     private val placesIn = HashMap<Pair<IrDeclaration?, String>, Int>()

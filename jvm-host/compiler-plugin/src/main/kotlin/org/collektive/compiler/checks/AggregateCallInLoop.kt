@@ -18,7 +18,7 @@ import org.jetbrains.kotlin.fir.references.toResolvedCallableSymbol
 import org.jetbrains.kotlin.fir.types.coneType
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** Reports an aggregate call or getter that runs several times at one path: in a loop, or in a lambda that runs for each element. */
+/** Reports an aggregate call or getter that runs several times at the same path, in a loop or in a lambda that runs for each element. */
 internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirQualifiedAccessExpression) {
@@ -27,7 +27,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
         reporter.reportOn(expression.source, AggregateDiagnostics.AGGREGATE_CALL_IN_LOOP, name.asString())
     }
 
-    /** Walks outwards until an element determines whether [expression] runs once or several times per path. */
+    /** Visits the enclosing elements from the inside out, until one determines whether [expression] runs once or several times per path. */
     context(context: CheckerContext)
     private fun repeats(expression: FirQualifiedAccessExpression): Boolean {
         var lambda: FirAnonymousFunction? = null
@@ -37,7 +37,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
 
                 is FirLoop -> return true
 
-                // A separate program, as in a test that runs one per device.
+                // The lambda is a separate program, for example in a test that runs a program per device.
                 is FirAnonymousFunction -> if (givesAggregate(element)) return false else lambda = element
 
                 is FirFunction, is FirClass -> return false

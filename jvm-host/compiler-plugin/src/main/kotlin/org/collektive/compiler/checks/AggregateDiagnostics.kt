@@ -30,7 +30,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     /** `align` or `dealign` is called by hand. Use `alignedOn`. */
     val MANUAL_ALIGNMENT by warning1<PsiElement, String>()
 
-    /** `evolve` sends its old value by `neighboring`. Use `share`, which sends it a round earlier. */
+    /** `evolve` sends its old value with `neighboring`. Use `share`, which sends each value one round earlier. */
     val EVOLVE_THAT_SHARES by warning0<PsiElement>()
 
     /** The lambda of a primitive ignores its parameter. Use the simpler expression that the message names. */

@@ -30,7 +30,10 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirLocalPropertySymbol
 import org.jetbrains.kotlin.fir.symbols.impl.FirValueParameterSymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
-/** Reports fields that are the value of an `if` or `when`: they lack the neighbours that took other arms but are aligned outside. */
+/**
+ * Reports fields that are the value of an `if` or `when`. They lack the neighbours that took other arms, although these are aligned
+ * outside.
+ */
 internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirWhenExpression) {

@@ -57,7 +57,7 @@ internal fun isValueUsed(expression: FirExpression): Boolean {
                 continue
             }
 
-            // A function that ends with a value ends with a `return`, explicit or implicit.
+            // The value of a function is always the result of an explicit or implicit `return`.
             is FirFunction, is FirAnonymousInitializer -> return false
 
             is FirArgumentList -> if (inner is FirAnonymousFunction) continue else return true

@@ -5,7 +5,7 @@ import org.jetbrains.kotlin.name.ClassId
 import org.jetbrains.kotlin.name.FqName
 import org.jetbrains.kotlin.name.Name
 
-/** The names of the DSL's declarations to which the plugin refers. */
+/** The names of the DSL declarations that the plugin uses. */
 internal object DslNames {
     private val aggregatePackage = FqName("it.unibo.collektive.aggregate")
     val apiPackage = FqName("it.unibo.collektive.aggregate.api")

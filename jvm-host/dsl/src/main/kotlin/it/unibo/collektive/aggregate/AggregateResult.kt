@@ -6,7 +6,7 @@ import it.unibo.collektive.state.State
 /**
  * The outcome of one round.
  *
- * @property localId the device that ran it.
+ * @property localId the device that ran the round.
  * @property result the value that the program returned.
  * @property toSend the messages for the neighbours.
  * @property newState the state for the next round.

@@ -9,7 +9,7 @@ import org.collektive.alignment.withPlace
 /**
  * Two primitives ran at the same [path] in one round. Wrap one of them, or each iteration of a loop, in `alignedOn(key) { }`.
  *
- * @property path the path of both.
+ * @property path the path of both primitives.
  * @property previous the value that the first primitive sends, or `null`.
  * @property current the initial value of the second primitive, which does not run.
  */

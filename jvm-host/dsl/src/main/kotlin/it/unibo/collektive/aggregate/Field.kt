@@ -22,15 +22,16 @@ import org.collektive.alignment.withPlace
  * if (source) 0 else near + 1 // inside `else`, `seen` lacks the sources: they took the other branch
  * ```
  *
- * Inside `map` of [neighborhood][it.unibo.collektive.aggregate.api.neighborhood] and of other fields without values, such a field has the
- * neighbours that entered the branch for any of their entries. Inside `map` of other fields, it has those that entered it for the same entry.
+ * This also applies to branches inside `map`. Inside `map` of [neighborhood][it.unibo.collektive.aggregate.api.neighborhood] and of other
+ * fields without values, a field from outside has the neighbours that entered the branch for any of their entries. Inside `map` of other
+ * fields, it has the neighbours that entered the branch for the same entry.
  *
  * @property context the device and the round that the field belongs to.
  */
 public class Field<ID : Any, out T> private constructor(
     public val context: Aggregate<ID>,
     private val ids: Array<out Any>,
-    // null: every neighbour has the local value.
+    // If null, every neighbour has the local value.
     private val neighborValues: Array<out Any?>?,
     /** The value for this device. */
     public val localValue: T,
@@ -70,7 +71,7 @@ public class Field<ID : Any, out T> private constructor(
         return valueAt(index)
     }
 
-    /** The value to send to the device [id]: its own, or the local value when this field has none for it. Readers use [get]. */
+    /** The value to send to the device [id]: the value for that device, or else the local value. To read a field, use [get]. */
     @DelicateCollektiveApi
     public fun getOrLocal(id: ID): T {
         val index = indexOf(id)

@@ -5,12 +5,12 @@ public interface Mailbox<ID : Any> {
     /** `true` when messages stay in the process, so that any object can be sent without a serializer. */
     public val inMemory: Boolean
 
-    /** Sends [outboundMessage] to the device's neighbours; it replaces the previous one. Called after each round. */
+    /** Sends [outboundMessage] to the device's neighbours, in place of the previous message. Called after each round. */
     public fun deliverableFor(outboundMessage: OutboundEnvelope<ID>)
 
-    /** Stores [message] from a neighbour; it replaces that neighbour's previous one. */
+    /** Stores [message] from a neighbour, in place of that neighbour's previous message. */
     public fun deliverableReceived(message: Message<ID, *>)
 
-    /** The neighbours' latest messages. Called once, before a round. */
+    /** Returns the neighbours' latest messages. Called once, before a round. */
     public fun currentInbound(): NeighborsData<ID>
 }

@@ -3,7 +3,7 @@ package it.unibo.collektive.networking
 import it.unibo.collektive.aggregate.api.DataSharingMethod
 import it.unibo.collektive.path.Path
 
-/** The values that a device sends after one round: one for each neighbour at each path. */
+/** The values that a device sends after one round, one for each neighbour at each path. */
 public interface OutboundEnvelope<ID : Any> {
     /**
      * Adds the values to send at [path].
@@ -18,7 +18,10 @@ public interface OutboundEnvelope<ID : Any> {
     /** Whether the device sends values. */
     public fun isNotEmpty(): Boolean = !isEmpty()
 
-    /** Returns the message for [receiverId], created with [factory]. A receiver that was not a neighbour during the round gets the default values. */
+    /**
+     * Returns the message for [receiverId], created with [factory]. A receiver that was not a neighbour during the round gets the default
+     * values.
+     */
     public fun prepareMessageFor(receiverId: ID, factory: MessageFactory<ID, *> = InMemoryMessageFactory()): Message<ID, Any?>
 
     /**
