@@ -56,7 +56,7 @@ class Project:
         return found
 
     def digests(self, out: str = "out") -> dict[str, str]:
-        """By run."""
+        """Returns the digests of all runs, by the name of the run."""
         table = self.table(out)
         return dict(zip(table["run"], table["digest"]))
 

@@ -46,7 +46,7 @@ MAX_RUNS = 12
 
 
 class Case:
-    """A random experiment, and a model of the rows that its tables must have."""
+    """A random experiment, and a model of the rows that the sweep's tables must have."""
 
     def __init__(self, chance: random.Random):
         self.chance = chance
@@ -63,7 +63,7 @@ class Case:
             else:
                 self.root["set"][key] = values[0]
         if not self.root["zip"] and not {"deltaTime", "outputs.interval"} & set(keys) and chance.random() < 0.3:
-            # Zipped, because the first interval would be invalid with the second tick.
+            # These keys vary together, because the first interval would be invalid with the second tick length.
             self.root["zip"] = {"deltaTime": [0.5, 1.5], "outputs.interval": [0.5, 1.5]}
         while self._count() > MAX_RUNS:
             key = chance.choice([key for key, values in self.root["vary"].items() if len(values) > 1])
@@ -209,7 +209,7 @@ def damage(chance: random.Random, out: Path) -> int:
     for folder in chosen:
         path = folder / chance.choice(sorted(set(os.listdir(folder)) - {MARKER}))
         content = path.read_bytes()
-        # Removes at least two bytes, because the JSON would still be valid without its last line feed.
+        # At least two bytes are removed, because the JSON would still be valid without its last line feed.
         changed = chance.choice([b"", content[:len(content) // 2], content[:-2], b"\0" * len(content), b"[" * 100_000, None])
         if changed == content:
             continue
@@ -229,7 +229,7 @@ def damage(chance: random.Random, out: Path) -> int:
 
 
 def mutate(chance: random.Random, content: bytes, path: Path) -> None:
-    """Reads damaged forms of an experiment file. Each must be either valid, or an error of one line."""
+    """Reads damaged forms of an experiment file. Each form must be valid, or be rejected with a one-line error."""
     for _ in range(30):
         changed = bytearray(content)
         for _ in range(chance.randint(1, 4)):

@@ -39,7 +39,7 @@ def test_runs_use_copies_of_linked_and_included_files(project: Project) -> None:
     assert not any(file.is_symlink() for file in bundle.rglob("*"))
     manifest = json.loads(next((project.folder / "out/runs").glob("*/manifest.json")).read_text())
     assert manifest["inputs"] == json.loads((bundle / "inputs.json").read_text())["hashes"]
-    # A change to the target of a link is also a change to the project.
+    # Changing the target of a link also changes the project.
     (project.folder / "light.fbs").write_text((project.folder / "light.fbs").read_text() + "// changed\n")
     again = project.sweep("--resume", vary={"seed": [1]})
     assert again.returncode == 1

@@ -159,7 +159,7 @@ def test_figures_and_labels_of_the_experiment_are_on_the_page(tmp_path: Path) ->
     assert page.count("<svg") == 4
     assert {"message loss", "mean error [m]", "Bellman-Ford"} <= set(re.findall(">([^<]+)</text>", page))
     assert "mean error against message loss: mean and 95 % bootstrap interval of 3 runs per configuration." in page
-    # The figures and labels of another file replace those of the sweep.
+    # The figures and labels of another file replace the sweep's figures and labels.
     (tmp_path / "scenario.json").write_text("{}")
     experiment: dict[str, Any] = {"version": 1, "scenario": "scenario.json", "vary": {"program": list(PROGRAMS), "network.loss": list(LOSSES), "seed": [1]}}
     (tmp_path / "e.json").write_text(json.dumps({**experiment, "labels": {"eror": "x"}}))
@@ -174,7 +174,7 @@ def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
     with pytest.raises(ExperimentError, match=r"sweep.json:\d+: 'figures\[1\].metric' .* describe an existing figure: 'error-line-network.loss-"):
         plot(write_sweep(tmp_path / "out", 1, figures=[figure, figure]))
     assert not (tmp_path / "out/figures").exists()
-    # The names of a requested figure and of a metric's figure must not be equal either.
+    # A requested figure must not have the same name as the figure of a metric either.
     folder = write_sweep(tmp_path / "one", 3, (0.0,), figures=[{"metric": "error"}])
     for path in (tmp_path / "one/runs.parquet", tmp_path / "one/series.parquet"):
         table = pd.read_parquet(path).query("program == 'bellman-ford'")

@@ -256,7 +256,7 @@ def test_runs_are_reproducible_in_one_process_and_with_two_threads(study: Study,
         manifest = json.loads((out / "manifest.json").read_text())
         results.append((manifest["digest"], manifest["end"], manifest["nodes"], manifest["converged"]))
     assert results[0] == results[1] == results[2]
-    # The process is reused for later runs, because neither the scene nor the metrics keep state.
+    # The process must be reusable for later runs, because neither the scene nor the metrics keep state.
     assert study.worker._idle is not None
     assert not study.worker._idle.is_fresh
 

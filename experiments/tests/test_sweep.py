@@ -211,7 +211,7 @@ def test_a_sweep_stops_if_its_first_runs_fail_in_the_same_way_unless_keep_going(
 
 def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(project: Project) -> None:
     scene = project.folder / "project/scene/Lamps.cs"
-    # With fate 1, the scene throws an exception. With fate 2, its process is killed, and with fate 3, it hangs.
+    # With fate 1, the scene throws an exception. With fate 2, it kills its process, and with fate 3, it hangs.
     scene.write_text(scene.read_text().replace("public bool loop;", "public bool loop;\n        public int fate;").replace(
         "for (var i = 0; i < lamps; i++)\n",
         'if (fate == 1) throw new System.InvalidOperationException("no luck");\n'
@@ -272,7 +272,7 @@ def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lam
     disk.mkdir()
     keep = project.folder / "out"
     bundle = sum(file.stat().st_size for file in (lamps.folder / "out/bundle").rglob("*") if file.is_file())
-    # The disk has space for the inputs and for some of the runs, each of which takes 0.1 MB.
+    # The disk has space for the inputs and for some runs. A run takes 0.1 MB.
     size = f"{bundle // 1024 + 1500}k"
     script = 'mount -t tmpfs -o size="$1" none "$2" || exit 99; shift; disk=$1; keep=$2; shift 2; "$@"; code=$?; cp -r "$disk/out" "$keep"; exit $code'
     nodes = {"fields": ["position"], "interval": 0.1}
@@ -316,7 +316,7 @@ def test_the_example_study_produces_its_figures(tmp_path: Path, monkeypatch: pyt
     page = (out / "figures.html").read_text()
     assert page.count("<svg") == 7
     assert "95 % bootstrap interval of 3 runs per configuration" in page
-    # Runs the Python code of the page in the folder of the sweep.
+    # The Python code of the page runs in the folder of the sweep.
     monkeypatch.chdir(tmp_path)
     names: dict[str, str] = {}
     exec(code_block("python"), names)

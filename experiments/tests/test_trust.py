@@ -209,7 +209,7 @@ def test_resume_repeats_runs_with_damaged_results(project: Project) -> None:
         if damage == "removed":
             path.unlink()
         else:
-            # Cuts the file at the end of a line, so the rest is a valid table.
+            # The file is cut at the end of a line, so the rest is still a valid table.
             path.write_bytes(b"" if damage == "empty" else content[:content.rindex(b"\n", 0, -1) + 1])
     (project.folder / "out/sweep.json").write_text("")
     result = project.sweep("--resume", **keys)

@@ -12,7 +12,7 @@ from build.jdk import find_jdk
 from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, JVM, LIBRARY_JAR, ROOT
 
 JAVA = str(find_jdk() / "bin/java")
-# The programs are part of the tests of generator and frames.
+# The programs are part of the tests of the modules generator and frames.
 GENERATE_ALL = [JAVA, "-cp", f"{JVM}/generator/target/test-classes:{GENERATOR_JAR}", "org.collektive.generator.GenerateAll", str(FLATC),
                  str(ROOT / "schema")]
 ASSEMBLIES = ("Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "UnityEngine.dll", "Collektive.Unity.dll")

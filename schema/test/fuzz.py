@@ -1,4 +1,4 @@
-"""Fuzzes schemas: each is rejected with a line number, or compiles on both sides, which then exchange equal data.
+"""Fuzzes schemas. Each schema must be rejected with a line number, or compile on both sides, which must then exchange data without changing it.
 
 `./collektive test --fuzz schemas` runs `fuzz.py SECONDS SEED`. test_fuzz.py runs a short batch and the corpus.
 """
@@ -18,7 +18,7 @@ import compile_schemas  # noqa: E402
 CORPUS = os.path.join(HERE, "corpus")
 ROOT = os.path.dirname(os.path.dirname(HERE))
 
-# A case and its errors.
+# The name of a case, and its errors.
 Finding = tuple[str, str]
 
 SCALARS = ["bool", "byte", "ubyte", "short", "ushort", "int", "uint", "long", "ulong", "float", "double"]
@@ -178,7 +178,7 @@ def write_batch(folder: str, seed: int, count: int) -> None:
 
 
 def run(folder: str, records: int = 20) -> tuple[int, int, list[Finding]]:
-    """Runs all schemas of `cases`. Returns the numbers of accepted and rejected ones, and the failures as (case, text)."""
+    """Runs all schemas of `cases`. Returns the number of accepted schemas, the number of rejected schemas, and the failures as (case, text)."""
     each = subprocess.run([*compile_schemas.GENERATE_ALL, folder], capture_output=True, text=True)
     outcomes = [line.split("\t") for line in each.stdout.splitlines()]
     findings = []

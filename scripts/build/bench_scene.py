@@ -20,8 +20,8 @@ PHASES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms
 NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
 # The number of nodes in the sample. The field is scaled for other numbers.
 NODES_OF_FIELD = 500
-# The simulated seconds at which measuring ends and starts. It starts after the JIT compilers have warmed up, and ends before small swarms crowd at the
-# source.
+# The simulated seconds at which measuring ends and starts. Measuring starts after the JIT compilers have warmed up, and ends before small swarms crowd at
+# the source.
 SECONDS, SETTLED = 10, 6
 QUICK_SECONDS, QUICK_SETTLED = 4, 2
 
@@ -60,7 +60,7 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
         return sum(float(row[column]) for row in rows) / len(rows)
 
     return {"nodes": nodes, "threads": settings["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
-            # A row covers at most 100 ticks, so its 99th percentile is its slowest tick.
+            # A row covers at most 100 ticks, so the 99th percentile of a row is its slowest tick.
             "tick_ms_p99": max(float(row["tick_ms_p99"]) for row in rows),
             **{phase: round(mean(phase), 3) for phase in PHASES}, "rules_in_c_ms": float(bare.stdout.split()[-2]),
             "rss_mb": round(usage.ru_maxrss / 1024, 1)}
@@ -71,7 +71,10 @@ def micros_per_node(row: dict[str, Any]) -> float:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """Formats the rows. Adds the time of the rules relative to the time in C, and the time of a tick per node, also relative to the first row."""
+    """Formats the rows as a table.
+
+    Adds the time of the rules relative to the time in C, and the time per node and tick in microseconds and relative to the first row.
+    """
     columns = ["nodes", "ticks/s", "p99 ms", "p99/mean", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "rules in C", "ratio", "RSS MB",
                "us a node", "growth"]
     cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", f"{row['tick_ms_p99']:.2f}",
@@ -96,7 +99,7 @@ def sizes_of(text: str) -> list[int]:
 def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     """Runs all sizes, writes their rows to a file, and prints the table."""
     graph.build("runtime", "neighbours_test")
-    # Compile before the runs, because the memory of a run includes that of the processes that it starts.
+    # Compile before the runs, because the memory of a run includes the memory of processes that it starts.
     projects.scripts_dll(inputs.schema(SAMPLE / "gradient_ascent.fbs"), inputs.scripts(SAMPLE))
     lock.release()
     rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]

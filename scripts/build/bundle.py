@@ -1,6 +1,6 @@
 """Copies the inputs of a sweep's runs to a folder: `bundle.py SCENARIO FOLDER [--only-inputs] [--trust-jvm] [--runtime=NAME]...`. Sweeps call it.
 
-FOLDER/programs.jar contains the programs for the scenario's runtime. If runtimes are given, there is a file programs-NAME.jar for each of them instead.
+FOLDER/programs.jar contains the programs for the scenario's runtime. If runtimes are given, each has its own file programs-NAME.jar instead.
 FOLDER/inputs contains the files of the scenario's project. FOLDER/inputs.json lists their paths below FOLDER/inputs, and their hashes, by key of the
 scenario.
 """

@@ -20,7 +20,7 @@ ROSLYN = BUILD / "roslyn"
 FACADE = Path("/usr/lib/mono/4.8-api/Facades/netstandard.dll")
 OPTIONS = ("-nologo", "-noconfig", "-nostdlib+", "-langversion:8.0", "-deterministic+", "-optimize+", "-debug:portable", "-warnaserror+", "-warn:4",
            "-nowarn:1701,1702", "-target:library")
-# The assemblies that scenes reference: those of the package, and the player, which reads data files.
+# The assemblies that scenes reference: the package's assemblies, and the player, which reads data files.
 REFERENCES = (*(f"-r:{CSHARP}/{name}.dll" for name in ("Collektive.FlatBuffers", "Collektive.Bridge", "UnityEngine", "Collektive.Unity")), f"-r:{PLAYER}")
 
 
@@ -59,7 +59,7 @@ def document(out: Path, files: Sequence[Path], options: Sequence[str]) -> None:
     """Writes the XML documentation of an assembly. Public members without documentation are errors, except in generated code."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
-        # The assembly needs its own name, because the internal members of the other assembly are visible to that name only.
+        # The assembly needs this name, because internal members of the other assembly are visible only to assemblies with this name.
         assembly = Path(folder, f"Collektive.{out.stem}.dll")
         result = subprocess.run(command(assembly, files, [*options, "-warnaserror-", f"-doc:{out}"]), capture_output=True, text=True)
     missing = [line for line in result.stderr.splitlines() if "CS1591" in line and "/generated/" not in line]

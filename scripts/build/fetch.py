@@ -220,7 +220,7 @@ def pom_value(name: str) -> str:
 
 _PYTHON = sys.version
 _EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
-# The function that fills each fetched folder, and the inputs that determine its content. This module is always one of them.
+# The function that fills each fetched folder, and the inputs that determine the folder's content. This module is always an input.
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
     "physx": ([TOOLS / "physx"], _physx),

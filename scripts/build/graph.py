@@ -1,4 +1,4 @@
-"""The build graph: CMake describes it, Ninja builds it."""
+"""Builds targets of the build graph, which CMake describes and Ninja builds."""
 import shutil
 import subprocess
 import sys

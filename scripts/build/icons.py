@@ -70,7 +70,7 @@ ICONS: dict[str, list[Shape]] = {
 
 
 def pixel(shapes: list[Shape], x: int, y: int) -> bytes:
-    """Returns the colour and opacity of a pixel, which are the mean of samples in it. Transparent samples do not affect the colour."""
+    """Returns the colour and opacity of a pixel, averaged over several samples. Transparent samples do not affect the colour."""
     total, weight = [0.0, 0.0, 0.0], 0.0
     for i in range(SAMPLES * SAMPLES):
         px, py = x + (i % SAMPLES + 0.5) / SAMPLES, y + (i // SAMPLES + 0.5) / SAMPLES

@@ -61,7 +61,7 @@ def scripts(folder: Path) -> Part:
 
 
 def programs(path: Path) -> Part:
-    """Reads a jar, or a folder of Kotlin and of the Java that the Kotlin refers to."""
+    """Reads a jar, or a folder of Kotlin files and of Java files that they use."""
     return Part(path, partial(_below, suffixes=(".kt", ".java"))) if path.is_dir() else jar(path)
 
 
@@ -76,7 +76,7 @@ def jars(folder: Path) -> Part:
 
 
 def schema(file: Path) -> Part:
-    """Reads a schema and the files that it includes, except those of the package."""
+    """Reads a schema and the files that it includes, except files of the package."""
     return Part(file, _with_includes)
 
 
@@ -93,7 +93,7 @@ def _digest(files: Mapping[str, Path]) -> str:
 
 
 def _below(folder: Path, suffixes: tuple[str, ...], excluded: tuple[str, ...] = ()) -> dict[str, Path]:
-    """Returns the files below a folder in the order of their names. Follows links, except those to a folder that contains the link."""
+    """Returns the files below a folder, sorted by name. Follows links, except links to a folder that contains the link itself."""
     found: dict[str, Path] = {}
     count = 0
     pending: list[tuple[str, str, frozenset[str]]] = [("", str(folder), frozenset({os.path.realpath(folder)}))]
@@ -114,7 +114,10 @@ def _below(folder: Path, suffixes: tuple[str, ...], excluded: tuple[str, ...] = 
 
 
 def _with_includes(schema: Path) -> dict[str, Path]:
-    """Returns a schema and the files that it includes. Searches where flatc does: beside the including file, in the package and beside the schema."""
+    """Returns a schema and the files that it includes.
+
+    Like flatc, this searches for an included file beside the including file, in the package, and beside the schema.
+    """
     found: dict[str, Path] = {}
     folder = str(schema.parent)
     pending = [str(schema)]

@@ -25,7 +25,7 @@ def feature_version(home: Path) -> int:
 
 @cache
 def find_jdk() -> Path:
-    """Returns the JDK that runs simulations, which is COLLEKTIVE_JAVA_HOME if it is set, and otherwise the newest one."""
+    """Returns the JDK that runs simulations. It is COLLEKTIVE_JAVA_HOME if that is set, and otherwise the newest JDK of this machine."""
     named = os.environ.get("COLLEKTIVE_JAVA_HOME")
     if named:
         home = Path(named)

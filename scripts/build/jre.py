@@ -19,7 +19,7 @@ FILES = ("bin/java", "bin/java.exe", "bin/jfr", "bin/jfr.exe", "bin/jcmd", "bin/
          "lib/tzdb.dat", "lib/tzmappings", "lib/security", "lib/jfr", "lib/server", "bin/server", "NOTICE")
 LIBRARIES = ("attach", "dt_socket", "extnet", "instrument", "java", "jdwp", "jimage", "jli", "jsig", "management", "management_ext", "net", "nio",
              "syslookup", "verify", "zip")
-# Names of the systems in a JVM's file `release`, and for jmod.
+# Names of the systems in the file `release` of a JVM, and in options of jmod.
 RELEASE_SYSTEMS = {"win": "Windows", "mac": "Darwin", "linux": "Linux"}
 JMOD_SYSTEMS = {"win": "windows", "mac": "macos", "linux": "linux"}
 

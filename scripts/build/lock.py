@@ -20,7 +20,7 @@ def exclusive() -> None:
 
 
 def change(is_done: Callable[[], bool], make: Callable[[], None]) -> None:
-    """Calls `make` with the outputs locked for changes, unless `is_done` returns true. Afterwards, locks the outputs for use.
+    """Calls `make` with the outputs locked for changes, unless `is_done` returns true. Then locks the outputs for use.
 
     If two commands need the same change, the second one waits only for `make`, and not for the rest of the first command.
     """

@@ -1,4 +1,4 @@
-"""Returns command lines of .NET programs that load the shim of this checkout."""
+"""Returns command lines and environments for .NET programs that load the shim of this checkout."""
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,7 +12,7 @@ def command(runtime: str, program: Path, *words: str | Path) -> list[str | Path]
 
 
 def environment(runtime: str) -> Mapping[str, str]:
-    """Returns the environment variables for such a program."""
+    """Returns the environment variables for a program that loads the shim."""
     paths = [str(SHIM), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
     return {**os.environ, "LD_LIBRARY_PATH": ":".join(paths), "COLLEKTIVE_RUNTIME": runtime,
             "PATH": f"{ROOT / 'tools/coreclr'}:{os.environ.get('PATH', os.defpath)}"}

@@ -59,7 +59,7 @@ class Module:
         return [self, *_closure([*self.upstream, *self.direct(tests=True)])]
 
     def direct(self, tests: bool) -> "list[Module]":
-        """Returns the modules on which this module and its plugins depend directly, or with `tests`, those on which only its tests depend."""
+        """Returns the modules on which this module and its plugins depend directly. With `tests`, returns the modules on which only the tests depend."""
         found = []
         for dependency in ElementTree.fromstring(self._pom).findall(".//m:dependency", NAMESPACE):
             name = dependency.findtext("m:artifactId", "", NAMESPACE)
@@ -104,7 +104,7 @@ class Module:
 
     @cached_property
     def _tools(self) -> "list[Module]":
-        # Modules that run during the build of this module: the dependencies of its plugins, and modules whose jars it names by a property of the parent.
+        # These modules run during the build of this module. They are dependencies of its plugins, or the module names their jars by a property of the parent.
         plugins = ElementTree.fromstring(self._pom).iterfind(".//m:plugin//m:artifactId", NAMESPACE)
         jars = re.findall(r"<([\w.]+)>\$\{root\}/jvm-host/([\w-]+)/target/", PARENT.read_text())
         names = {element.text or "" for element in plugins} | {module for name, module in jars if f"${{{name}}}" in self._pom}
@@ -138,7 +138,7 @@ def package(names: list[str], tests: bool) -> int:
 
 
 def run(modules: Sequence[Module], changed: set[Module], words: Sequence[str], tests: bool) -> int:
-    """Runs Maven on modules, compiles those that changed, and returns Maven's exit code.
+    """Runs Maven on modules, compiles the changed modules, and returns Maven's exit code.
 
     Removes the marks afterwards, so that Maven compiles everything if a user runs it directly.
     """

@@ -17,7 +17,7 @@ RUNNING, COMPLETE, WITHOUT_PICTURES = "running", "complete", "the pictures are m
 # The exit codes of a player that a signal interrupted or killed.
 SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM, 128 + signal.SIGKILL)
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
-# The folder that contains the earlier results until a new run has begun.
+# The folder that stores the earlier results until a new run has begun.
 BACKUP = "earlier.part"
 
 
@@ -79,7 +79,7 @@ def _end(folder: Path) -> None:
 
 
 def _is_of_run(folder: Path) -> bool:
-    """Returns whether the folder has the manifest of a run, and not another file of that name."""
+    """Returns whether a run wrote the folder's manifest. The file may also be unrelated to runs."""
     try:
         return b'"outcome":' in (folder / "manifest.json").read_bytes()
     except OSError:
@@ -91,7 +91,7 @@ def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
 
 
 def require_replaceable(file: str, beginning: bytes, option: str) -> None:
-    """Raises `Failure` if a file exists and does not begin like the results that would replace it."""
+    """Raises `Failure` if a file exists that does not begin like the results that would replace it."""
     if not os.path.isfile(file):
         return
     with open(file, "rb") as existing:

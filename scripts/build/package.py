@@ -27,7 +27,7 @@ def core(work: Path, out: Path, with_jre: bool = False, all_platforms: bool = Fa
     if repository:
         manifest.write_links(content, repository)
     if with_jre:
-        # jlink replaces equal licences with links, which npm drops. copytree copies their targets.
+        # jlink replaces identical licences with links, which npm omits. copytree copies the targets of the links.
         shutil.copytree(jre.link_jre(), content / "unity/Jvm~/linux-x64")
     return _pack(content, out, "-jre" if with_jre else "")
 

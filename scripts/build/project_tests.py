@@ -11,7 +11,7 @@ from commands.check import SCENARIO, find_files
 def run(project: Path, results: Path) -> int:
     """Runs the tests beside the programs of each scenario of a project, and writes JUnit XML files. Returns JUnit's exit code.
 
-    Scenarios whose project files are all equal share one run of the tests.
+    Scenarios with identical project files share one run of the tests.
     """
     done = set()
     code = 0

@@ -53,7 +53,7 @@ def record_own_program(jar: Path) -> None:
 
 
 def program_names(programs: Part) -> set[str] | None:
-    """Returns the names of the programs in a folder of Kotlin, or None for a jar, and if a constant contains a name, which only the compiler can read."""
+    """Returns the names of the programs in a folder of Kotlin. Returns None for a jar, and if a name is in a constant, which only the compiler can read."""
     if programs.path.is_file():
         return None
     found = [match[1] for name, file in programs.files.items() if name.endswith(".kt")

@@ -65,7 +65,7 @@ def fetched_components(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
 
 
 def complete_bill(bill: Json, package: Json, more: list[Json]) -> Json:
-    """Returns the bill of materials with the package as its subject, with `more` components and without our own modules."""
+    """Returns the bill of materials of the package, with the components `more` and without the modules of this repository."""
     bill["metadata"]["component"] = {"type": "library", "bom-ref": package["name"], "name": package["name"], "version": package["version"],
                                      "licenses": APACHE, "description": package["description"]}
     bill["components"] = [component for component in bill["components"] if component.get("group") != "org.collektive"] + more

@@ -2,7 +2,7 @@ using UnityEditor;
 
 namespace Collektive.Unity.Editor
 {
-    /// <summary>One user's Collektive settings for this project. They are stored in <c>UserSettings/Collektive.asset</c>, which is not committed.</summary>
+    /// <summary>One user's Collektive settings for this project. The file <c>UserSettings/Collektive.asset</c> stores them and is not committed.</summary>
     [FilePath("UserSettings/Collektive.asset", FilePathAttribute.Location.ProjectFolder)]
     internal sealed class PersonalSettings : ScriptableSingleton<PersonalSettings>
     {

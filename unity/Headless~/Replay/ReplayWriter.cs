@@ -21,7 +21,7 @@ namespace Collektive.Headless
         /// <summary>Number of frames that are compressed together as a segment. The first frame of a segment is a key frame.</summary>
         public const int FramesPerSegment = 20;
 
-        /// <summary>Approximate limit of stored links per frame, each direction counted.</summary>
+        /// <summary>Approximate maximum number of stored links per frame, each direction counted.</summary>
         public const int LinkBudget = 60000;
 
         internal const string Placeholder = "@@REPLAY@@";

@@ -174,7 +174,7 @@ export class Segment {
     this.links = changed(this.links, this.readPairs(), this.readPairs());
     frame.pairs = new Int32Array(2 * this.links.length); // slots, two for each linked pair
     frame.ways = new Uint8Array(this.links.length); // by pair: 1 for a link to its second slot, 2 for one to its first, 3 for both
-    frame.links = 0; // those of `pairs`, each direction counted
+    frame.links = 0; // number of links in `pairs`, each direction counted
     this.links.forEach((key, i) => {
       const rest = key % PAIR;
       frame.pairs[2 * i] = key / PAIR;

@@ -20,7 +20,7 @@ namespace UnityEditor.Headless
             ["Rigidbody"] = typeof(Rigidbody),
         };
 
-        /// Loaded prefabs, which are not part of a scene, with the paths of their files.
+        /// Prefabs that are loaded but not instantiated, with the paths of their files.
         internal static readonly Dictionary<UnityEngine.Object, string> Loaded = new Dictionary<UnityEngine.Object, string>();
 
         internal static GameObject Load(string path)

@@ -66,7 +66,7 @@ namespace UnityEngine
             return true;
         }
 
-        /// Converts the mesh to PhysX's format. The scale is applied to the vertices, because PhysX does not support mirrored and flat scales.
+        /// Converts the mesh to PhysX's format. The scale is applied to the vertices, so that any scale is possible, including mirrored and flat scales.
         void Cook(Vector3 scale)
         {
             var points = ownMesh.vertices;

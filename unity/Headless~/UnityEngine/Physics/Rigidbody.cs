@@ -358,7 +358,7 @@ namespace UnityEngine
 
         // ---- Control --------------------------------------------------------------------------------------------------
 
-        /// Moves the body in the next step. A kinematic body moves continuously and pushes other bodies. A dynamic body is placed at the position.
+        /// Moves the body to a position. A kinematic body moves there in the next step and pushes other bodies. A dynamic body is placed there immediately.
         public void MovePosition(Vector3 position) => Move(position, HasTarget ? targetRotation : rotation);
 
         public void MoveRotation(Quaternion rotation) => Move(HasTarget ? targetPosition : position, rotation);

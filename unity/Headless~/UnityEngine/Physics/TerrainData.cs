@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    /// A height map, which is not drawn.
+    /// A height map. It is not drawn.
     public sealed class TerrainData : Object
     {
         const int MinResolution = 33, MaxResolution = 4097;

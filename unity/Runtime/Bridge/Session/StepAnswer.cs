@@ -95,7 +95,7 @@ namespace Collektive.Bridge
         /// </summary>
         public long InspectedRoundNanos => response.Inspection.GetValueOrDefault().RoundNanos;
 
-        /// <summary>Number of stored values of <see cref="InspectedNode"/>, which is not -1.</summary>
+        /// <summary>Number of stored values of <see cref="InspectedNode"/>. Call it only if that is not -1.</summary>
         public int StateCount => response.Inspection.GetValueOrDefault().StateLength;
 
         /// <summary>Returns the path and the text of a stored value of <see cref="InspectedNode"/>. Values are sorted by path. Allocates.</summary>

@@ -4,9 +4,9 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Selects the nodes within a radius as neighbours. Each collider on the straight line between the two centres increases the link's attenuation, or
-    /// prevents the link. Triggers and the colliders of the two nodes do not obstruct the line, but bodies of other nodes do, unless their layer is
-    /// excluded. The rule casts one ray per pair of nodes and tick.
+    /// Selects the nodes within a radius as neighbours. Each collider on the straight line between the two centres increases the link's
+    /// attenuation, or prevents the link. Triggers and the colliders of the two nodes do not obstruct the line, but bodies of other nodes do, unless their
+    /// layer is excluded. The rule casts one ray per pair of nodes and tick.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Line Of Sight Neighbourhood")]
     public sealed class LineOfSightNeighbourhood : NeighbourhoodRule

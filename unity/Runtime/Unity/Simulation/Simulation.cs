@@ -112,7 +112,7 @@ namespace Collektive.Unity
 
         internal ScriptLinks ScriptLinks { get; }
 
-        /// <summary>All links, without those of nodes that left. <see cref="Links"/> contains the links of such nodes until the next tick.</summary>
+        /// <summary>All links between participating nodes. <see cref="Links"/> also contains the links of nodes that left, until the next tick.</summary>
         internal NeighbourSearch PresentLinks
         {
             get

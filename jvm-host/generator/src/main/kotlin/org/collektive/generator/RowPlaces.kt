@@ -10,7 +10,7 @@ internal class RowPlaces(type: TableType) {
     /** Offset of each field, in ascending order. */
     val offsets: Map<Field, Int>
 
-    /** Alignment of the row; at least that of the vtable offset. */
+    /** Alignment of the row, which is at least the alignment of the vtable offset. */
     val alignment: Int = type.fields.maxOfOrNull { alignment(it.type) }?.coerceAtLeast(OFFSET_BYTES) ?: OFFSET_BYTES
 
     /** Size of the row, with the padding for an array of rows. */

@@ -46,9 +46,9 @@ internal class StdlibFunction private constructor(
 
     companion object {
         /**
-         * Functions that Collektive does not lift: those of `Any`; `inc` and `dec`, which assign; `contains`, because `in` requires a
-         * Boolean; names that fields already have; functions of Kotlin/JVM only; and functions newer than the Kotlin version of
-         * Collektive 28.3.
+         * Functions that Collektive does not lift: members of `Any`; `inc` and `dec`, which assign; `contains`, because `in` requires a
+         * Boolean; functions with the names of a field's members; functions that exist on the JVM only; and functions that are newer than
+         * the Kotlin version of Collektive 28.3.
          */
         private val NOT_LIFTED = setOf(
             "equals",
