@@ -108,8 +108,8 @@ namespace Collektive.Unity.Editor
 
         private static string ValueOf(Node node, ProgramParameter parameter)
         {
-            var place = node.Parameters.FindIndex(value => value.name == parameter.Name);
-            return place < 0 ? parameter.DefaultValue : node.Parameters[place].value;
+            var index = node.Parameters.FindIndex(value => value.name == parameter.Name);
+            return index < 0 ? parameter.DefaultValue : node.Parameters[index].value;
         }
 
         /// <summary>
@@ -131,20 +131,20 @@ namespace Collektive.Unity.Editor
 
         private static void Store(SerializedProperty values, ProgramParameter parameter, string value)
         {
-            var place = 0;
-            while (place < values.arraySize && NameAt(values, place).stringValue != parameter.Name) place++;
-            var isNew = place == values.arraySize;
+            var index = 0;
+            while (index < values.arraySize && NameAt(values, index).stringValue != parameter.Name) index++;
+            var isNew = index == values.arraySize;
             if (IsDefault(parameter, value))
             {
-                if (!isNew) values.DeleteArrayElementAtIndex(place);
+                if (!isNew) values.DeleteArrayElementAtIndex(index);
                 return;
             }
             if (isNew)
             {
-                values.InsertArrayElementAtIndex(place);
-                NameAt(values, place).stringValue = parameter.Name;
+                values.InsertArrayElementAtIndex(index);
+                NameAt(values, index).stringValue = parameter.Name;
             }
-            values.GetArrayElementAtIndex(place).FindPropertyRelative(nameof(NodeParameter.value)).stringValue = value;
+            values.GetArrayElementAtIndex(index).FindPropertyRelative(nameof(NodeParameter.value)).stringValue = value;
         }
 
         private static bool IsDefault(ProgramParameter parameter, string value)
@@ -154,7 +154,7 @@ namespace Collektive.Unity.Editor
                 && number == double.Parse(parameter.DefaultValue, NumberStyles.Float, CultureInfo.InvariantCulture);
         }
 
-        private static SerializedProperty NameAt(SerializedProperty values, int place) =>
-            values.GetArrayElementAtIndex(place).FindPropertyRelative(nameof(NodeParameter.name));
+        private static SerializedProperty NameAt(SerializedProperty values, int index) =>
+            values.GetArrayElementAtIndex(index).FindPropertyRelative(nameof(NodeParameter.name));
     }
 }

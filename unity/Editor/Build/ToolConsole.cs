@@ -24,8 +24,8 @@ namespace Collektive.Unity.Editor
         private static void Show(ToolMessage message)
         {
             var path = InProject(message.File);
-            var place = path + "(" + message.Line + (message.Column > 0 ? "," + message.Column : "") + ")";
-            var text = place + ": " + (message.IsError ? "error: " : "warning: ") + message.Text
+            var position = path + "(" + message.Line + (message.Column > 0 ? "," + message.Column : "") + ")";
+            var text = position + ": " + (message.IsError ? "error: " : "warning: ") + message.Text
                 + "\n<a href=\"" + path + "\" line=\"" + message.Line + "\">" + path + ":" + message.Line + "</a>";
             var asset = AssetDatabase.LoadAssetAtPath<Object>(path);
             if (message.IsError) Debug.LogError(text, asset);

@@ -182,8 +182,8 @@ namespace Collektive.Unity.Editor
             for (var i = 0; i < errors.Count && i < MaxErrors; i++)
             {
                 var error = errors[i];
-                var place = error.Node == NodeErrors.NoNode ? "" : error.Node == NodeErrors.DepartedNodes ? ", nodes that have left" : ", node " + error.Node;
-                EditorGUILayout.LabelField(error.Source + place, error.Count + " times, last at tick " + error.LastTick);
+                var suffix = error.Node == NodeErrors.NoNode ? "" : error.Node == NodeErrors.DepartedNodes ? ", nodes that have left" : ", node " + error.Node;
+                EditorGUILayout.LabelField(error.Source + suffix, error.Count + " times, last at tick " + error.LastTick);
                 EditorGUILayout.HelpBox(error.LastMessage, MessageType.Error);
             }
         }

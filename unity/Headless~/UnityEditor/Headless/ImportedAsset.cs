@@ -81,27 +81,27 @@ namespace UnityEditor.Headless
                 Object.DestroyImmediate(objects[identifier], true);
                 objects.Remove(identifier);
             }
-            var kept = new Dictionary<Object, Object>();
-            foreach (var made in context.Objects)
+            var replacements = new Dictionary<Object, Object>();
+            foreach (var created in context.Objects)
             {
-                if (objects.TryGetValue(made.Key, out var old)) kept[made.Value] = old;
-                else objects[made.Key] = made.Value;
+                if (objects.TryGetValue(created.Key, out var old)) replacements[created.Value] = old;
+                else objects[created.Key] = created.Value;
             }
-            foreach (var made in context.Objects.Values) Move(made, kept.TryGetValue(made, out var old) ? old : made, kept);
-            Main = kept.TryGetValue(context.mainObject, out var main) ? main : context.mainObject;
+            foreach (var created in context.Objects.Values) Move(created, replacements.TryGetValue(created, out var old) ? old : created, replacements);
+            Main = replacements.TryGetValue(context.mainObject, out var main) ? main : context.mainObject;
         }
 
         /// Copies the name and the serialised fields. References to new objects are replaced with references to the existing objects.
-        static void Move(Object from, Object to, Dictionary<Object, Object> kept)
+        static void Move(Object from, Object to, Dictionary<Object, Object> replacements)
         {
             to.name = from.name;
             foreach (var field in from.GetType().GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
             {
                 var value = field.GetValue(from);
-                if (value is Object single && kept.TryGetValue(single, out var old)) value = old;
+                if (value is Object single && replacements.TryGetValue(single, out var old)) value = old;
                 if (value is Object[] many)
                     for (var i = 0; i < many.Length; i++)
-                        if (kept.TryGetValue(many[i], out old)) many[i] = old;
+                        if (replacements.TryGetValue(many[i], out old)) many[i] = old;
                 field.SetValue(to, value);
             }
         }

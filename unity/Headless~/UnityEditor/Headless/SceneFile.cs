@@ -18,9 +18,9 @@ namespace UnityEditor.Headless
             foreach (Match instance in Regex.Matches(text, @"^PrefabInstance:\n(?:(?!---).*\n)+", RegexOptions.Multiline))
             {
                 var guid = Regex.Match(instance.Value, @"m_SourcePrefab: .*guid: ([0-9a-f]+)").Groups[1].Value;
-                var made = PrefabFile.Load(Project.FileOf(Project.PathOf(guid)));
+                var created = PrefabFile.Load(Project.FileOf(Project.PathOf(guid)));
                 foreach (Match change in Regex.Matches(instance.Value, @"propertyPath: (.+)\n +value: ?(.*)\n +objectReference: (.*)\n"))
-                    Change(made, change.Groups[1].Value.Replace(".Array.data[", "[").Split('.'), Referred(change.Groups[3].Value) ?? change.Groups[2].Value);
+                    Change(created, change.Groups[1].Value.Replace(".Array.data[", "[").Split('.'), Referred(change.Groups[3].Value) ?? change.Groups[2].Value);
             }
         }
 
@@ -33,9 +33,9 @@ namespace UnityEditor.Headless
         }
 
         /// Sets the field of the first script that has it.
-        static void Change(GameObject made, string[] path, object value)
+        static void Change(GameObject created, string[] path, object value)
         {
-            foreach (var script in made.GetComponents<MonoBehaviour>())
+            foreach (var script in created.GetComponents<MonoBehaviour>())
                 if (FieldOf(script, path[0]) != null)
                 {
                     Change(script, path, 0, value);

@@ -26,15 +26,15 @@ namespace UnityEngine
         public static void RunDue()
         {
             if (Requests.Count == 0) return;
-            var kept = 0;
+            var remaining = 0;
             for (var index = 0; index < Requests.Count; index++)
             {
                 var request = Requests[index];
                 if (request.Target.destroyed) continue;
                 if (request.Due <= Time.timeAsDouble) Destroy(request.Target);
-                else Requests[kept++] = request;
+                else Requests[remaining++] = request;
             }
-            Requests.RemoveRange(kept, Requests.Count - kept);
+            Requests.RemoveRange(remaining, Requests.Count - remaining);
         }
 
         public static void Destroy(Object target)

@@ -47,9 +47,9 @@ namespace UnityEngine
 
         public static Vector2 MoveTowards(Vector2 current, Vector2 target, float maxDistanceDelta)
         {
-            var way = target - current;
-            var length = way.magnitude;
-            return length == 0f || length <= maxDistanceDelta ? target : current + way / length * maxDistanceDelta;
+            var offset = target - current;
+            var length = offset.magnitude;
+            return length == 0f || length <= maxDistanceDelta ? target : current + offset / length * maxDistanceDelta;
         }
 
         public static Vector2 operator +(Vector2 a, Vector2 b) => new Vector2(a.x + b.x, a.y + b.y);

@@ -90,9 +90,9 @@ namespace UnityEngine
 
         public static Vector3 MoveTowards(Vector3 current, Vector3 target, float maxDistanceDelta)
         {
-            var way = target - current;
-            var length = way.magnitude;
-            return length == 0f || length <= maxDistanceDelta ? target : current + way / length * maxDistanceDelta;
+            var offset = target - current;
+            var length = offset.magnitude;
+            return length == 0f || length <= maxDistanceDelta ? target : current + offset / length * maxDistanceDelta;
         }
 
         public static Vector3 ClampMagnitude(Vector3 vector, float maxLength)

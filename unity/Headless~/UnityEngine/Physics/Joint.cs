@@ -87,10 +87,10 @@ namespace UnityEngine
                 otherScale = ownConnectedBody.owner.TransformUnchecked.lossyScale;
             }
             var unturn = Quaternion.Inverse(otherRotation);
-            var place = unturn * (body.position + body.rotation * point - otherPosition);
-            if (ownAutoConfigure) ownConnectedAnchor = new Vector3(place.x / otherScale.x, place.y / otherScale.y, place.z / otherScale.z);
-            else place = Vector3.Scale(ownConnectedAnchor, otherScale);
-            joint.OtherPose = new Physx.Pose(place, (unturn * body.rotation * turn).normalized);
+            var connectedPosition = unturn * (body.position + body.rotation * point - otherPosition);
+            if (ownAutoConfigure) ownConnectedAnchor = new Vector3(connectedPosition.x / otherScale.x, connectedPosition.y / otherScale.y, connectedPosition.z / otherScale.z);
+            else connectedPosition = Vector3.Scale(ownConnectedAnchor, otherScale);
+            joint.OtherPose = new Physx.Pose(connectedPosition, (unturn * body.rotation * turn).normalized);
             Describe(ref joint);
             PhysicsWorld.Flush();
             Handle = Physx.physics_joint_create(PhysicsWorld.Handle, &joint);

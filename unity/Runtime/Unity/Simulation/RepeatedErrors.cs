@@ -61,7 +61,7 @@ namespace Collektive.Unity
                 this.first = first;
             }
 
-            internal void LogCount() => Debug.LogError(Count + " " + what + ", the last one of node " + LastNode + ". First error: " + first);
+            internal void LogCount() => Debug.LogError(Count + " " + what + ", most recently on node " + LastNode + ". First error: " + first);
         }
     }
 }

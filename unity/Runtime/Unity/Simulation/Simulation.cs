@@ -434,8 +434,8 @@ namespace Collektive.Unity
         }
 
         private void FailTooManyLinks(Node node) =>
-            Fail("the scene has more than " + MaxLinks + " links, the last one of node '" + node.name
-                + "': use smaller neighbourhoods, or increase the distances between nodes", node);
+            Fail("the scene has more than " + MaxLinks + " links; node '" + node.name
+                + "' exceeded the limit: use smaller neighbourhoods, or increase the distances between nodes", node);
 
         /// <summary>Runs the sensors of due nodes. Nodes that leave, and nodes with a sensor that fails, are no longer due.</summary>
         private void Sense()

@@ -33,7 +33,10 @@ internal class PathTree {
     /** Whether the tree has grown so much since the last [keepOnly] that another call is worthwhile. */
     val needsSweep: Boolean get() = size > sweepThreshold
 
-    /** Keeps the paths that [visit] passes to its argument, and their ancestors, and removes all others. Call it only while no round runs. */
+    /**
+     * Keeps the paths that [visit] passes to its argument, and their ancestors, and removes all others. Call it only while no round
+     * runs.
+     */
     fun keepOnly(visit: ((PathNode) -> Unit) -> Unit) {
         sweep++
         visit(::mark)
