@@ -16,9 +16,9 @@ const SCALES = {
 const TEN = schemeObservable10.map(packed);
 // Colours of categories, by their order of appearance.
 const CATEGORIES = {
-  'Ten colours': (place) => TEN[((place % 10) + 10) % 10],
+  'Ten colours': (index) => TEN[((index % 10) + 10) % 10],
   // Steps by the golden angle, so that the first colours differ strongly and hundreds are distinct.
-  Hues: (place) => packed(hsl((place * 137.508) % 360, 0.62, [0.5, 0.66, 0.38][((place % 3) + 3) % 3])),
+  Hues: (index) => packed(hsl((index * 137.508) % 360, 0.62, [0.5, 0.66, 0.38][((index % 3) + 3) % 3])),
 };
 
 /** Colour of a node without a value. */
@@ -51,7 +51,7 @@ function onScale(interpolate, min, max) {
 }
 
 function inOrder(colourOf, order) {
-  const known = new Map(order.map((value, place) => [value, colourOf(place)]));
+  const known = new Map(order.map((value, index) => [value, colourOf(index)]));
   return (value) => {
     if (!known.has(value)) known.set(value, colourOf(value));
     return known.get(value);

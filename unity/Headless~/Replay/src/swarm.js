@@ -120,12 +120,12 @@ export class Swarm {
     setLines(this.selectedLinks, neighbours.flatMap((neighbour) => [slot, neighbour.slot]), neighbours.map(({ way }) => way));
   }
 
-  /** Writes the drawn position of a slot in Unity's axes to `place`. */
-  placeOf(slot, place) {
+  /** Writes the drawn position of a slot in Unity's axes to `target`. */
+  placeOf(slot, target) {
     const [from, to] = [this.here.places, this.next.places];
     const share = this.next.present[slot] ? this.uniforms.share.value : 0;
-    for (let axis = 0; axis < 3; axis++) place[axis] = from[4 * slot + axis] + share * (share && to[4 * slot + axis] - from[4 * slot + axis]);
-    return place;
+    for (let axis = 0; axis < 3; axis++) target[axis] = from[4 * slot + axis] + share * (share && to[4 * slot + axis] - from[4 * slot + axis]);
+    return target;
   }
 
   /** Updates the textures of two frames. Textures that are already uploaded are reused. */

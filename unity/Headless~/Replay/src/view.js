@@ -146,9 +146,9 @@ export class View {
       const [from, to] = [here, next].map((index) => poses.slice(7 * index, 7 * index + 7));
       this.place(object, from, from.slice(3));
       const turn = object.quaternion.clone();
-      const place = object.position.clone();
+      const start = object.position.clone();
       this.place(object, to, to.slice(3));
-      object.position.lerpVectors(place, object.position, share);
+      object.position.lerpVectors(start, object.position, share);
       object.quaternion.slerpQuaternions(turn, object.quaternion.clone(), share);
     }
   }
@@ -312,9 +312,9 @@ export class View {
 
   keepWith(slot) {
     this.framed = null;
-    const place = this.pointOf(slot, new Vector3());
-    this.camera.position.add(place).sub(this.controls.target);
-    this.controls.target.copy(place);
+    const point = this.pointOf(slot, new Vector3());
+    this.camera.position.add(point).sub(this.controls.target);
+    this.controls.target.copy(point);
   }
 
   /** Returns the point of the floor at a point of the canvas, in Unity's axes. */

@@ -87,10 +87,10 @@ namespace UnityEngine
                 otherScale = ownConnectedBody.owner.TransformUnchecked.lossyScale;
             }
             var unturn = Quaternion.Inverse(otherRotation);
-            var connectedPosition = unturn * (body.position + body.rotation * point - otherPosition);
-            if (ownAutoConfigure) ownConnectedAnchor = new Vector3(connectedPosition.x / otherScale.x, connectedPosition.y / otherScale.y, connectedPosition.z / otherScale.z);
-            else connectedPosition = Vector3.Scale(ownConnectedAnchor, otherScale);
-            joint.OtherPose = new Physx.Pose(connectedPosition, (unturn * body.rotation * turn).normalized);
+            var otherAnchor = unturn * (body.position + body.rotation * point - otherPosition);
+            if (ownAutoConfigure) ownConnectedAnchor = new Vector3(otherAnchor.x / otherScale.x, otherAnchor.y / otherScale.y, otherAnchor.z / otherScale.z);
+            else otherAnchor = Vector3.Scale(ownConnectedAnchor, otherScale);
+            joint.OtherPose = new Physx.Pose(otherAnchor, (unturn * body.rotation * turn).normalized);
             Describe(ref joint);
             PhysicsWorld.Flush();
             Handle = Physx.physics_joint_create(PhysicsWorld.Handle, &joint);
