@@ -62,7 +62,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Whether any of these files is below the schema's folder.</summary>
+        /// <summary>Returns whether any of the files is below the schema's folder.</summary>
         internal bool HasAny(IEnumerable<string> files)
         {
             var folder = Path.GetDirectoryName(Schema).Replace('\\', '/') + "/";

@@ -15,7 +15,7 @@ namespace Collektive.Bridge
         Timeout = -4,
         /// <summary>The folder contains no usable JVM.</summary>
         JvmNotFound = -5,
-        /// <summary>The JVM rejects its options.</summary>
+        /// <summary>The JVM rejected its options.</summary>
         JvmOptions = -6,
         /// <summary>The JVM could not be created.</summary>
         JvmStart = -7,

@@ -32,11 +32,11 @@ namespace UnityEngine
             return sum - sum == 0f;
         }
 
-        /// Creates the ray of a query. Returns false if the direction is zero or a number is NaN.
+        /// Creates the ray of a query. Returns false if the ray has no direction or length, or if a number is not finite.
         static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line) =>
             UnitLine(origin, direction.normalized, maxDistance, out line);
 
-        /// The direction has length 1.
+        /// Like `Line`, for a direction of length 1.
         static bool UnitLine(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
         {
             line = new Physx.RayLine { Origin = origin, Direction = direction, Distance = maxDistance };
@@ -84,7 +84,7 @@ namespace UnityEngine
         public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers) => UnitRaycastAll(origin, direction.normalized, results, maxDistance, layerMask, triggers);
 
-        /// The direction has length 1.
+        /// Like `RaycastAll`, for a direction of length 1.
         public static int UnitRaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
@@ -232,10 +232,10 @@ namespace UnityEngine
             distance = 0f;
             if (a.Handle == Physx.None || b.Handle == Physx.None) return false;
             Physx.Pose atA = a.GeometryAt(positionA, rotationA), atB = b.GeometryAt(positionB, rotationB);
-            Vector3 way;
+            Vector3 separation;
             float depth;
-            if (Physx.physics_penetration(World, a.Handle, &atA, b.Handle, &atB, &way, &depth) == 0) return false;
-            direction = way;
+            if (Physx.physics_penetration(World, a.Handle, &atA, b.Handle, &atB, &separation, &depth) == 0) return false;
+            direction = separation;
             distance = depth;
             return true;
         }

@@ -20,7 +20,7 @@ namespace Collektive.Bridge
         /// <summary>Path of the host's jar.</summary>
         public string ClassPath { get; }
 
-        /// <summary>JVM options, each one word, in order.</summary>
+        /// <summary>The JVM options in order. Each entry is one word of the command line.</summary>
         public IReadOnlyList<string> Options { get; }
 
         /// <summary>Where the JVM runs.</summary>

@@ -41,10 +41,10 @@ namespace Collektive.Bridge
             return report;
         }
 
-        /// <summary>Returns the error of a setting, with the fix; empty for a valid one.</summary>
+        /// <summary>Returns the error of a setting with the fix, or an empty string if the setting is valid.</summary>
         internal string Problem(JvmSetting setting) => problems.TryGetValue(setting.Key, out var problem) ? problem : "";
 
-        /// <summary>Returns the value in effect in the running JVM; empty without one.</summary>
+        /// <summary>Returns the value in effect in the running JVM, or an empty string if no JVM is running.</summary>
         internal string Effective(JvmSetting setting) => status == null ? "" : setting.Effective(status);
 
         private void Try(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch)

@@ -116,7 +116,7 @@ namespace Collektive.Bridge
 
         private string[] Marks { get; }
 
-        /// <summary>Returns the setting with that key, or null.</summary>
+        /// <summary>Returns the setting with the given key, or null.</summary>
         internal static JvmSetting Find(string key)
         {
             foreach (var setting in All)
@@ -126,7 +126,7 @@ namespace Collektive.Bridge
             return null;
         }
 
-        /// <summary>The field's value.</summary>
+        /// <summary>Returns the field's value.</summary>
         internal object Get(JvmSettings settings) => field.GetValue(settings);
 
         /// <summary>Sets the field to a value of <see cref="Type"/>.</summary>
@@ -135,7 +135,7 @@ namespace Collektive.Bridge
         /// <summary>Returns the value in effect in the running JVM.</summary>
         internal string Effective(JvmStatus status) => effective(status);
 
-        /// <summary>Returns the error of this field alone, or null.</summary>
+        /// <summary>Returns the error of this field, or null. Does not compare it with other fields.</summary>
         internal string FindProblem(JvmSettings settings)
         {
             var value = Get(settings);

@@ -104,7 +104,7 @@ namespace Collektive.Bridge
         /// <summary>Whether <c>sin</c>, <c>exp</c> and others give bit-identical results on all JVMs and processors.</summary>
         public bool repeatableMaths;
 
-        /// <summary>More JVM options, one per entry.</summary>
+        /// <summary>Additional JVM options, one per entry.</summary>
         public List<string> flags = new List<string>();
 
         /// <summary>Returns a copy that later changes do not affect.</summary>

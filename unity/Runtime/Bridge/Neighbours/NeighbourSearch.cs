@@ -126,7 +126,7 @@ namespace Collektive.Bridge
         /// <returns>False if no script added the link.</returns>
         internal bool Release(int from, int to) => native != IntPtr.Zero && Check(Shim.clk_neighbours_release(native, from, to)) != 0;
 
-        /// <summary>Whether a link exists.</summary>
+        /// <summary>Returns whether a link exists.</summary>
         internal bool Has(int from, int to) => native != IntPtr.Zero && Shim.clk_neighbours_has(native, from, to) != 0;
 
         /// <summary>Replaces a list's content with all links.</summary>

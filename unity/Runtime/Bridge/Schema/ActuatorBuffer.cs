@@ -12,8 +12,8 @@ namespace Collektive.Bridge
         internal abstract Type DataType { get; }
 
         /// <summary>
-        /// Points this reader at the table <c>Actuators</c> at <paramref name="position"/> (bytes from the start) of
-        /// <paramref name="frame"/>. Valid until the session's next call.
+        /// Attaches the table <c>Actuators</c> at <paramref name="position"/> (in bytes from the start) of <paramref name="frame"/>. Its elements are valid
+        /// until the session's next call.
         /// </summary>
         /// <exception cref="BridgeException">The table lies outside of the frame: <see cref="BridgeError.Frame"/>.</exception>
         internal abstract void Attach(ByteBuffer frame, int position);

@@ -1,6 +1,6 @@
 namespace Collektive.Bridge
 {
-    /// <summary>A copy of one element of actuator data: see <see cref="ActuatorBuffer.CopyPrevious"/>.</summary>
+    /// <summary>A copy of one element of actuator data, which <see cref="ActuatorBuffer.CopyPrevious"/> creates.</summary>
     internal abstract class AnswerCopy
     {
         private protected AnswerCopy()

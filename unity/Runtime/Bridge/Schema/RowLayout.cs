@@ -2,7 +2,7 @@ using System.ComponentModel;
 
 namespace Collektive.Bridge
 {
-    /// <summary>The offsets of a table's fields in its rows: see <see cref="Draft{TRow}"/>. Used by generated code.</summary>
+    /// <summary>The offsets of a table's fields in the rows that <see cref="Draft{TRow}"/> writes. Used by generated code.</summary>
     [EditorBrowsable(EditorBrowsableState.Never)]
     public sealed class RowLayout
     {

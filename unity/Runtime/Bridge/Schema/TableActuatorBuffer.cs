@@ -18,7 +18,7 @@ namespace Collektive.Bridge
         private ByteBuffer previous;
         private int previousFirst;
 
-        /// <summary>Creates a buffer for tables with the given shape.</summary>
+        /// <summary>Creates a buffer for tables of the given <paramref name="shape"/>.</summary>
         public TableActuatorBuffer(TableShape shape)
         {
             this.shape = shape;

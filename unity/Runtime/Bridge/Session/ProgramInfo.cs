@@ -34,13 +34,13 @@ namespace Collektive.Bridge
         /// <summary>The parameter's name.</summary>
         public string Name { get; }
 
-        /// <summary>The value for nodes that do not set it.</summary>
+        /// <summary>The value for nodes that do not set the parameter.</summary>
         public string DefaultValue { get; }
 
         /// <summary>A description; may be empty.</summary>
         public string Description { get; }
 
-        /// <summary>The type of its values.</summary>
+        /// <summary>The type of the parameter's values.</summary>
         public ParameterType Type { get; }
 
         /// <summary>The possible values of <see cref="ParameterType.Enum"/>; empty for other types.</summary>

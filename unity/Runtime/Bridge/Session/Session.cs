@@ -83,8 +83,8 @@ namespace Collektive.Bridge
         }
 
         /// <summary>
-        /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with <see cref="Request"/>, and clears
-        /// the request. After an exception of kind <see cref="BridgeError.Frame"/> the session is unchanged.
+        /// Runs one tick of <paramref name="deltaTime"/> simulated seconds with <see cref="Request"/>, and clears the request. After an exception of kind
+        /// <see cref="BridgeError.Frame"/>, the session is unchanged.
         /// </summary>
         /// <returns>Whether the tick has ended. If not, a debugger is attached to the JVM, and <see cref="TryFinish"/> completes the tick.</returns>
         /// <exception cref="BridgeException">The step failed; see <see cref="BridgeException.Error"/>.</exception>

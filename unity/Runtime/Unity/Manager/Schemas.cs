@@ -30,7 +30,7 @@ namespace Collektive.Unity
         /// <summary>Returns the types of all schemas. The editor replaces this function, because it has an index of types.</summary>
         internal static Func<IEnumerable<Type>> FindTypes { get; set; } = ExportedTypes;
 
-        /// <summary>All schemas, in no particular order.</summary>
+        /// <summary>Returns all schemas, in no particular order.</summary>
         internal static List<DataSchema> FindAll()
         {
             var found = new List<DataSchema>();
