@@ -42,12 +42,12 @@ public fun <ID : Any, T> project(field: Field<ID, T>?, token: String): Field<ID,
 
 private fun <ID : Any, T> restricted(aggregate: Aggregate<ID>, field: Field<ID, T>): Field<ID, T> {
     val aligned = aggregate.neighboring(Unit, InMemory).neighbors.list.mapTo(HashSet()) { it.id }
-    val kept = field.neighbors.list.filter { it.id in aligned }
-    if (kept.size == field.neighbors.size) return field
+    val alignedEntries = field.neighbors.list.filter { it.id in aligned }
+    if (alignedEntries.size == field.neighbors.size) return field
     return Field.make(
         aggregate,
-        Array<Any>(kept.size) { kept[it].id },
-        Array<Any?>(kept.size) { kept[it].value },
+        Array<Any>(alignedEntries.size) { alignedEntries[it].id },
+        Array<Any?>(alignedEntries.size) { alignedEntries[it].value },
         field.local.value,
     )
 }

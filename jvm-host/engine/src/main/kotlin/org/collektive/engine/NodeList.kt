@@ -73,15 +73,15 @@ internal open class NodeList {
     }
 
     inline fun removeIf(isRemoved: (Node) -> Boolean) {
-        var kept = 0
+        var remaining = 0
         for (index in 0 until size) {
             val node = node(index)
             if (isRemoved(node)) continue
-            nodes[kept] = node
-            keys[kept++] = node.id
+            nodes[remaining] = node
+            keys[remaining++] = node.id
         }
-        nodes.fill(null, kept, size)
-        size = kept
+        nodes.fill(null, remaining, size)
+        size = remaining
     }
 
     protected open fun resize(capacity: Int) {

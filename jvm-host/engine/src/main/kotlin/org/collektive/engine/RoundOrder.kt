@@ -32,13 +32,13 @@ internal class RoundOrder {
     }
 
     inline fun removeIf(isRemoved: (Node) -> Boolean) {
-        var kept = 0
+        var remaining = 0
         for (index in 0 until size) {
             val node = nodes[index]
-            if (node != null && !isRemoved(node)) nodes[kept++] = node
+            if (node != null && !isRemoved(node)) nodes[remaining++] = node
         }
-        nodes.fill(null, kept, size)
-        size = kept
+        nodes.fill(null, remaining, size)
+        size = remaining
         coversAllNodes = false
     }
 

@@ -224,7 +224,7 @@ internal class AggregateDevice<ID : Any>(
         val ids = inbox.ids
         val keptIds = arrayOfNulls<Any>(field.neighborCount)
         val keptValues = arrayOfNulls<Any?>(field.neighborCount)
-        var kept = 0
+        var count = 0
         // The field's neighbours are a subsequence of the links, except in a field stored in an earlier round.
         var from = 0
         for (index in 0 until field.neighborCount) {
@@ -235,11 +235,11 @@ internal class AggregateDevice<ID : Any>(
             from = link + 1
             val export = inbox.export(link) as RoundRecord? ?: continue
             if (export.sentAt(path) === RoundRecord.Nothing) continue
-            keptIds[kept] = id
-            keptValues[kept++] = field.neighborValue(index)
+            keptIds[count] = id
+            keptValues[count++] = field.neighborValue(index)
         }
-        if (kept == field.neighborCount) return field
-        return Field.make(field.context, keptIds.copyOf(kept).requireNoNulls(), keptValues.copyOf(kept), field.localValue)
+        if (count == field.neighborCount) return field
+        return Field.make(field.context, keptIds.copyOf(count).requireNoNulls(), keptValues.copyOf(count), field.localValue)
     }
 
     private fun requireShareable(value: Any?) {

@@ -10,10 +10,10 @@ import java.util.IdentityHashMap
 
 /** Applies a [conversion] to the records of a session, whose paths are in [tree]. */
 internal class ConvertedPaths(private val tree: PathTree, private val conversion: Conversion) {
-    private val known = IdentityHashMap<PathNode, Any>().also { it[tree.root] = tree.root }
+    private val convertedPaths = IdentityHashMap<PathNode, Any>().also { it[tree.root] = tree.root }
 
     /** Returns the path of the converted tokens of [path], or `null` if one is lost. */
-    fun path(path: PathNode): PathNode? = known.getOrPut(path) { convert(path) } as? PathNode
+    fun path(path: PathNode): PathNode? = convertedPaths.getOrPut(path) { convert(path) } as? PathNode
 
     private fun convert(path: PathNode): Any {
         val parent = path(path.parent ?: return path) ?: return Lost

@@ -106,14 +106,14 @@ internal class MailboxRound<ID : Any>(
         val sharing = dataSharingMethod<Unit>()
         if (visited.add(path)) sendToAll(path, Unit, sharing)
         val aligned = inbound.dataAt(path, sharing).keys as Set<*>
-        val kept = field.neighbors.list.filter { it.id in aligned }
-        if (kept.size == field.neighbors.size) return field
+        val alignedEntries = field.neighbors.list.filter { it.id in aligned }
+        if (alignedEntries.size == field.neighbors.size) return field
         return Field.make(
             field.context,
-            Array<Any>(kept.size) {
-                kept[it].id
+            Array<Any>(alignedEntries.size) {
+                alignedEntries[it].id
             },
-            Array<Any?>(kept.size) { kept[it].value },
+            Array<Any?>(alignedEntries.size) { alignedEntries[it].value },
             field.local.value,
         )
     }

@@ -44,9 +44,9 @@ internal class PathTree {
         val open = ArrayDeque(listOf(root))
         while (open.isNotEmpty()) {
             val node = open.removeLast()
-            val kept = node.children?.filtered { it.sweep == sweep }
-            node.children = kept
-            kept?.forEach {
+            val remainingChildren = node.children?.filtered { it.sweep == sweep }
+            node.children = remainingChildren
+            remainingChildren?.forEach {
                 size++
                 open.addLast(it)
             }
@@ -119,10 +119,10 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
 
     /** Returns a table of the nodes for which [keep] returns `true`, or `null` if there are none. */
     inline fun filtered(keep: (PathNode) -> Boolean): PathTable? {
-        var kept = 0
-        forEach { if (keep(it)) kept++ }
-        if (kept == 0) return null
-        val table = of(kept)
+        var remaining = 0
+        forEach { if (keep(it)) remaining++ }
+        if (remaining == 0) return null
+        val table = of(remaining)
         forEach { if (keep(it)) table.put(it) }
         return table
     }

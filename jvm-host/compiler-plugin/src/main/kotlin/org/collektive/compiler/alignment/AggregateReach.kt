@@ -35,7 +35,7 @@ import org.jetbrains.kotlin.ir.visitors.acceptVoid
  * use one. Only such calls are aligned. For all other calls (`sqrt`, `listOf`, getters of a field), alignment makes no difference.
  */
 internal class AggregateReach(private val dsl: DslSymbols) {
-    private val known = HashMap<IrFunction, Boolean>()
+    private val reachability = HashMap<IrFunction, Boolean>()
 
     /** Whether [call], inside an aggregate function, needs its own token on the alignment stack. */
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
@@ -97,12 +97,12 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     }
 
     private fun reachesPrimitive(function: IrFunction): Boolean {
-        known[function]?.let { return it }
-        known[function] = false // ends the recursion; the rest of the body decides
+        reachability[function]?.let { return it }
+        reachability[function] = false // ends the recursion; the rest of the body decides
         // A constructor runs the initialisers of its class.
         val code = if (function is IrConstructor) function.parentAsClass else function
         val found = Finder().apply { code.acceptChildrenVoid(this) }.found
-        known[function] = found
+        reachability[function] = found
         return found
     }
 

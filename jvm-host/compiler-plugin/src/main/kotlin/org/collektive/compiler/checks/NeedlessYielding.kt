@@ -20,10 +20,10 @@ internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppChec
         }
         val lambda = expression.lambda ?: return
         val returned = lambda.onlyExpression ?: return
-        val kept = expression.extensionReceiver?.readVariable
+        val stored = expression.extensionReceiver?.readVariable
         val isSame = returned is FirThisReceiverExpression &&
             returned.calleeReference.boundSymbol == lambda.receiverParameter?.symbol ||
-            kept != null && returned.readVariable == kept ||
+            stored != null && returned.readVariable == stored ||
             returned.hasSameText(expression.extensionReceiver)
         if (isSame && isAggregateCode()) reporter.reportOn(expression.source, AggregateDiagnostics.NEEDLESS_YIELDING)
     }
