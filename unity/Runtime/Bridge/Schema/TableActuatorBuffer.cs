@@ -42,11 +42,11 @@ namespace Collektive.Bridge
         }
 
         /// <inheritdoc/>
-        internal override void CopyPrevious(int index, ref AnswerCopy kept)
+        internal override void CopyPrevious(int index, ref AnswerCopy copy)
         {
             RequirePrevious(index);
-            if (kept == null) kept = new TableAnswerCopy();
-            ((TableAnswerCopy)kept).Take(shape, previous, Place(previous, previousFirst, index));
+            if (copy == null) copy = new TableAnswerCopy();
+            ((TableAnswerCopy)copy).Take(shape, previous, Place(previous, previousFirst, index));
         }
 
         /// <inheritdoc/>

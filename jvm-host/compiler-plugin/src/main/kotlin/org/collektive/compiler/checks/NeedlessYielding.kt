@@ -11,7 +11,10 @@ import org.jetbrains.kotlin.fir.expressions.FirFunctionCall
 import org.jetbrains.kotlin.fir.expressions.FirThisReceiverExpression
 import org.jetbrains.kotlin.text
 
-/** Reports `x.yielding { this }` and `x.yielding { x }`, where `x` is any expression: they return the value that they store, as the simpler primitive does. */
+/**
+ * Reports `x.yielding { this }` and `x.yielding { x }`, where `x` is any expression. Both return the value that they store, as the simpler
+ * primitive does.
+ */
 internal object NeedlessYielding : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)
     override fun check(expression: FirFunctionCall) {
