@@ -57,7 +57,7 @@ namespace Collektive.Unity.Editor
             return Array.FindAll(Array.ConvertAll(paths, AssetDatabase.LoadAssetAtPath<GameObject>), prefab => prefab != null);
         }
 
-        /// <returns>The settings of the last manager, or <paramref name="settings"/> if there are no managers.</returns>
+        /// <returns>The settings of the last manager, or <paramref name="settings"/> if the objects have no manager.</returns>
         private static SimulationSettings ReplaceInManagers(GameObject[] roots, SimulationSettings settings)
         {
             foreach (var root in roots)

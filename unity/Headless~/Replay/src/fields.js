@@ -38,7 +38,7 @@ export function slotOf({ slots, ids }, id) {
   return slots.find((slot) => ids[slot] === id) ?? -1;
 }
 
-/** Returns the least and the greatest of the values; 0 if there are none. */
+/** Returns the least and the greatest of the values; both are 0 if `values` is empty. */
 export function extent(values) {
   let [least, greatest] = [Infinity, -Infinity];
   for (const value of values) {

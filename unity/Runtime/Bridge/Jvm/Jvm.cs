@@ -19,7 +19,7 @@ namespace Collektive.Bridge
 
     /// <summary>
     /// The JVM of this process. It outlives sessions and play mode, and is still running when Unity reloads the C# domain. A process can start only one JVM
-    /// of its own; a JVM in a separate process can be replaced. All members may be called from any thread.
+    /// inside itself; a JVM in a separate process can be replaced. All members may be called from any thread.
     /// </summary>
     public static unsafe class Jvm
     {

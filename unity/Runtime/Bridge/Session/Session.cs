@@ -102,7 +102,7 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Waits up to <paramref name="waitMs"/> milliseconds for the pending opening or step.</summary>
-        /// <returns>Whether nothing is pending any more.</returns>
+        /// <returns>Whether the opening or step has finished.</returns>
         /// <exception cref="BridgeException">The opening or the step failed. A session that failed to open is closed.</exception>
         public bool TryFinish(int waitMs)
         {

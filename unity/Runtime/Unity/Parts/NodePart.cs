@@ -23,7 +23,7 @@ namespace Collektive.Unity
         /// <summary>The list of batched parts that the part is in; null if it is in none.</summary>
         internal BatchedParts BatchedIn { get; set; }
 
-        /// <summary>The number of the last batch that contained the part's queries; 0 if there was none.</summary>
+        /// <summary>The number of the last batch that contained the part's queries; 0 before the first one.</summary>
         internal ulong BatchedAt { get; set; }
 
         /// <summary>Joins the node.</summary>

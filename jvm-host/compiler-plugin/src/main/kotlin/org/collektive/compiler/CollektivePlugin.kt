@@ -22,7 +22,7 @@ public class CollektivePlugin : CompilerPluginRegistrar() {
         if (!configuration.get(CollektiveOptions.ENABLED, true)) return
         FirExtensionRegistrarAdapter.registerExtension(AggregateChecks())
         IrGenerationExtension.registerExtension(AlignmentExtension())
-        // If the compiler writes a jar directly, there is no output folder, and the jar gets no index.
+        // A compiler that writes a jar directly has no output folder, and its jar gets no index.
         configuration.get(JVMConfigurationKeys.OUTPUT_DIRECTORY)?.let { IrGenerationExtension.registerExtension(ProgramIndex(it)) }
     }
 }

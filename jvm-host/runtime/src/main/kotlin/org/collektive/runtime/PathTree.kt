@@ -117,7 +117,7 @@ internal class PathTable private constructor(private val slots: Array<PathNode?>
         return table
     }
 
-    /** Returns a table of the nodes for which [keep] returns `true`, or `null` if there are none. */
+    /** Returns a table of the nodes for which [keep] returns `true`, or `null` if it never does. */
     inline fun filtered(keep: (PathNode) -> Boolean): PathTable? {
         var remaining = 0
         forEach { if (keep(it)) remaining++ }
