@@ -106,7 +106,7 @@ def check_metrics(options: FigureOptions, at_end: Sequence[str], over_time: Sequ
             raise options.fail("metric", f"is '{name}', which has one value per run; name a key with x, or use the kind 'ecdf'")
         known = over_time if options.x == TIME else at_end
         if name not in known:
-            raise options.fail("metric", f"is '{name}', which does not exist; these exist: {', '.join(known)}")
+            raise options.fail("metric", f"is '{name}', which does not exist; existing metrics: {', '.join(known)}")
 
 
 def _choice(given: Mapping[str, Any], option: str, choices: tuple[str, ...], fail: Fail) -> str:

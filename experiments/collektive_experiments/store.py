@@ -54,7 +54,7 @@ class Store:
         for key in FIXED:
             part = os.path.join(os.path.dirname(os.path.abspath(experiment.scenario)), str(root.get(key, "")))
             if key in root and Path(os.path.realpath(part)) in Path(folder).parents:
-                raise ExperimentError(f"the results would be inside '{part}', which the scenario names as '{key}': name another folder with --out")
+                raise ExperimentError(f"the results would be inside '{part}', the scenario's '{key}': name another folder with --out")
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
             raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
         files.make(self.folder)

@@ -128,7 +128,7 @@ def _check(experiment: Experiment, search: Search, store: Store, trust: bool) ->
     converged = Located(experiment.scenario).root.get("converged", {})
     known = [*metrics, *(CONVERGED + name for name in converged)]
     if search.metric not in known:
-        raise experiment.located.error(f"'tune.metric' is '{search.metric}', which does not exist; these exist: {', '.join(known)}", "tune", "metric")
+        raise experiment.located.error(f"'tune.metric' is '{search.metric}', which does not exist; existing metrics: {', '.join(known)}", "tune", "metric")
 
 
 def _study(search: Search, store: Store) -> optuna.Study:

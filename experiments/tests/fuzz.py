@@ -342,7 +342,7 @@ def try_fault(case: Case, folder: Path, at: int | None = None) -> int:
 
 
 def fuzz(seconds: float, seed: int, findings: Path, report: Callable[[str], None] = print) -> int:
-    """Tests random experiments for a number of seconds, but at least one experiment. Returns the number of findings."""
+    """Tests random experiments for the given number of seconds, and at least one experiment. Returns the number of findings."""
     end, count, found = time.monotonic() + seconds, 0, 0
     while count == 0 or time.monotonic() < end:
         case = Case(random.Random(f"{seed}/{count}"))

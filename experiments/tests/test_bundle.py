@@ -19,7 +19,7 @@ def test_an_include_outside_the_project_is_rejected(project: Project) -> None:
 def test_results_inside_an_input_are_refused(project: Project) -> None:
     result = project.sweep(out="project/programs/out", vary={"seed": [1]})
     assert result.returncode == 1
-    assert f"the results would be inside '{project.folder}/project/programs', which the scenario names as 'programs'" in result.stderr
+    assert f"the results would be inside '{project.folder}/project/programs', the scenario's 'programs'" in result.stderr
     assert not (project.folder / "project/programs/out").exists()
 
 

@@ -115,7 +115,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields.deployment.nodes", 0, "'deployment.nodes' is 0; it must be from 1 to 1000000"),
     ("fields.deployment.nodes", 2.5, "'deployment.nodes' is 2.5; it must be of type whole number"),
     ("fields.deployment.spacing", -3, "'deployment.spacing' is -3; it must be a number greater than 0"),
-    ("fields.deployment.disorder", -1, "'deployment.disorder' is -1; it must be a number of at least 0"),
+    ("fields.deployment.disorder", -1, "'deployment.disorder' is -1; it must be at least 0"),
     ("fields.deployment.radius", 0, "'deployment.radius' is 0; it must be a number greater than 0"),
     ("fields.deployment.nodes", 10**9, "'deployment.nodes' is 1000000000; it must be from 1 to 1000000"),
     ("fields.deployment.size", [30], "'deployment.size' must be two numbers greater than 0"),
@@ -142,7 +142,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields.deployment", {"kind": "File", "file": "missing.csv"}, "'deployment.file': 'missing.csv' is not a file in the folder 'data', "),
     ("fields.deployment", {"kind": "File", "file": "file.txt"}, "file.txt: the name must end in .csv, .geojson, .json or .gpx"),
     *[("fields.deployment", {"kind": "File", "file": f"bad/{name}"}, f"'deployment.file': bad/{name}{message}") for name, message in (
-        ("cells.csv", ":3: the line has 1 cells, but the first line has 2"), ("number.csv", ":4: 'z' is 'abc'; it must be a number"),
+        ("cells.csv", ":3: the number of cells is 1, but the first line has 2"), ("number.csv", ":4: 'z' is 'abc'; it must be a number"),
         ("columns.csv", ":1: the columns 'x' and 'z', or 'lon' and 'lat', are missing"), ("empty.csv", ":1: the file has no rows"),
         ("quote.csv", ":2: a quote is not closed"), ("ids.csv", ":3: node 1 is also in line 2"), ("id.csv", ":2: 'id' is -1"),
         ("back.csv", ":3: the time must be after that of the previous point of node 0"), ("no-ids.csv", ":1: the column 'time' needs the column 'id'"),

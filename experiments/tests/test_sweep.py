@@ -19,7 +19,7 @@ from collektive_experiments import compare, files, load
 from collektive_experiments.store import Store
 
 MANY = {"vary": {"seed": "1-16"}, "set": {"seconds": 20}}
-"""Keys of a sweep whose runs take so long that tests can disturb them."""
+"""Keys of a sweep whose runs last long enough for tests to disturb them."""
 
 
 def await_runs(project: Project, count: int, out: str = "out") -> None:
@@ -124,7 +124,7 @@ def test_changed_scripts_are_not_mixed_with_earlier_runs(project: Project) -> No
     ({"set": {"network.los": 1}}, 5, "unknown key 'network.los'"),
     ({"vary": {"seed": [1]}, "measure": ["glow"]}, 9, "the scene has no metric 'glow'; it has: agreeing, seen"),
     ({"set": {"converged.seen": {"from": 1}}, "figures": [{"metric": "converged.glow", "kind": "ecdf"}]}, 11,
-     "'figures[0].metric' is 'converged.glow', which does not exist; these exist: agreeing, seen, converged.seen, nodes"),
+     "'figures[0].metric' is 'converged.glow', which does not exist; existing metrics: agreeing, seen, converged.seen, nodes"),
     ({"vary": {"seed": [1]}, "labels": {"glow": "x"}}, 10, "'labels.glow' is unknown: it is not one of the varied keys (seed)"),
 ])
 def test_an_unknown_scenario_key_is_reported_before_any_run(
@@ -143,7 +143,7 @@ def test_keys_are_checked_in_the_combinations_that_run(project: Project) -> None
     assert result.returncode == 0, result.stderr
     result = project.sweep(out="other", zip={"deltaTime": [0.1, 0.5], "outputs.interval": [0.2, 0.3]})
     assert "experiment.json:7: " in result.stderr
-    assert "'outputs.interval' is 0.3: it must be a number of seconds that is at least 'deltaTime', 0.5" in result.stderr
+    assert "'outputs.interval' is 0.3: it must be at least 'deltaTime', 0.5 s" in result.stderr
 
 
 def test_results_may_be_in_a_folder_with_colons(project: Project) -> None:
@@ -291,7 +291,7 @@ def test_a_full_disk_stops_the_sweep_and_it_can_be_resumed(project: Project, lam
 
 
 def code_block(language: str) -> str:
-    """Returns the first code block in a language on the page about experiments."""
+    """Returns the first code block in the given language on the page about experiments."""
     return str(re.findall(rf"(?ms)^```{language}\n(.*?)^```$", (ROOT / "Documentation~/experiments.md").read_text())[0])
 
 
@@ -343,8 +343,8 @@ def test_the_package_can_be_installed_with_pip(tmp_path: Path) -> None:
 @pytest.mark.slow
 def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
     keys = {**EIGHT, "vary": {**EIGHT["vary"], "fields.lamps": [5]}}
-    written = lamps.sweep("--slurm", out="slurm", **keys)
-    assert written.returncode == 0, written.stderr
+    result = lamps.sweep("--slurm", out="slurm", **keys)
+    assert result.returncode == 0, result.stderr
     script = lamps.folder / "slurm/slurm.sh"
     checked = subprocess.run([ROOT / "build/python/bin/shellcheck", script], capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout

@@ -42,7 +42,7 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
 
 
 @pytest.mark.parametrize(("changes", "message"), [
-    ({"metric": "agreement"}, "'tune.metric' is 'agreement', which does not exist; these exist: agreeing"),
+    ({"metric": "agreement"}, "'tune.metric' is 'agreement', which does not exist; existing metrics: agreeing"),
     ({"parameters": {}}, "'tune.parameters' must be an object with the values of each key"),
     ({"parameters": {"seed": [1, 2]}}, "'seed' is in 'tune', and also in 'vary', 'zip' or 'set'"),
     ({"parameters": {"fields.lamps": [3]}}, "must be at least two different strings, numbers or booleans"),

@@ -180,7 +180,7 @@ def _experiments(folder: Path) -> None:
 
 
 def _add_to_experiments(requirements: Path, _: Path) -> None:
-    """Adds packages to the environment of experiments. The folder of the addition itself stays empty."""
+    """Adds packages to the environment of the experiments, so the folder of the addition stays empty."""
     _install(requirements, BUILD / "experiments")
 
 

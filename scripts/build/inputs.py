@@ -61,7 +61,7 @@ def scripts(folder: Path) -> Part:
 
 
 def programs(path: Path) -> Part:
-    """Reads a jar, or a folder of Kotlin files and of Java files that they use."""
+    """Reads a jar, or a folder with Kotlin files and the Java files that they use."""
     return Part(path, partial(_below, suffixes=(".kt", ".java"))) if path.is_dir() else jar(path)
 
 

@@ -40,12 +40,12 @@ def find_jdk() -> Path:
 
 def _usable(home: Path) -> Path:
     """Returns the given JDK. Raises `Failure` if its JVM does not start with the options in the environment."""
-    given = {name: os.environ[name] for name in OPTIONS if os.environ.get(name)}
-    if given:
+    options = {name: os.environ[name] for name in OPTIONS if os.environ.get(name)}
+    if options:
         result = subprocess.run([home / "bin/java", "-version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
         if result.returncode != 0:
             reasons = [line for line in (result.stdout + result.stderr).splitlines() if not line.startswith(("Picked up", "NOTE: Picked up"))]
-            raise Failure(f"the JVM does not start with {', '.join(f'{name}={value}' for name, value in given.items())}: {' '.join(reasons[:1])}")
+            raise Failure(f"the JVM does not start with {', '.join(f'{name}={value}' for name, value in options.items())}: {' '.join(reasons[:1])}")
     return home
 
 

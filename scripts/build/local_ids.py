@@ -8,7 +8,7 @@ _P1, _P2, _P3, _P4, _P5 = 0x9E3779B185EBCA87, 0xC2B2AE3D27D4EB4F, 0x165667B19E37
 
 
 def of_script(identifier: str) -> int:
-    """Returns the id of a ScriptableObject to which the importer gives an identifier."""
+    """Returns the id of a ScriptableObject that an importer created with an identifier."""
     return of("MonoBehaviour", identifier)
 
 

@@ -145,7 +145,7 @@ def summary(folder: Path) -> list[str]:
         f"{ran['nodes']} nodes, {ran['ticks']} ticks, {ran['shim_calls']} calls into the JVM, seed {ran['scenario']['seed']}, digest {ran['digest']}"
         + ("" if runtime == "BuiltIn" else f" (runtime {runtime})"),
         *(f"  {name.replace('_', ' ')}: {float(ran['start'][name]):.2f} -> {float(ran['end'][name]):.2f}" for name in ran["end"]),
-        f"  bridge and rounds {ran['step_ms_median']:.2f} ms a tick (median), whole tick {ran['tick_ms_median']:.2f} ms (median), "
+        f"  bridge and rounds {ran['step_ms_median']:.2f} ms per tick (median), whole tick {ran['tick_ms_median']:.2f} ms (median), "
         f"{ran['tick_ms_p99']:.2f} ms (p99)",
         f"  {ran['ticks'] / max(ran['wall_seconds'], 1e-9):.0f} ticks/s; {ran['errors']} errors",
         *(str(folder / name) for name in sorted(os.listdir(folder))),

@@ -33,7 +33,7 @@ def _run(scenario: Path, plan: player.Plan, results: Path) -> int:
     folder = plan.parts["programs"].path.parent / "tests"
     tests = inputs.programs(folder) if folder.is_dir() else None
     if tests is None or not tests.files:
-        raise Failure(f"test: {scenario}: the folder '{folder}' has no Kotlin tests: create it beside the programs")
+        raise Failure(f"test: {scenario}: the folder '{folder}' has no Kotlin tests: add tests to it")
     jar = plan.programs_jar()
     fetch.fetch("junit")
     jars, plugin = plan.parts.get("runtimeJars"), plan.parts.get("runtimePlugin")

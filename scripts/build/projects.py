@@ -149,7 +149,7 @@ def _java() -> list[str | Path]:
     """Returns the start of a command line that runs the Kotlin compiler in a JVM, without the main class."""
     jdk = find_jdk()
     version = feature_version(jdk)
-    # The compiler uses features about which newer JVMs print warnings.
+    # Newer JVMs print warnings about features that the compiler uses.
     quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if version >= 24 else []
     archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:disable"] if version >= 19 else []
     return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp",

@@ -1,4 +1,4 @@
-// Takes frames of a page of ./collektive live as PNGs, while an edit turns the swarm around: node live_picture.mjs ADDRESS FOLDER COUNT
+// Saves frames of a ./collektive live page as PNG files while an edit turns the swarm around: node live_picture.mjs ADDRESS FOLDER COUNT
 // The simulation should have just started. Between two frames it is paused, because a browser may be too busy to take one while it runs.
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';

@@ -28,7 +28,7 @@ class ProjectTestsTest(Project):
     def test_tests_run_beside_the_programs(self) -> None:
         result = collektive("test", "project", cwd=self.folder)
         self.assertEqual(result.returncode, 1)
-        self.assertIn("has no Kotlin tests: create it beside the programs", result.stderr)
+        self.assertIn("has no Kotlin tests: add tests to it", result.stderr)
         os.mkdir(self.path("project", "tests"))
         file = self.path("project", "tests", "LampsTest.kt")
         for text, code, line in ((TESTS, 1, "1 passed, 1 failed"), (TESTS.replace("(1, 2)", "(2, 2)"), 0, "2 passed, 0 failed"),

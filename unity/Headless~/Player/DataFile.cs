@@ -62,7 +62,7 @@ namespace Collektive.Headless
                     continue;
                 }
                 if (cells.Count != header.Count)
-                    throw Error(number, "the line has " + cells.Count + " cells, but the first line has " + header.Count);
+                    throw Error(number, "the number of cells is " + cells.Count + ", but the first line has " + header.Count);
                 var row = new double[columns.Length + 1];
                 for (var i = 0; i < columns.Length; i++)
                 {

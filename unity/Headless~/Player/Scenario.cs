@@ -248,8 +248,8 @@ namespace Collektive.Headless
             if (interval >= SimulatedSeconds.Exact(Settings.deltaTime) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
             throw file.Error(
                 part["interval"] ?? root,
-                "'" + place + "interval' is " + Text(interval) + ": it must be a number of seconds " + (interval > MaxTicks
-                    ? "that is at most " + Text(MaxTicks) : "that is at least 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime))));
+                "'" + place + "interval' is " + Text(interval) + ": it must be " + (interval > MaxTicks
+                    ? "at most " + Text(MaxTicks) + " s" : "at least 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime)) + " s"));
         }
 
         /// <summary>Returns the scenario as a scenario file in which all keys are set, including those with default values.</summary>

@@ -133,7 +133,7 @@ suite('live', { timeout: 600000 }, async (t) => {
     await edit(tab, 'if (length < TOO_SMALL) 0.0 else device', 'if (length < 1e9) 0.0 else device');
     await eventually(() => state(view), ({ speed }) => speed < 0.1, 'the swarm should stand still');
     const seconds = (Date.now() - began) / 1000;
-    t.diagnostic(`from save to the changed field: ${seconds} s`);
+    t.diagnostic(`time from saving to the changed field: ${seconds} s`);
     assert.ok(seconds < 3, `it took ${seconds} s`);
     assert.ok((await state(view)).tick > tick, 'the simulation did not start again');
     assert.match(await outcome(tab), /^reloaded: kept /);
@@ -208,7 +208,7 @@ suite('live', { timeout: 600000 }, async (t) => {
   });
 
   await t.test('a second page watches, and controls the simulation when the first one has gone', async () => {
-    // Pause first: drawing two running simulations without a graphics card takes long.
+    // Pause first: drawing two running simulations without a graphics card takes a long time.
     await view.click('#play');
     const second = await open(live.address);
     await view.click('#play');

@@ -500,13 +500,13 @@ await suite('replay page', async (page) => {
         await tab.evaluate(() => document.activeElement.blur());
         await seek(tab, 0);
         await tab.keyboard.press('ArrowRight');
-        await arrives(tab, 1, 'right: not the next frame');
+        await arrives(tab, 1, 'ArrowRight does not seek to the next frame');
         await tab.keyboard.press('ArrowLeft');
-        await arrives(tab, 0, 'left: not the frame before');
+        await arrives(tab, 0, 'ArrowLeft does not seek to the previous frame');
         await tab.keyboard.press('End');
-        await arrives(tab, frames - 1, 'End: not the last frame');
+        await arrives(tab, frames - 1, 'End does not seek to the last frame');
         await tab.keyboard.press('Home');
-        await arrives(tab, 0, 'Home: not the first frame');
+        await arrives(tab, 0, 'Home does not seek to the first frame');
         await tab.keyboard.press('l');
         assert.ok(!(await tab.isChecked('#links')), 'l does not hide the links');
         await tab.keyboard.press('l');
@@ -758,7 +758,7 @@ await suite('replay page', async (page) => {
       await tab.keyboard.press('a');
       await tab.keyboard.press('r');
       await tab.waitForTimeout(300);
-      assert.ok((await canvas(tab)) === before, 'the first view does not come back');
+      assert.ok((await canvas(tab)) === before, 'the first view is not restored');
     });
 
     await test('the view fills the window after a resize', async () => {

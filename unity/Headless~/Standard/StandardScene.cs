@@ -87,7 +87,7 @@ namespace Collektive.Standard
         private void OnDestroy() => expression?.Dispose();
 
         private static string ProblemIfBelow(string field, float value, float least) =>
-            value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be a number of at least " + Text(least);
+            value >= least && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be at least " + Text(least);
 
         private static string ProblemIfNotPositive(string field, float value) =>
             value > 0 && Area.IsFinite(value) ? null : "'" + field + "' is " + Text(value) + "; it must be a number greater than 0";

@@ -82,7 +82,7 @@ class LivePlayer extends Player {
     this.resize();
   }
 
-  /** Called before each picture. If drawing is slow, there is a pause between two pictures, and only times of frames are shown. */
+  /** Called before each picture. If drawing is slow, pauses between pictures, and shows only the times of recorded frames. */
   tick(now) {
     const latency = now - this.requested;
     this.isSlow = latency > SLOW_MS;
@@ -96,7 +96,7 @@ class LivePlayer extends Player {
     }
   }
 
-  /** Shows the current time, and thereby requests the next picture. Does nothing if the time is already shown. */
+  /** Shows the current time, which requests the next picture. Does nothing if the time is already shown. */
   showNow(now) {
     const { times, frames } = this.recording;
     const last = times.length - 1;

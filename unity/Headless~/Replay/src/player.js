@@ -161,8 +161,8 @@ export class Player {
     const frame = this.here;
     const selected = slotOf(frame, this.selected);
     element('selected-name').textContent = `Node ${this.selected}`;
-    const here = selected >= 0;
-    element('selected-position').textContent = here
+    const isPresent = selected >= 0;
+    element('selected-position').textContent = isPresent
       ? `at ${this.view.swarm.placeOf(selected, [0, 0, 0]).map((x) => x.toFixed(2)).join(', ')} m` : 'not in the scene at this time';
     const described = [this.selected, ...this.runs.map((run) => run.here)];
     if (described.every((each, i) => this.described?.[i] === each) && this.described.length === described.length) return;
@@ -170,9 +170,9 @@ export class Player {
     element('selected-values').replaceChildren(...this.fields.filter(({ name }) => name !== 'node' && name !== 'neighbours').flatMap((field) => [
       part('dt', field.name), part('dd', this.runs.map((run) => run.textAt(field, this.selected)).join(' | ')),
     ]));
-    const neighbours = here ? neighboursOf(frame, selected).sort((a, b) => frame.ids[a.slot] - frame.ids[b.slot]) : [];
+    const neighbours = isPresent ? neighboursOf(frame, selected).sort((a, b) => frame.ids[a.slot] - frame.ids[b.slot]) : [];
     const some = frame.linksInAll > frame.links ? ' (of the links shown)' : '';
-    element('selected-neighbours').textContent = here ? plural(neighbours.length, 'neighbour') + some : '';
+    element('selected-neighbours').textContent = isPresent ? plural(neighbours.length, 'neighbour') + some : '';
     element('neighbour-list').replaceChildren(...neighbours.slice(0, MAX_LISTED).map(({ slot, way }) => {
       const id = frame.ids[slot];
       const button = part('button', ['to ', 'from ', ''][way - 1] + id);

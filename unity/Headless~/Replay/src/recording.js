@@ -13,7 +13,7 @@ export class ReplayError extends Error {}
 export async function open(text) {
   if (text.startsWith('@@')) throw new ReplayError('This is the empty page template; it does not contain a run. Open the replay.html of a run.');
   if (typeof DecompressionStream === 'undefined') {
-    throw new ReplayError('This browser is too old for the page (it has no DecompressionStream). Any current Chrome, Edge, Firefox or Safari opens it.');
+    throw new ReplayError('This browser is too old for the page (it has no DecompressionStream). Use a current version of Chrome, Edge, Firefox or Safari.');
   }
   const end = text.indexOf('\n');
   return orDamaged(async () => {

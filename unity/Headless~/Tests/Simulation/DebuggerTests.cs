@@ -119,7 +119,7 @@ namespace Collektive.Headless.Tests.Simulation
                 var clock = Stopwatch.StartNew();
                 Loop.Quit();
                 Assert.That(clock.ElapsedMilliseconds, Is.LessThan(2000));
-                Assert.That(Log.Any(line => line.Contains("was not completed, because a debugger stops the JVM")), Is.True);
+                Assert.That(Log.Any(line => line.Contains("was not completed, because the JVM is stopped in a debugger")), Is.True);
                 Assert.That(Errors, Is.Empty);
                 RestartPlay();
                 MakeRow();

@@ -16,14 +16,14 @@ namespace UnityEditor.Headless
         /// Must be called at the start of each call of the asset database.
         internal static void CheckCall()
         {
-            if (isReloading) throw new InvalidOperationException("The asset database cannot be used while code is reloaded.");
+            if (isReloading) throw new InvalidOperationException("The asset database cannot be used while code is being reloaded.");
         }
 
-        /// Must be called at the start of each call that changes assets.
+        /// Must be called at the start of each method that changes assets.
         internal static void CheckChange()
         {
             CheckCall();
-            if (isImporting) throw new InvalidOperationException("The asset database cannot be changed while an asset is imported.");
+            if (isImporting) throw new InvalidOperationException("The asset database cannot be changed while an asset is being imported.");
         }
 
         static void During(ref bool state, Action action)

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace UnityEngine
 {
-    /// Scripts sorted by execution order, then by the time they were enabled. A script that is enabled during a pass takes part from the next pass on. A
+    /// Scripts sorted by execution order, then by the time they were enabled. A script that is enabled during a pass is first called in the next pass. A
     /// script that is disabled is skipped immediately.
     sealed class BehaviourList
     {

@@ -30,7 +30,7 @@ namespace UnityEngine
         /// Called when the object becomes inactive, or before the component is destroyed.
         internal virtual void Deactivate() { }
 
-        /// Copies the values of a component of the engine for `Instantiate`. Scripts do not override it; their fields are copied one by one.
+        /// Copies the values of a built-in component for `Instantiate`. Scripts do not override this method; their fields are copied one by one.
         internal virtual void CopyFrom(Component original) { }
 
         public T GetComponent<T>() => gameObject.GetComponent<T>();

@@ -4,8 +4,8 @@ using Unity.Collections;
 
 namespace UnityEngine
 {
-    /// A batch of sphere overlaps that runs on other physics threads while the main thread continues. Only one batch runs at a time. Any other request to
-    /// physics first waits for its end.
+    /// A batch of sphere overlaps that runs on other physics threads while the main thread continues. Only one batch runs at a time. Any other physics
+    /// call first waits for it to end.
     static unsafe class OverlapBatch
     {
         static Physx.Sphere* spheres; // native, as the next two: kept until the process ends

@@ -48,7 +48,7 @@ namespace UnityEngine
             try
             {
                 if (Physx.physics_version() != Physx.Version)
-                    throw new NotSupportedException("libcollektive_physics.so and this player differ in version: run ./collektive clean and build again.");
+                    throw new NotSupportedException("libcollektive_physics.so does not match this player: run ./collektive clean and build again.");
             }
             catch (DllNotFoundException exception)
             {

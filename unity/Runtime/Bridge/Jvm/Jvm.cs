@@ -51,7 +51,7 @@ namespace Collektive.Bridge
 
         /// <summary>
         /// Returns the reason why the native library cannot be used, with the platform and the fix, or null if the library is usable. The library may be
-        /// missing, built for another platform, or have another version.
+        /// missing, of another version, or built for another platform.
         /// </summary>
         internal static string FindProblem() => ShimLibrary.Problem;
 
@@ -78,7 +78,7 @@ namespace Collektive.Bridge
 
         /// <summary>Returns the status of the running JVM. Takes a few milliseconds, about 50 the first time, and up to 10 s while a tick runs.</summary>
         /// <param name="collect">Whether to collect garbage first, so that only live objects are counted.</param>
-        /// <exception cref="BridgeException">No JVM runs.</exception>
+        /// <exception cref="BridgeException">No JVM is running.</exception>
         public static JvmStatus GetStatus(bool collect = false) => JvmControl.Send(new JvmControl.Query { Collect = collect });
 
         /// <summary>Returns the same as <see cref="GetStatus"/>, or null if no JVM runs or a debugger has stopped it.</summary>

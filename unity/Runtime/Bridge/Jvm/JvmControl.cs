@@ -10,7 +10,7 @@ namespace Collektive.Bridge
         /// <summary>Lock that is held while an answer is read. The next query, or the end of the JVM, would overwrite the answer.</summary>
         internal static readonly object Gate = new object();
 
-        private const int FirstCapacity = 4096;
+        private const int InitialCapacity = 4096;
         private const int LimitMs = 10000;
 
         private static readonly string[] Flags =
@@ -26,7 +26,7 @@ namespace Collektive.Bridge
 
         private static JvmStatus SendNow(Query query)
         {
-            var slot = new SlotAllocator(FirstCapacity);
+            var slot = new SlotAllocator(InitialCapacity);
             try
             {
                 var builder = new FlatBufferBuilder(new ByteBuffer(slot, 0));

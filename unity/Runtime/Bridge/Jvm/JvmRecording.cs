@@ -20,7 +20,7 @@ namespace Collektive.Bridge
         /// <summary>Starts a recording, which is written to <paramref name="path"/> when it stops.</summary>
         /// <param name="path">The file, usually with the extension <c>.jfr</c>. An existing file is replaced.</param>
         /// <param name="settings"><see cref="Default"/>, <see cref="Profile"/>, or the path of a <c>.jfc</c> file.</param>
-        /// <exception cref="BridgeException">No JVM runs.</exception>
+        /// <exception cref="BridgeException">No JVM is running.</exception>
         public static void Start(string path, string settings = Default)
         {
             if (settings == null) throw new ArgumentNullException(nameof(settings));
@@ -29,11 +29,11 @@ namespace Collektive.Bridge
         }
 
         /// <summary>Writes the recorded events to a file. The recording continues.</summary>
-        /// <exception cref="BridgeException">No JVM runs.</exception>
+        /// <exception cref="BridgeException">No JVM is running.</exception>
         public static void Dump(string path) => Send(RecordingAction.Dump, path, "");
 
         /// <summary>Ends the recording and writes its file.</summary>
-        /// <exception cref="BridgeException">No JVM runs.</exception>
+        /// <exception cref="BridgeException">No JVM is running.</exception>
         public static void Stop() => JvmControl.Send(new JvmControl.Query { Recording = RecordingAction.Stop });
 
         private static void Send(RecordingAction action, string path, string settings)

@@ -46,7 +46,7 @@ namespace Collektive.Bridge
                 "For Own Process: keep the JVM running between plays. Off: each Play starts a new JVM.", status => ""),
             new JvmSetting(
                 nameof(JvmSettings.initialHeapMb), "Initial heap",
-                "Heap size at the start. Set it to the maximum heap to avoid growth. 0: the JVM's default.",
+                "Initial heap size. Set it to the maximum heap size to avoid growth. 0: the JVM's default.",
                 status => status.Megabytes("InitialHeapSize"), "MB", 8, 1 << 20, marks: "Xms Initial"),
             new JvmSetting(
                 nameof(JvmSettings.maximumHeapMb), "Maximum heap",
@@ -54,7 +54,7 @@ namespace Collektive.Bridge
                 status => status.Megabytes("MaxHeapSize"), "MB", 16, 1 << 20, marks: "Xmx heap memory"),
             new JvmSetting(
                 nameof(JvmSettings.collector), "Collector",
-                "Garbage collector. Automatic is Serial, the fastest for rounds, which keep few objects. Choose Parallel, G1 or Z " +
+                "Garbage collector. Automatic selects Serial, the fastest if programs keep few objects. Choose Parallel, G1 or Z " +
                 "for programs that keep many. " +
                 "Not every JVM has Shenandoah.", EffectiveCollector, marks: "collector ollectors GC"),
             new JvmSetting(
@@ -63,7 +63,7 @@ namespace Collektive.Bridge
                 EffectiveCompiler, marks: "TieredStopAtLevel Xint"),
             new JvmSetting(
                 nameof(JvmSettings.compileThreshold), "Compile threshold",
-                "Calls before code is compiled, as a percentage of the JVM's default. Lower values compile sooner, with less profile data.",
+                "Number of calls after which code is compiled, as a percentage of the JVM's default. Lower values compile sooner, with less profiling.",
                 EffectiveThreshold, "%", 1, 10000, 100, "CompileThreshold"),
             new JvmSetting(
                 nameof(JvmSettings.codeCacheMb), "Code cache",
@@ -166,7 +166,7 @@ namespace Collektive.Bridge
             return Find(nameof(JvmSettings.flags));
         }
 
-        /// <summary>Returns a flag in the form that JVMs quote in messages, without dashes, sign and value.</summary>
+        /// <summary>Returns a flag in the form that JVMs quote in messages, without dashes, sign or value.</summary>
         private static string Core(string flag)
         {
             var core = flag.StartsWith("-XX:", StringComparison.Ordinal) ? flag.Substring(4).TrimStart('+', '-') : flag;

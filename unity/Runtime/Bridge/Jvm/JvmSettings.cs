@@ -86,7 +86,7 @@ namespace Collektive.Bridge
         /// <summary>How the JVM compiles programs to machine code.</summary>
         public JvmCompiler compiler = JvmCompiler.Tiered;
 
-        /// <summary>Calls before code is compiled, as a percentage of the JVM's default.</summary>
+        /// <summary>Number of calls after which code is compiled, as a percentage of the JVM's default.</summary>
         public int compileThreshold = 100;
 
         /// <summary>Memory for compiled code in MiB; 0: the JVM's default.</summary>

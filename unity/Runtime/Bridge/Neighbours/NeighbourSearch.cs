@@ -4,9 +4,9 @@ using System.Collections.Generic;
 namespace Collektive.Bridge
 {
     /// <summary>
-    /// Finds near nodes, and stores all directed links of a scene with their reference counts. The implementation is in C (<c>collektive_neighbours.h</c>).
+    /// Finds nearby nodes, and stores all directed links of a scene with their reference counts. The implementation is in C (<c>collektive_neighbours.h</c>).
     /// A link exists while at least one rule or script references it. The native memory is allocated on first use. Results are spans of this memory and
-    /// valid until the next call.
+    /// are valid until the next call.
     /// </summary>
     internal sealed unsafe class NeighbourSearch : IDisposable
     {

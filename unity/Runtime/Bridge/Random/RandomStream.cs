@@ -67,7 +67,7 @@ namespace Collektive.Bridge
             return ((high << 32 | low) >> 11) * (1.0 / (1L << 53));
         }
 
-        /// <summary>Returns a number between <paramref name="low"/> and <paramref name="high"/>, the latter excluded except after rounding.</summary>
+        /// <summary>Returns a number from <paramref name="low"/> up to <paramref name="high"/>, which is returned only as a result of rounding.</summary>
         public float Range(float low, float high)
         {
             return (float)(low + (high - low) * NextDouble());

@@ -34,7 +34,7 @@ namespace Collektive.Bridge
 
         /// <summary>
         /// Called by a session before the attached frame's memory is overwritten. The elements of that frame remain readable, and become the previous ones
-        /// with the next <see cref="Attach"/>. Until then, the present previous elements cannot be read.
+        /// with the next <see cref="Attach"/>. Until then, do not call <see cref="CopyPrevious"/>.
         /// </summary>
         internal abstract void Retain();
     }

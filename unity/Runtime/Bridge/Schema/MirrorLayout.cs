@@ -26,6 +26,6 @@ namespace Collektive.Bridge
         }
 
         private static InvalidOperationException Wrong<T>(string what) => new InvalidOperationException(
-            typeof(T).FullName + " " + what + ": this C# runtime uses another struct layout than the schema; report an issue with the name of the platform");
+            typeof(T).FullName + " " + what + ": the struct layout of this C# runtime differs from the schema; report an issue with the name of the platform");
     }
 }

@@ -62,7 +62,7 @@ namespace Collektive.Bridge
             }
             frame.ToSpan(start, length).CopyTo(copied);
             previousFirst = first - start;
-            // The copy remains readable until the next frame arrives, which can take long while a debugger stops the JVM.
+            // The copy remains readable until the next frame arrives, which can take a long time while the JVM is stopped in a debugger.
             frame = previous;
             first = previousFirst;
         }

@@ -11,7 +11,7 @@ namespace Collektive.Bridge
     /// </summary>
     internal sealed unsafe class Session : IDisposable
     {
-        private const int FirstCapacity = 64 * 1024;
+        private const int InitialCapacity = 64 * 1024;
         private const int FinalizerLimitMs = 1000;
         private const int OpeningWaitMs = 1000;
 
@@ -33,7 +33,7 @@ namespace Collektive.Bridge
             Request = new StepRequest(schema.CreateSensors(), schema.CreateGlobals());
             Answer = new StepAnswer(schema.CreateActuators());
             answerBuffer = new ByteBuffer(answerMemory, 0);
-            slot = new SlotAllocator(FirstCapacity);
+            slot = new SlotAllocator(InitialCapacity);
             builder = new FlatBufferBuilder(new ByteBuffer(slot, 0));
         }
 

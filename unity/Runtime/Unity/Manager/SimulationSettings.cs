@@ -21,7 +21,7 @@ namespace Collektive.Unity
         public List<ProgramLibrary> libraries = new List<ProgramLibrary>();
 
         /// <summary>Program of the nodes that do not select one. Its library need not be listed. Ignored if <see cref="program"/> is not empty.</summary>
-        [Tooltip("Program of nodes without their own.")]
+        [Tooltip("Program of the nodes that do not select one.")]
         public AggregateProgram defaultProgram;
 
         /// <summary>Full name of the generated schema class, to be set by scripts. Empty: the schema of the libraries.</summary>

@@ -140,7 +140,7 @@ namespace Collektive.Unity
 
         private void CheckIsCollecting()
         {
-            if (node is null) throw new InvalidOperationException("neighbours can be added in FindNeighbours only");
+            if (node is null) throw new InvalidOperationException("neighbours can only be added in FindNeighbours");
         }
     }
 }

@@ -19,7 +19,7 @@ namespace Collektive.Unity
         internal PartList Actuators;
         internal PartList Rules;
 
-        // Sorted by the time of enabling, which determines ids. A node that is disabled leaves a gap (null), because closing each gap immediately would
+        // Sorted by the time of enabling, which determines the ids. A disabled node leaves a gap (null), because closing each gap immediately would
         // move all later nodes.
         private static readonly List<Node> EnabledNodes = new List<Node>();
         private static int gaps;

@@ -77,7 +77,7 @@ namespace Collektive.Unity
         internal void FailWithSchemaMismatch(TickContext tick, string kind, Type actual, Type expected)
         {
             tick.Fail(kind + " " + GetType().Name + " of node " + Node.Id + " ('" + Node.name + "') is written for " + actual.FullName
-                + ", but the session's schema has " + expected.FullName + ": use a component for that schema, or select the other schema", this);
+                + ", but the session's schema has " + expected.FullName + ": use a component for this schema, or select the component's schema", this);
         }
 
         /// <summary>Called after the part was removed from the node's list.</summary>

@@ -229,7 +229,7 @@ namespace Collektive.Unity
         internal void End()
         {
             for (var i = Nodes.Count - 1; i >= 0; i--) Remove(Nodes[i]);
-            if (IsPending) Debug.LogWarning(PendingCall + " was not completed, because a debugger stops the JVM: continue the program there, "
+            if (IsPending) Debug.LogWarning(PendingCall + " was not completed, because the JVM is stopped in a debugger: continue the program there, "
                 + "or detach the debugger, before the next Play", Manager);
             IsPending = false;
             IsOpen = false;
@@ -268,7 +268,7 @@ namespace Collektive.Unity
             }
             catch (BridgeException error)
             {
-                Debug.LogError("the session did not close: " + error.Message, Manager);
+                Debug.LogError("the session could not be closed: " + error.Message, Manager);
             }
             session = null;
             Context.Release();

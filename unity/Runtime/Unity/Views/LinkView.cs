@@ -32,7 +32,7 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Maximum number of links. With more links, none are drawn. 100,000 links take 2 ms per tick.")]
+        [Tooltip("Maximum number of links. If there are more, none are drawn. 100,000 links take 2 ms per tick.")]
         private int limit = 100000;
 
         [SerializeField]
@@ -89,7 +89,7 @@ namespace Collektive.Unity
             set => width = value;
         }
 
-        /// <summary>Maximum number of directed links, 0 or greater. With more links, none are drawn.</summary>
+        /// <summary>Maximum number of directed links, 0 or greater. If there are more, none are drawn.</summary>
         public int Limit
         {
             get => limit;

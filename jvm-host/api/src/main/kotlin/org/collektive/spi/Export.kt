@@ -17,7 +17,7 @@ public abstract class Export protected constructor() {
     /** Whether a reference still prevents the reuse of this export. */
     public val isRetained: Boolean get() = references > 0
 
-    /** Prefetches the data that neighbours read into the CPU cache. The result only keeps the JIT from removing the reads. */
+    /** Prefetches into the CPU cache the data that neighbours read. The result only prevents the JIT from removing the reads. */
     public open fun touch(): Int = 0
 
     /** Adds the values of this message to [size]. Call it only while no round runs. */

@@ -30,7 +30,7 @@ public class MessageSize {
         addValue(value)
     }
 
-    /** Adds a value that replaces the last added one for the [receiver]. */
+    /** Adds a value that the [receiver] gets in place of the last added value. */
     public fun addFor(receiver: Any, value: Any?) {
         addValue(receiver)
         addValue(value)

@@ -1,4 +1,4 @@
-// Programs in different styles of users. The comment before each shows the answers of four devices in a row in the twelfth round.
+// Programs in the styles of different users. The comment before each shows the answers in round 12 of four devices in a line.
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.*
 import it.unibo.collektive.stdlib.spreading.*

@@ -98,7 +98,7 @@ public class Engine @JvmOverloads constructor(
         runOnPool(workTask, work, 1, deadline, name)
     }
 
-    /** Returns the node [Tick.inspected] after the last [step], with at most [limit] values, or `null` for an unknown node. */
+    /** Returns the state of the node [Tick.inspected] after the last [step], with at most [limit] values, or `null` for an unknown node. */
     public fun inspect(limit: Int): NodeState? = nodes.find(inspected)?.let { NodeState(it.id, inspectedNanos, it.runtime.state(limit)) }
 
     /**

@@ -54,7 +54,7 @@ internal class IncomingLinks(private val receiver: Int, isIdeal: Boolean, privat
         transmitter.send(node(index).id, node(index), receiver, lengths[index], attenuations[index], channel)
     }
 
-    private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel $index of $size links")
+    private fun channel(index: Int): Channel = channels?.get(index) ?: error("no channel for link $index of $size")
 
     /** See [Export.touch]. */
     fun prefetch(): Int = (boxedIds?.size ?: 0) + (if (nodes[0] === nodes[maxOf(0, size - 1)]) 1 else 0)

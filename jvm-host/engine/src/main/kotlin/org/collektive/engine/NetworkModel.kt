@@ -53,10 +53,10 @@ public class NetworkModel(
     public val isIdeal: Boolean = loss == 0.0 && lossPerMetre == 0.0 && lossPerAttenuation == 0.0 && delay == 0.0 && jitter == 0.0 &&
         retention.isInfinite() && burstShare == 0.0
 
-    /** Probability that a link leaves the bad state with a message. */
+    /** Probability that a link leaves the bad state with each message. */
     internal val burstEndProbability = 1.0 / burstLength
 
-    /** Probability that a link enters the bad state with a message. */
+    /** Probability that a link enters the bad state with each message. */
     internal val burstStartProbability = burstEndProbability * burstShare / (1.0 - burstShare)
 
     private fun requireAmount(name: String, value: Double) {

@@ -30,7 +30,7 @@ class MailboxRuntimesTest {
                     val own = run(seed, schedule, AggregateRuntimes(), piece)
                     assertEquals(own, run(seed, schedule, MailboxRuntimes(), piece))
                     assertEquals(own, runWithoutEngine(seed, schedule, piece))
-                    assertTrue(own.flatMap { it.values }.toSet().size > 200, "the answers must vary, or the comparison shows little")
+                    assertTrue(own.flatMap { it.values }.toSet().size > 200, "the answers must vary, or the comparison proves little")
                 }
             }
         }

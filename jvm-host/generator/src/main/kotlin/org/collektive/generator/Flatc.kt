@@ -9,7 +9,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         run(schema, output, "--binary", "--schema", "--bfbs-comments", "--bfbs-builtins", "--bfbs-absolute-paths")
     }
 
-    /** Writes the binary form of [schema] to the folder [output], with the paths of files relative to the folder of [schema]. */
+    /** Writes the binary form of [schema] to the folder [output], with file paths relative to the folder of [schema]. */
     fun binarySchema(schema: Path, output: Path) {
         run(schema, output, "--binary", "--schema")
     }

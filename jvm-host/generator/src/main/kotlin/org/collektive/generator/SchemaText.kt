@@ -36,7 +36,7 @@ internal class SchemaText(private val text: String) {
         sanitized = rewritten.toString()
     }
 
-    /** The line of a type, or of a field of a type (`a.b.Type.field`), both with their namespace; `null` when it is not in this text. */
+    /** The line of a type, or of a field of a type (`a.b.Type.field`), named with the namespace; `null` if it is not in this text. */
     fun lineOf(name: String): Int? = starts[name]
 
     /** The end of the comment, string, word or single character at [at]. */

@@ -9,7 +9,7 @@ internal object Templates {
     fun render(template: String, model: Any): String {
         val resource = "$template.mustache"
         val stream = Templates::class.java.getResourceAsStream(resource)
-            ?: throw IllegalStateException("the jar is damaged: it has no $resource; rebuild it")
+            ?: throw IllegalStateException("$resource is missing from the jar: rebuild the jar")
         return stream.reader().use { compiler.compile(it).execute(model) }
     }
 }

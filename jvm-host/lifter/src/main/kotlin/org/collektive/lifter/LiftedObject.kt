@@ -8,7 +8,7 @@ import com.squareup.kotlinpoet.TypeSpec
 import kotlin.experimental.ExperimentalTypeInference
 import kotlin.reflect.KClass
 
-/** An object of lifted operators: the members of [type], or the extensions of [type] in one file of Kotlin's library. */
+/** An object with the lifted members of [type], or the lifted extensions of [type] in one file of Kotlin's library. */
 internal class LiftedObject private constructor(type: KClass<*>, file: String?) {
     private val stdlibFunctions = if (file == null) StdlibFunction.members(type) else StdlibFunction.extensions("${file}Kt", type)
     private val packageName = "it.unibo.collektive.stdlib.${type.simpleName?.lowercase()}s"

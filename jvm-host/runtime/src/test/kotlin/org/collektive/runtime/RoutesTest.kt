@@ -56,7 +56,7 @@ class RoutesTest {
             val expected = reference.outcomes(due, program)
             for ((route, network) in others) {
                 val seen = network.outcomes(due, program)
-                assertEquals(expected.mapValues(::shown), seen.mapValues(::shown), "$route, seed $seed, step $step")
+                assertEquals(expected.mapValues(::describe), seen.mapValues(::describe), "$route, seed $seed, step $step")
             }
             for (id in reference.ids) {
                 val state = devices.getValue(id).state.mapKeys { it.key.tokens }
@@ -88,6 +88,6 @@ class RoutesTest {
         }
     }
 
-    private fun shown(entry: Map.Entry<Int, Result<Any?>>): Any? =
+    private fun describe(entry: Map.Entry<Int, Result<Any?>>): Any? =
         entry.value.fold({ it }, { "${it::class.simpleName}: ${if (it is AlignmentClashException) it.path.tokens else it.message}" })
 }

@@ -82,7 +82,7 @@ internal class AlignmentTransformer(
     /** The outermost lambda with an Aggregate; `null` inside named aggregate functions. See [Tokens]. */
     private var entry: IrFunction? = null
 
-    /** An Aggregate that is the [parameter] itself, or that the parameter's [property] stores. */
+    /** An Aggregate that is the [parameter] itself, or is stored in the parameter's [property]. */
     private class Source(val parameter: IrValueParameter, val property: IrProperty? = null)
 
     /** A part of the program with the same aligned neighbours: the body of a function or an `alignedOn`, or an arm. */

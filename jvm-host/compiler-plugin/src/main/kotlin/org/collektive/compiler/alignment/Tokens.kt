@@ -22,7 +22,7 @@ import org.jetbrains.kotlin.ir.util.render
 internal class Tokens(private val module: String, private val file: IrFile) {
     private val placesIn = HashMap<Pair<IrDeclaration?, String>, Int>()
 
-    /** Returns a new token for [what] at [offset] of the file, inside [owner], which is inside [entry] if that is not `null`. */
+    /** Returns a new token for [what] at [offset] of the file. It is inside [owner], which is inside [entry] unless that is `null`. */
     fun next(what: String, offset: Int, owner: IrDeclaration, entry: IrDeclaration?): String {
         val signature = signature(owner, entry)
         val place = placesIn.merge(entry to signature, 1, Int::plus)

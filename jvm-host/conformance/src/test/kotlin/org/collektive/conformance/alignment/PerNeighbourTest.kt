@@ -98,7 +98,7 @@ class PerNeighbourTest {
                         val seed = name.hashCode() + index
                         val own = answers(AggregateRuntimes(), schedule, network, seed, program)
                         assertEquals(own, answers(MailboxRuntimes(), schedule, network, seed, program))
-                        assertTrue(own.toSet().size > 100, "the answers must vary, or the comparison shows little")
+                        assertTrue(own.toSet().size > 100, "the answers must vary, or the comparison proves little")
                     }
                 }
             }

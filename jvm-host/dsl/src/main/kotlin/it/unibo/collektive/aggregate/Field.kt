@@ -84,7 +84,7 @@ public class Field<ID : Any, out T> private constructor(
     /** Returns a field with the result of [transform] for each value. */
     public fun <R> mapValues(transform: (T) -> R): Field<ID, R> = build { transform(valueAt(it)) }
 
-    /** Returns a field with the same devices and [singleton] for all of them. */
+    /** Returns a field with the same devices, in which each value is [singleton]. */
     public fun <R> mapToConstant(singleton: R): Field<ID, R> {
         rejectField(context, singleton)
         return Field(context, ids, null, singleton)

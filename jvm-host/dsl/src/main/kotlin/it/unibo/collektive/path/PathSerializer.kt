@@ -8,7 +8,7 @@ import kotlinx.serialization.descriptors.SerialDescriptor
 import kotlinx.serialization.encoding.Decoder
 import kotlinx.serialization.encoding.Encoder
 
-/** Serialises the paths that [DigestHashingFactory] makes as strings; rejects all others. */
+/** Serialises the paths of [DigestHashingFactory] as strings; rejects all others. */
 public object PathSerializer : KSerializer<Path> {
     override val descriptor: SerialDescriptor = PrimitiveSerialDescriptor("it.unibo.collektive.path.Path", PrimitiveKind.STRING)
 

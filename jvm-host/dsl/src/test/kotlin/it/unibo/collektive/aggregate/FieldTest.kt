@@ -14,7 +14,7 @@ import kotlin.test.assertTrue
 class FieldTest {
     private val device = FakeDevice(5)
 
-    /** A field of device 5, whose neighbours 1, 3 and 1000 sent ten times their ids. Java caches no boxes for numbers such as 1000. */
+    /** A field of device 5, whose neighbours 1, 3 and 1000 sent their ids times ten. Java does not cache boxes for numbers such as 1000. */
     private val f = device.field(listOf(1, 3, 1000), listOf(10, 30, 10_000), local = 50)
 
     @Test

@@ -23,7 +23,7 @@ public inline fun <ID : Any, reified Shared> Aggregate<ID>.exchange(
     noinline body: (Field<ID, Shared>) -> Field<ID, Shared>,
 ): Field<ID, Shared> = exchanging(initial) { received -> body(received).yielding { this } }
 
-/** [exchanging] that sends one value to all neighbours: `sharing(0) { seen -> next.yielding { result } }`. */
+/** Like [exchanging], but sends one value to all neighbours: `sharing(0) { seen -> next.yielding { result } }`. */
 public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.sharing(
     initial: Shared,
     noinline body: YieldingContext<Shared, Return>.(Field<ID, Shared>) -> YieldingResult<Shared, Return>,

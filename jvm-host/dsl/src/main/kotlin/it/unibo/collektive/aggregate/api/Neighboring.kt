@@ -12,6 +12,6 @@ public inline fun <ID : Any, reified Shared> Aggregate<ID>.neighboring(local: Sh
 /** The field of the aligned neighbours, without values. */
 public fun <ID : Any> Aggregate<ID>.neighborhood(): Field<ID, *> = neighboring(Unit).mapToConstant(Unit)
 
-/** The field of [local] applied to the id of each aligned neighbour and of this device. */
+/** Returns a field with the result of [local] for the id of each aligned neighbour and of this device. */
 public inline fun <ID : Any, Value> Aggregate<ID>.mapNeighborhood(crossinline local: (ID) -> Value): Field<ID, Value> =
     neighborhood().map { local(it.id) }
