@@ -100,10 +100,11 @@ class Live:
         self._sources: dict[str, session.Source] = {}
         self._changing = asyncio.Lock()
 
-    def player_options(self) -> list[str]:
-        """Returns the player's command-line options for the scenario."""
+    def player_options(self, changes: dict[str, Any] | None = None) -> list[str]:
+        """Returns the player's command-line options for the scenario, with these changes of its keys."""
         seed = [] if self.seed is None else ["--seed", self.seed]
-        return [*seed, *(word for key, value in self.values.items() for word in ("--set", f"{key}={value}")), *(["--trust-jvm"] if self.trust else [])]
+        values = {**self.values, **{key: _text(value) for key, value in (changes or {}).items()}}
+        return [*seed, *(word for key, value in values.items() for word in ("--set", f"{key}={value}")), *(["--trust-jvm"] if self.trust else [])]
 
     async def start(self) -> None:
         """Reads the scenario, compiles changed code, and starts the player."""
@@ -229,7 +230,7 @@ class Live:
             try:
                 command = json.loads(text)
                 await self.execute(page, command)
-            except (ValueError, KeyError, TypeError, AttributeError) as error:
+            except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
                 page.event({"event": "warning", "message": f"a command from the page is invalid: {error!r}"})
 
     async def execute(self, page: Page, command: dict[str, Any]) -> None:
@@ -246,7 +247,7 @@ class Live:
             async with self._changing:
                 await self.open_example(command["open"])
         elif "scenario" in command:
-            page.event({"event": "warning", "message": self.save_scenario(command["scenario"], command["set"])})
+            page.event({"event": "warning", "message": await self.save_scenario(command["scenario"], command["set"])})
         elif "record" in command:
             page.event({"event": "warning", "message": await self.save_record(command["record"])})
         elif PLAYER_COMMANDS & command.keys():
@@ -302,8 +303,7 @@ class Live:
 
     def beside_scenario(self, name: str, suffix: str) -> Path | None:
         """Returns the path of a new file beside the scenario, or None if the name is not a plain file name with the given suffix."""
-        file = Path(self.scenario).with_name(name)
-        return file if Path(name).name == name and file.suffix == suffix else None
+        return Path(self.scenario).with_name(name) if Path(name).name == name and name.endswith(suffix) and name != suffix else None
 
     async def save_record(self, name: str) -> str:
         """Copies the record of the run so far, and returns a message about it."""
@@ -320,23 +320,20 @@ class Live:
             return str(failure)
         return f"saved; replay it with ./collektive replay {shlex.quote(os.path.relpath(file))}"
 
-    def save_scenario(self, name: str, changes: dict[str, Any]) -> str:
+    async def save_scenario(self, name: str, changes: dict[str, Any]) -> str:
         """Writes a scenario with the current values, and returns a message about it."""
         file = self.beside_scenario(name, ".json")
         if file is None:
             return "enter a file name that ends in .json; the file is saved beside the scenario"
-        values = json.loads(Path(self.scenario).read_text(encoding="utf-8"))
-        if self.seed is not None:
-            values["seed"] = int(self.seed)
-        for key, value in {**self.values, **changes}.items():
-            path = key.split(".") if key.split(".")[0] in ("fields", "parameters", "network") or key in values else ["fields", key]
-            target = values
-            for part in path[:-1]:
-                target = target.setdefault(part, {})
-            target[path[-1]] = _value(value)
         try:
+            plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options(changes))
+            values = plan["file"]
+            if self.seed is not None:
+                values["seed"] = int(self.seed)
             with session.new_file(file) as output:
                 output.write((json.dumps(values, indent=2) + "\n").encode())
+        except Failure as failure:
+            return f"not saved: {str(failure) or 'the scenario is invalid; the reason is in the terminal'}"
         except FileExistsError:
             return f"'{file.name}' already exists: enter another name"
         except OSError as error:
@@ -350,14 +347,6 @@ class Live:
 
 def _text(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
-
-
-def _value(text: Any) -> Any:
-    """Parses the value of a command-line option."""
-    try:
-        return json.loads(text) if isinstance(text, str) else text
-    except ValueError:
-        return text
 
 
 class Gate:

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 from build import inputs, managed, player, projects
+from build.console import Failure
 from build.jdk import find_jdk
 
 _EXIT_SECONDS = 5
@@ -50,8 +51,11 @@ class Compiler:
         """Compiles the current sources of the plan's programs."""
         async with self._lock:
             start = time.monotonic()
-            programs = inputs.programs(plan.parts["programs"].path)
-            words = projects.compilation(plan.parts["schema"], programs, self._work, plan.parts.get("runtimeJars"), plan.parts.get("runtimePlugin"))
+            try:
+                programs = inputs.programs(plan.parts["programs"].path)
+                words = projects.compilation(plan.parts["schema"], programs, self._work, plan.parts.get("runtimeJars"), plan.parts.get("runtimePlugin"))
+            except (Failure, OSError) as error:
+                return Compiled(None, [], str(error), 0)
             code, messages = await self._request(words)
             problems = [_problem(match, programs.path) for line in messages.splitlines() if (match := _PROBLEM.match(line))]
             return Compiled(self._work / "programs.jar" if code == 0 else None, problems, "" if code == 0 else messages,

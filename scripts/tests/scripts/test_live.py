@@ -1,5 +1,7 @@
 """Tests the records and the sources of live runs."""
+import asyncio
 import os
+import shutil
 import struct
 from pathlib import Path
 from types import SimpleNamespace
@@ -119,3 +121,14 @@ def test_a_source_that_is_not_utf_8_has_the_reason(tmp_path: Path) -> None:
     file.parent.mkdir()
     file.write_bytes(b"\xef\xbb\xbf// caf\xe9")
     assert sources(tmp_path)["A.kt"].problem == "the file is not UTF-8 (byte 9): convert it in another editor"
+
+
+def test_sources_that_vanish_before_their_compilation_are_reported(tmp_path: Path) -> None:
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    (programs / "A.kt").write_text("a")
+    plan: Any = SimpleNamespace(parts={"programs": inputs.programs(programs)})
+    shutil.rmtree(programs)
+    compiled = asyncio.run(session.Compiler(tmp_path).compile(plan))
+    assert compiled.jar is None
+    assert str(programs) in compiled.messages

@@ -174,6 +174,7 @@ namespace Collektive.Headless
         private void AddNodes(int count, JArray at)
         {
             if (count < 1 || count > MaxAdded) throw new ArgumentException("from 1 to " + MaxAdded + " nodes can be added at once");
+            if (at?.Count != 3) throw new ArgumentException("'at' must be a position");
             if (manager.Nodes.Count == 0)
             {
                 Notify("no nodes were added: a new node is a copy of an existing one, and the scene has no nodes");

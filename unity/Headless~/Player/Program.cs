@@ -52,6 +52,7 @@ namespace Collektive.Headless
                 if (options.Command == "plan")
                 {
                     scenario.Override(options.Seed, options.Seconds);
+                    foreach (var field in options.FieldAssignments) Assignment.OfField(field).Apply(scenario.File.Root);
                     Plan(scenario);
                     return 0;
                 }
@@ -74,8 +75,9 @@ namespace Collektive.Headless
             return 1;
         }
 
-        /// <summary>Prints the inputs of the scenario as JSON. The command builds them before the run.</summary>
+        /// <summary>Prints the inputs of the scenario, and the content of its file with the assigned values, as JSON.</summary>
         private static void Plan(Scenario scenario) => Console.WriteLine(new JObject(
+            new JProperty("file", scenario.File.Root),
             new JProperty("scripts", scenario.Scripts),
             new JProperty("schema", scenario.Schema),
             new JProperty("programs", scenario.Programs),

@@ -108,7 +108,7 @@ const statusOf = (address, headers, path = '') => new Promise((resolve, reject) 
 const HANDSHAKE = { Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': '13', 'Sec-WebSocket-Key': 'AAAAAAAAAAAAAAAAAAAAAA==' };
 
 suite('live', { timeout: 600000 }, async (t) => {
-  let live = await start();
+  let live = await start('--set', 'timing.period=0.1');
   assert.ok(live.address, live.output);
   let page = await open(live.address);
   const { tab, view } = page;
@@ -290,11 +290,16 @@ suite('live', { timeout: 600000 }, async (t) => {
   });
 
   await t.test('saves a scenario', async () => {
+    const file = join(folder, 'out/live/GradientAscent/scenario.json');
+    writeFileSync(file, `// Scenarios may contain comments.\n${readFileSync(file, 'utf8')}`);
     await page.tab.click('#keep summary');
     await page.tab.click('#save-scenario');
     await page.tab.waitForSelector('#warning >> text=saved as');
     const saved = JSON.parse(readFileSync(join(folder, 'out/live/GradientAscent/live.json'), 'utf8'));
-    assert.deepEqual([saved.seed, saved.fields.nodes], [5, 20]);
+    assert.deepEqual([saved.seed, saved.fields.nodes, saved.timing.period], [5, 20, 0.1]);
+    await page.tab.fill('#scenario', 'folder/live.json');
+    await page.tab.click('#save-scenario');
+    await page.tab.waitForSelector('#warning >> text=enter a file name that ends in .json');
     const elsewhere = join(folder, 'elsewhere.json');
     symlinkSync(elsewhere, join(folder, 'out/live/GradientAscent/linked.json'));
     await page.tab.fill('#scenario', 'linked.json');
@@ -309,8 +314,8 @@ suite('live', { timeout: 600000 }, async (t) => {
       await page.tab.click('#save-record');
       await page.tab.waitForSelector(`#warning >> text=${message}`);
     };
-    await save('run.txt', 'enter the name of a .clkrec file');
-    await save('linked.json', 'enter the name of a .clkrec file');
+    await save('run.txt', 'enter a file name that ends in .clkrec');
+    await save('linked.json', 'enter a file name that ends in .clkrec');
     await edit(page.tab, 'var x = 0.0', 'var x = 0.00'); // the record contains a reload
     await eventually(() => outcome(page.tab), (text) => text.startsWith('reloaded'), 'the program should be reloaded');
     await save('live.clkrec', 'saved; replay it');
