@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import optuna
+import sqlalchemy
 
 from .bundle import prepare
 from .experiment import Experiment, Run, name_of, reject_fixed_key, text
@@ -85,6 +86,14 @@ def _distribution(located: Located, key: str, given: Any) -> optuna.distribution
 
 def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[], Pool], options: argparse.Namespace) -> int:
     """Executes the remaining trials, up to `jobs` at the same time. Returns the exit code."""
+    try:
+        return _tune(experiment, search, store, pool, options)
+    except (sqlalchemy.exc.SQLAlchemyError, optuna.exceptions.StorageInternalError) as error:
+        raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' cannot be read or written: {error.__cause__ or error}; if it is damaged, "
+                              "delete it and continue with --resume") from error
+
+
+def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[], Pool], options: argparse.Namespace) -> int:
     store.open(experiment, options.resume)
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     _check(experiment, search, store, options.trust_jvm)
@@ -134,7 +143,11 @@ def _check(experiment: Experiment, search: Search, store: Store, trust: bool) ->
 def _study(search: Search, store: Store) -> optuna.Study:
     optuna.logging.set_verbosity(optuna.logging.ERROR)
     path = os.path.abspath(os.path.join(store.folder, "study.db"))
-    study = optuna.create_study(storage=f"sqlite:///{path}", study_name=STUDY, direction=search.direction, load_if_exists=True)
+    if os.path.islink(path):
+        raise ExperimentError(f"'{path}' is a symbolic link; remove it, or name another folder with --out")
+    # The folder's name may contain characters that are special in a URL.
+    storage = sqlalchemy.URL.create("sqlite", database=path).render_as_string()
+    study = optuna.create_study(storage=storage, study_name=STUDY, direction=search.direction, load_if_exists=True)
     former = study.user_attrs.setdefault("search", search.identity) if "search" in study.user_attrs else search.identity
     if former != search.identity:
         raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction or parameters differ; name another folder with --out")

@@ -11,9 +11,9 @@ TUNE: dict[str, Any] = {"metric": "agreeing", "direction": "maximize", "trials":
                         "parameters": {"fields.lamps": {"from": 3, "to": 6}, "network.loss": [0, 0.5]}}
 
 
-def tune(project: Project, *words: str, **changes: Any) -> subprocess.CompletedProcess[str]:
+def tune(project: Project, *words: str, out: str = "out", **changes: Any) -> subprocess.CompletedProcess[str]:
     path = project.experiment(vary={"seed": "1-2"}, set={"seconds": 1}, tune={**TUNE, **changes})
-    command = project.command("tune", path, "--out", str(project.folder / "out"), "--jobs", "2", *words)
+    command = project.command("tune", path, "--out", str(project.folder / out), "--jobs", "2", *words)
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
 
@@ -39,6 +39,26 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
                   and end["scenario"]["network"]["loss"] == float(row["network.loss"])]
         assert len(values) == 2
         assert float(row["agreeing"]) == pytest.approx(sum(values) / 2)
+
+
+def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
+    # Characters that are special in a URL.
+    out = "a?b%20#c"
+    result = tune(project, "--trials", "1", out=out)
+    assert result.returncode == 0, result.stderr
+    storage = project.folder / out / "study.db"
+    assert storage.is_file()
+    assert not (project.folder / "a").exists()
+    content = storage.read_bytes()
+    storage.rename(project.folder / "elsewhere.db")
+    storage.symlink_to(project.folder / "elsewhere.db")
+    assert "is a symbolic link" in tune(project, "--resume", "--trials", "2", out=out).stderr
+    assert (project.folder / "elsewhere.db").read_bytes() == content
+    storage.unlink()
+    storage.write_bytes(content[:5000])
+    damaged = tune(project, "--resume", "--trials", "2", out=out)
+    assert (damaged.returncode, damaged.stderr.count("\n")) == (1, 1), damaged.stderr
+    assert f"'{storage}' cannot be read or written: database disk image is malformed" in damaged.stderr
 
 
 @pytest.mark.parametrize(("changes", "message"), [
