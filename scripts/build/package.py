@@ -1,10 +1,11 @@
 """Stages the Unity packages in a folder and packs them with npm."""
+import os
 import shutil
 import subprocess
 from pathlib import Path
 
 from build import graph, jre, manifest, metas, places, platforms, sample_programs
-from build.console import print_progress, run_logged
+from build.console import Failure, print_progress, run_logged
 from build.places import BUILD, ROOT
 
 GENERATED = BUILD / "generated"
@@ -52,9 +53,18 @@ def _pack(content: Path, out: Path, suffix: str) -> Path:
     archives.mkdir(exist_ok=True)
     out.mkdir(parents=True, exist_ok=True)
     command: list[str | Path] = ["npm", "pack", content, "--pack-destination", archives, "--ignore-scripts", "--silent"]
-    name = subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
+    packed = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if packed.returncode != 0:
+        raise Failure(f"package: npm pack failed with code {packed.returncode}; is the disk of '{archives}' full?")
+    name = packed.stdout.strip()
     target = out / f"{name.removesuffix('.tgz')}{suffix}.tgz"
-    shutil.move(archives / name, target)
+    # The archives may be on another disk.
+    part = out / f".{target.name}.{os.getpid()}.part"
+    try:
+        shutil.move(archives / name, part)
+        part.replace(target)
+    finally:
+        part.unlink(missing_ok=True)
     return target
 
 

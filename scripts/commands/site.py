@@ -34,8 +34,19 @@ def run(arguments: argparse.Namespace) -> int:
         run_logged("site", [TOOLS / "bin/python", "-I", "-m", "mkdocs", "build", "--strict", "--config-file", "site.yml", "--site-dir", "site"], cwd=work,
                env={**os.environ, "NO_MKDOCS_2_WARNING": "true"})
         (work / "site" / MARKER).touch()
-        shutil.rmtree(out, ignore_errors=True)
-        out.parent.mkdir(parents=True, exist_ok=True)
-        shutil.move(work / "site", out)
+        replace(work / "site", out)
     print(out / "index.html")
     return 0
+
+
+def replace(site: Path, out: Path) -> None:
+    """Copies a site to `out`, in place of an earlier site, which stays if the copy fails."""
+    out.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=f".{out.name}.", dir=out.parent) as part:
+        try:
+            shutil.copytree(site, Path(part, "new"))
+        except shutil.Error as error:
+            raise Failure(f"site: cannot write '{out}': {error.args[0][0][2]}") from error
+        if out.exists():
+            out.rename(Path(part, "earlier"))
+        Path(part, "new").rename(out)

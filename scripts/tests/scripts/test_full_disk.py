@@ -1,0 +1,62 @@
+"""Tests that a full disk keeps the earlier outputs of `site` and `package`."""
+import errno
+import functools
+import os
+import shutil
+import subprocess
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from build import package
+from build.console import Failure
+from commands import site
+
+FULL = OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+
+def test_a_site_that_cannot_be_copied_keeps_the_earlier_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    new, out = tmp_path / "new", tmp_path / "out/site"
+    for folder, content in ((new, "new"), (out, "earlier")):
+        folder.mkdir(parents=True)
+        (folder / "index.html").write_text(content)
+
+    def copy(_: str, target: str, **__: Any) -> None:
+        Path(target).write_text("half")
+        raise FULL
+
+    with monkeypatch.context() as patch:
+        patch.setattr(shutil, "copytree", functools.partial(shutil.copytree, copy_function=copy))
+        with pytest.raises(Failure, match=r"site: cannot write '.*/out/site': .*No space left on device"):
+            site.replace(new, out)
+    assert ((out / "index.html").read_text(), os.listdir(out.parent)) == ("earlier", ["site"])
+    site.replace(new, out)
+    assert ((out / "index.html").read_text(), os.listdir(out.parent)) == ("new", ["site"])
+
+
+def test_an_archive_that_cannot_be_moved_keeps_the_earlier_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "a.tgz").write_text("earlier")
+
+    def pack(*_: object, **__: object) -> SimpleNamespace:
+        (tmp_path / "archive/a.tgz").write_text("new")
+        return SimpleNamespace(returncode=0, stdout="a.tgz\n")
+
+    def move(_: Path, target: Path) -> None:
+        target.write_text("half")
+        raise FULL
+
+    monkeypatch.setattr(subprocess, "run", pack)
+    with monkeypatch.context() as patch:
+        patch.setattr(shutil, "move", move)
+        with pytest.raises(OSError, match="No space left"):
+            package._pack(tmp_path / "content", out, "")
+    assert ((out / "a.tgz").read_text(), os.listdir(out)) == ("earlier", ["a.tgz"])
+    package._pack(tmp_path / "content", out, "")
+    assert ((out / "a.tgz").read_text(), os.listdir(out)) == ("new", ["a.tgz"])
+    monkeypatch.setattr(subprocess, "run", lambda *_, **__: SimpleNamespace(returncode=1, stdout=""))
+    with pytest.raises(Failure, match="package: npm pack failed with code 1"):
+        package._pack(tmp_path / "content", out, "")
