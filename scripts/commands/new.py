@@ -3,6 +3,7 @@ and a Gradle build with which IDEs complete and check the Kotlin.
 
 NAME consists of lower-case letters and digits. It becomes the namespace of the C# and the package of the Kotlin."""
 import argparse
+import os
 import re
 import tempfile
 from pathlib import Path
@@ -29,7 +30,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     folder = Path(arguments.name)
-    if folder.exists():
+    if os.path.lexists(folder):
         raise Failure(f"new: '{folder}' already exists; choose another name")
     graph.build("runtime", "jvm_modules")
     # Creates the project atomically.

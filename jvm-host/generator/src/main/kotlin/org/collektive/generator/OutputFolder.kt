@@ -10,6 +10,10 @@ internal class OutputFolder(private val root: Path) {
     fun write(path: String, bytes: ByteArray) {
         val file = root.resolve(path)
         if (Files.exists(file) && Files.readAllBytes(file).contentEquals(bytes)) return
+        if (Files.isSymbolicLink(file)) throw GeneratorException("$file is a symbolic link: remove it, or choose another folder")
+        if (path.substringAfterLast('.') in SOURCES && Files.exists(file) && !isGenerated(file)) {
+            throw GeneratorException("$file exists and was not generated: move it, or choose another folder")
+        }
         Files.createDirectories(file.parent)
         Files.write(file, bytes)
     }
@@ -32,5 +36,14 @@ internal class OutputFolder(private val root: Path) {
             val path = folder.relativize(file).joinToString("/")
             edit(path, Files.readString(file))?.let { write(path, it) }
         }
+    }
+
+    /** Returns whether the first line of [file] is a generator's, or a full disk has left the file empty. */
+    private fun isGenerated(file: Path): Boolean = Files.readAllBytes(file).toString(Charsets.ISO_8859_1).let {
+        it.isEmpty() || it.lineSequence().first().contains("generated", ignoreCase = true)
+    }
+
+    private companion object {
+        val SOURCES = setOf("cs", "java", "kt")
     }
 }

@@ -5,7 +5,9 @@ import java.nio.file.Path
 import java.nio.file.attribute.FileTime
 import kotlin.test.Test
 import kotlin.test.assertContains
+import kotlin.test.assertContentEquals
 import kotlin.test.assertEquals
+import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
 import kotlin.test.assertTrue
 
@@ -124,6 +126,31 @@ internal class GeneratedTextTest {
         Fixture.files(output).forEach { Files.setLastModifiedTime(it, longAgo) }
         Fixture.generate(schema, output)
         for (file in Fixture.files(output)) assertEquals(longAgo, Files.getLastModifiedTime(file), "$file")
+    }
+
+    @Test
+    fun `files that the generator has not written are kept, and links are not followed`() {
+        val output = Fixture.newFolder()
+        val schema = Fixture.testSchemas.resolve("globals.fbs")
+        Fixture.generate(schema, output)
+        val elsewhere = Fixture.newFolder().resolve("elsewhere")
+        for (ending in listOf("cs", "kt", "java")) {
+            val file = Fixture.files(output).first { "$it".endsWith(".$ending") }
+            val generated = Files.readAllBytes(file)
+            Files.writeString(file, "// Written by hand.")
+            val own = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
+            assertEquals("$file exists and was not generated: move it, or choose another folder", own.message)
+            assertEquals("// Written by hand.", Files.readString(file))
+            Files.delete(file)
+            Files.createSymbolicLink(file, elsewhere)
+            val link = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
+            assertEquals("$file is a symbolic link: remove it, or choose another folder", link.message)
+            assertFalse(Files.exists(elsewhere))
+            Files.delete(file)
+            Files.writeString(file, "")
+            Fixture.generate(schema, output)
+            assertContentEquals(generated, Files.readAllBytes(file))
+        }
     }
 
     private fun texts(folder: Path): Map<String, String> = Fixture.files(folder).associate {
