@@ -52,6 +52,9 @@ def _pack(content: Path, out: Path, suffix: str) -> Path:
     archives = content.with_name("archive")
     archives.mkdir(exist_ok=True)
     out.mkdir(parents=True, exist_ok=True)
+    # The archive must not depend on the umask.
+    for path in content.rglob("*"):
+        path.chmod(0o755 if path.is_dir() or path.stat().st_mode & 0o100 else 0o644)
     command: list[str | Path] = ["npm", "pack", content, "--pack-destination", archives, "--ignore-scripts", "--silent"]
     packed = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if packed.returncode != 0:

@@ -11,6 +11,7 @@ import json
 from pathlib import Path
 
 from build import fetch, graph, processes
+from build.console import Failure
 from build.places import LIVE_PYTHON, ROOT
 from live import examples
 
@@ -31,6 +32,9 @@ def _port(text: str) -> int:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    for value in arguments.values:
+        if value.find("=") < 1:
+            raise Failure(f"--set {value}: write it as --set KEY=VALUE")
     graph.build("runtime", "replay_page")
     fetch.fetch("live", "kotlinc")
     scenario = Path(arguments.scenario)

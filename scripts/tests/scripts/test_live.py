@@ -1,4 +1,5 @@
 """Tests the records and the sources of live runs."""
+import argparse
 import asyncio
 import os
 import shutil
@@ -11,6 +12,7 @@ import pytest
 
 from build import inputs
 from build.console import Failure
+from commands import live
 from live import session
 from live.record import Record
 
@@ -132,3 +134,10 @@ def test_sources_that_vanish_before_their_compilation_are_reported(tmp_path: Pat
     compiled = asyncio.run(session.Compiler(tmp_path).compile(plan))
     assert compiled.jar is None
     assert str(programs) in compiled.messages
+
+
+def test_a_set_option_without_a_value_is_refused() -> None:
+    parser = argparse.ArgumentParser()
+    live.add_arguments(parser)
+    with pytest.raises(Failure, match="--set reading: write it as --set KEY=VALUE"):
+        live.run(parser.parse_args(["gradient", "--set", "reading"]))

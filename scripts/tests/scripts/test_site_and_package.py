@@ -1,4 +1,4 @@
-"""Tests that a full disk keeps the earlier outputs of `site` and `package`."""
+"""Tests the outputs of `site` and `package`, for example on a full disk."""
 import errno
 import functools
 import os
@@ -60,3 +60,18 @@ def test_an_archive_that_cannot_be_moved_keeps_the_earlier_one(tmp_path: Path, m
     monkeypatch.setattr(subprocess, "run", lambda *_, **__: SimpleNamespace(returncode=1, stdout=""))
     with pytest.raises(Failure, match="package: npm pack failed with code 1"):
         package._pack(tmp_path / "content", out, "")
+
+
+def test_an_archive_does_not_depend_on_the_umask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    content = tmp_path / "content"
+    (content / "folder").mkdir(parents=True, mode=0o700)
+    for name, mode in (("tool", 0o700), ("text", 0o600)):
+        (content / "folder" / name).touch(mode)
+
+    def pack(*_: object, **__: object) -> SimpleNamespace:
+        (tmp_path / "archive/a.tgz").touch()
+        return SimpleNamespace(returncode=0, stdout="a.tgz\n")
+
+    monkeypatch.setattr(subprocess, "run", pack)
+    package._pack(content, tmp_path / "out", "")
+    assert {path.name: path.stat().st_mode & 0o777 for path in content.rglob("*")} == {"folder": 0o755, "tool": 0o755, "text": 0o644}
