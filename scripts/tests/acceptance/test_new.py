@@ -66,8 +66,8 @@ class NewTest(Folder):
     def test_an_existing_folder_is_kept_and_invalid_names_are_refused(self) -> None:
         os.mkdir(self.path("herd"))
         os.symlink("nowhere", self.path("link"))
-        for name, message in (("herd", "'herd' already exists"), ("link", "'link' already exists"), ("Herd", "must consist of lower-case letters"), ("../up", "must consist of"),
-                              ("class", "'class' is a reserved word")):
+        for name, message in (("herd", "'herd' already exists"), ("link", "'link' already exists"),
+                              ("Herd", "must consist of lower-case letters"), ("../up", "must consist of"), ("class", "'class' is a reserved word")):
             result = collektive("new", name, cwd=self.folder)
             self.assertEqual(result.returncode, 1)
             self.assertIn(message, last_error(result))
