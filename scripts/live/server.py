@@ -238,7 +238,7 @@ class Live:
             if "select" not in command:
                 page.event({"event": "warning", "message": "Another page controls the simulation."})
         elif "save" in command:
-            await self.save(page, command["save"], command["text"])
+            await self.save(page, command["save"], command["text"], command["base"])
         elif "restart" in command:
             async with self._changing:
                 changes = {key: _text(value) for key, value in command["restart"].items()}
@@ -255,12 +255,20 @@ class Live:
         else:
             raise KeyError(next(iter(command), ""))
 
-    async def save(self, page: Page, name: str, text: str) -> None:
-        """Writes a source file of the programs, and reloads the programs."""
-        source = self._sources.get(name)
+    async def save(self, page: Page, name: str, text: str, base: str) -> None:
+        """Writes a source file of the programs, and reloads the programs. Refuses if the file no longer has the text `base`, which the page changed."""
+        try:
+            source = self.read_sources(self.plan).get(name)
+        except (OSError, Failure) as error:
+            page.event({"event": "warning", "message": f"cannot read the programs: {error}"})
+            return
         problem = f"'{name}' is not a file in the programs folder" if source is None else source.problem
         if source is None or problem:
             page.event({"event": "warning", "message": problem})
+            return
+        if source.text not in (base, text):
+            page.event({"event": "conflict", "file": name, "text": source.text})
+            page.event({"event": "warning", "message": f"'{name}' was changed in another editor; save again to replace that change"})
             return
         try:
             source.write(text)

@@ -160,6 +160,20 @@ suite('live', { timeout: 600000 }, async (t) => {
     await eventually(() => state(view), ({ speed }) => speed > 0.3, 'the swarm should move');
   });
 
+  await t.test('replaces a change of another editor only after a warning', async () => {
+    await tab.evaluate(() => window.live.files.view.dispatch({ changes: { from: 0, insert: '// here\n' } }));
+    writeFileSync(program, `// elsewhere\n${original}`);
+    await tab.focus('.cm-content');
+    await tab.keyboard.press('Control+s');
+    await tab.waitForSelector('#warning >> text=changed in another editor');
+    assert.match(readFileSync(program, 'utf8'), /^\/\/ elsewhere/);
+    await tab.keyboard.press('Control+s');
+    await eventually(() => readFileSync(program, 'utf8'), (text) => text === `// here\n${original}`, 'the second save should replace the file');
+    await eventually(() => tab.isDisabled('#save'), (disabled) => disabled, 'the file should be saved');
+    writeFileSync(program, original);
+    await eventually(() => tab.evaluate(() => window.live.files.text), (text) => text === original, 'the editor should show the file');
+  });
+
   await t.test('pauses, steps and changes the speed', async () => {
     await view.click('#play');
     const paused = await eventually(() => state(view), ({ running }) => !running, 'the simulation should pause');

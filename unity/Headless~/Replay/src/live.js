@@ -38,7 +38,9 @@ const THEME = EditorView.theme({
 /** The files of the programs. One of them is open in the editor. */
 class Files {
   constructor(onSave) {
-    this.files = new Map(); // name -> { state, saved, problem, problems }; a file with a problem cannot be edited
+    // name -> { state, saved, sent, problem, problems }: `saved` is the text on the disk that was changed here, `sent` the text that was saved last.
+    // A file with a problem cannot be edited.
+    this.files = new Map();
     this.name = null;
     this.editable = new Compartment();
     this.readOnly = false;
@@ -82,12 +84,19 @@ class Files {
     }
     const shown = name === this.name ? this.view.state : known.state;
     const isChanged = shown.doc.toString() !== known.saved;
-    known.saved = text;
     known.problem = problem;
+    // A change of another editor becomes the base of the changes here only after a warning.
+    if (!isChanged || text === known.sent || text === shown.doc.toString()) known.saved = text;
     if (isChanged || shown.doc.toString() === text) return;
     const change = { changes: { from: 0, to: shown.doc.length, insert: text } };
     if (name === this.name) this.view.dispatch(change);
     else known.state = shown.update(change).state;
+  }
+
+  /** Another editor has written `text`, which the next save replaces. */
+  conflict(name, text) {
+    this.files.get(name).saved = text;
+    this.describe();
   }
 
   stateOf(text) {
@@ -189,10 +198,10 @@ class Live {
     this.restarted = true;
     this.changes = {}; // keys of the scenario that the next start sets
     this.files = new Files((file, text) => {
-      this.files.files.get(file).saved = text;
-      this.files.describe();
+      const known = this.files.files.get(file);
+      known.sent = text;
       this.report('compiling …', '');
-      this.send({ save: file, text });
+      this.send({ save: file, text, base: known.saved });
     });
     this.bind();
     this.connect();
@@ -297,6 +306,10 @@ class Live {
     reload({ error, kept, stored }) {
       if (error) this.report(`Not reloaded; the previous programs continue: ${error}`, 'bad');
       else this.report(`reloaded: kept ${kept.toLocaleString('en')} of ${stored.toLocaleString('en')} stored values`, 'good');
+    },
+    conflict({ file, text }) {
+      this.files.conflict(file, text);
+      this.report('', '');
     },
     warning({ message }) {
       this.notify(message);
