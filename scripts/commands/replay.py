@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
         outputs.require_replaceable(arguments.out, b"CLKREC", "--out")
         if os.path.exists(arguments.out) and os.path.exists(arguments.record) and os.path.samefile(arguments.out, arguments.record):
             raise Failure(f"replay: --out '{arguments.out}' is the record that is read: name another file")
-    graph.build("jvm", "jvm_modules")
+    graph.build("jvm")
     # The samples' programs may have run in Unity.
     projects.record_own_program(SAMPLES_JAR)
     jars = arguments.runtime_jars and os.path.realpath(arguments.runtime_jars)
