@@ -1,10 +1,11 @@
 """Builds everything and runs all test suites, or the named ones. Areas of suites: lint, scripts, jvm, stress, shim, platforms, csharp, assets,
 faults, exits, soak, roundtrip, page, site, acceptance, experiments, chaos, fuzz, bench, gradle. These suites run only if named: platforms-all,
-ray (a cluster), maven, acceptance-slow, experiments-slow, csharp-on-coreclr, and the suites of other JDKs than the newest. cmake/Tests.cmake
+site, ray (a cluster), maven, acceptance-slow, experiments-slow, csharp-on-coreclr, and the suites of other JDKs than the newest. cmake/Tests.cmake
 declares the suites.
 
-gradle needs Gradle on the PATH or in COLLEKTIVE_GRADLE, and is skipped otherwise. platforms tests the native library for Linux and macOS on ARM64,
-and platforms-all also for Windows, under qemu and Wine if these can be installed. csharp runs on Mono, and on CoreCLR if named.
+gradle needs Gradle on the PATH or in COLLEKTIVE_GRADLE, and is skipped otherwise. platforms tests the code of the native library that depends on the
+processor, for Linux on ARM64 under qemu. platforms-all tests the whole library, also for Windows under Wine. Both are skipped if these emulators cannot be
+installed. csharp runs on Mono, and on CoreCLR if named.
 
 `test PROJECT` compiles and runs the Kotlin tests of a project: JUnit tests in the folder `tests` beside its programs. PROJECT is a scenario or a
 folder with scenarios.
