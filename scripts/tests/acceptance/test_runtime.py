@@ -11,6 +11,7 @@ import re
 import zipfile
 from pathlib import Path
 
+import pytest
 from command import Project, collektive, compiled
 
 from build import inputs, projects
@@ -92,6 +93,7 @@ class Runtimes(Project):
         repeated = collektive("repeat", self.path("b", "manifest.json"))
         self.assertEqual(repeated.returncode, 0, repeated.stderr)
 
+    @pytest.mark.slow
     def test_a_sweep_runs_both_runtimes_with_equal_digests(self) -> None:
         self.switch()
         self.change("lamps.json", '"runtime": "collektive", ', "")
@@ -117,6 +119,7 @@ class Runtimes(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("both.json:2: 'vary.runtime' is \"ScaFi\"; it must be BuiltIn or Collektive", result.stderr)
 
+    @pytest.mark.slow
     def test_a_record_is_replayed_on_the_other_runtime(self) -> None:
         self.completed("a")
         record = self.path("a", "run.clkrec")
