@@ -367,7 +367,7 @@ suite('live', { timeout: 600000 }, async (t) => {
       await page.tab.focus('.cm-content');
       await page.tab.keyboard.type('x');
       assert.ok(await page.tab.isDisabled('#save'));
-      await page.tab.evaluate((file) => window.live.send({ save: file, text: 'changed' }), name);
+      await page.tab.evaluate((file) => window.live.send({ save: file, text: 'changed', base: '' }), name);
       await page.tab.waitForSelector(`#warning >> text=${reason}`);
       assert.deepEqual(readFileSync(join(programs, name)), before);
     }
@@ -400,7 +400,7 @@ suite('live', { timeout: 600000 }, async (t) => {
     await page.view.evaluate(() => window.replay.select(3));
     await page.view.waitForFunction(() => /State(?!value).+ > .+\d/.test(document.getElementById('inspection').textContent), null, { polling: 100 });
     // Long values wrap, and leave room for the names.
-    assert.ok(await page.view.evaluate(() => [...document.querySelectorAll('#inspection dt')].every((term) => term.offsetWidth > 70)));
+    assert.ok(await page.view.evaluate(() => [...document.querySelectorAll('#inspection dt')].every((term) => term.offsetWidth > 50)));
     await picture(current, 'lesson');
     await current.evaluate(() => window.live.send({ open: 'nothing' }));
     await current.waitForSelector('#warning >> text=unknown example');
