@@ -69,7 +69,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(csharp-debugger-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Debugger)
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
 endforeach()
-# Weekly, with all repetitions. On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
+# These suites include all repetitions. On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
 suite(csharp-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --without Slow)
 suite(csharp-slow-on-coreclr csharp LABELS extra NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT ${coreclr} --only Slow)

@@ -56,19 +56,26 @@ def build_platforms(names: Iterable[str] = tuple(PLATFORMS)) -> None:
 
 
 def _is_built(name: str) -> bool:
-    configured = CROSS / f"{name}.arguments"
-    return configured.is_file() and configured.read_text() == _key(name) and graph.is_up_to_date(CROSS / name)
+    return _is_configured(name) and graph.is_up_to_date(CROSS / name)
 
 
 def _build(name: str) -> None:
-    tree, configured = CROSS / name, CROSS / f"{name}.arguments"
+    tree = CROSS / name
     caches = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(BUILD / "zig-cache"), "ZIG_LOCAL_CACHE_DIR": str(BUILD / "zig-cache")}
     log = f"shim-{name}"
-    if not configured.is_file() or configured.read_text() != _key(name):
+    if not _is_configured(name):
         shutil.rmtree(tree, ignore_errors=True)
         run_logged(log, ["cmake", *_arguments(name)], env=caches)
-        configured.write_text(_key(name))
+        _stamp(name).write_text(_key(name))
     run_logged(log, ["cmake", "--build", tree], env=caches)
+
+
+def _is_configured(name: str) -> bool:
+    return _stamp(name).is_file() and _stamp(name).read_text() == _key(name)
+
+
+def _stamp(name: str) -> Path:
+    return CROSS / f"{name}.arguments"
 
 
 def _key(name: str) -> str:

@@ -9,9 +9,10 @@ internal class OutputFolder(private val root: Path) {
 
     fun write(path: String, bytes: ByteArray) {
         val file = root.resolve(path)
-        if (Files.exists(file) && Files.readAllBytes(file).contentEquals(bytes)) return
+        val old = if (Files.exists(file)) Files.readAllBytes(file) else null
+        if (old.contentEquals(bytes)) return
         if (Files.isSymbolicLink(file)) throw GeneratorException("$file is a symbolic link: remove it, or choose another folder")
-        if (path.substringAfterLast('.') in SOURCES && Files.exists(file) && !isGenerated(file)) {
+        if (path.substringAfterLast('.') in SOURCES && old != null && !isGenerated(old)) {
             throw GeneratorException("$file exists and was not generated: move it, or choose another folder")
         }
         Files.createDirectories(file.parent)
@@ -38,8 +39,8 @@ internal class OutputFolder(private val root: Path) {
         }
     }
 
-    /** Returns whether the first line of [file] is a generator's, or a full disk has left the file empty. */
-    private fun isGenerated(file: Path): Boolean = Files.readAllBytes(file).toString(Charsets.ISO_8859_1).let {
+    /** Returns whether the first line marks a file as generated, or the file is empty because the disk was full. */
+    private fun isGenerated(bytes: ByteArray): Boolean = bytes.toString(Charsets.ISO_8859_1).let {
         it.isEmpty() || it.lineSequence().first().contains("generated", ignoreCase = true)
     }
 

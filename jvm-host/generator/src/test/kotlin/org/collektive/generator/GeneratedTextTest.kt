@@ -138,8 +138,8 @@ internal class GeneratedTextTest {
             val file = Fixture.files(output).first { "$it".endsWith(".$ending") }
             val generated = Files.readAllBytes(file)
             Files.writeString(file, "// Written by hand.")
-            val own = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
-            assertEquals("$file exists and was not generated: move it, or choose another folder", own.message)
+            val error = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
+            assertEquals("$file exists and was not generated: move it, or choose another folder", error.message)
             assertEquals("// Written by hand.", Files.readString(file))
             Files.delete(file)
             Files.createSymbolicLink(file, elsewhere)
