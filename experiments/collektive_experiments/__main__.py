@@ -76,7 +76,7 @@ def _sweep(options: argparse.Namespace) -> int:
 
 
 def _tune(options: argparse.Namespace) -> int:
-    # Imported here, because Optuna is downloaded only for this command.
+    # This import is here because Optuna is downloaded only for this command.
     from .tune import read_search, tune
     experiment = experiments.read(options.experiment)
     search = read_search(experiment)
@@ -88,7 +88,7 @@ def _tune(options: argparse.Namespace) -> int:
 def _pool(options: argparse.Namespace, store: Store) -> Pool:
     if options.ray is None:
         return LocalPool(store, options.jobs, options.time_limit, options.trust_jvm)
-    # Imported here, because Ray is downloaded only for this option.
+    # This import is here because Ray is downloaded only for this option.
     from .cluster import RayPool
     return RayPool(store, options.ray, options.time_limit, options.trust_jvm)
 
@@ -105,7 +105,7 @@ def _line(message: str) -> str:
 
 
 def _plot(options: argparse.Namespace) -> int:
-    # Imported here, because importing Matplotlib takes half a second.
+    # This import is here because importing Matplotlib takes half a second.
     from .figures import plot
     given = {option: value for option in figure_options.KEYS if (value := getattr(options, option)) is not None}
     requested = figure_options.read_options(given, lambda option, problem: ExperimentError(f"plot: --{option} {problem}")) if given else None

@@ -61,7 +61,7 @@ class _RemoteWorker:
         return outcome, seconds, packed.getvalue()
 
 
-# Type checkers do not know the class that Ray's decorator returns.
+# Type checkers cannot infer the class that Ray's decorator returns.
 RemoteWorker: Any = _RemoteWorker
 
 

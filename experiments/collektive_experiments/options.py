@@ -6,8 +6,8 @@ import re
 
 def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive sweep."""
-    where = _add_run_arguments(parser)
-    where.add_argument("--slurm", action="store_true", help="write slurm.sh, an array job for the remaining runs, instead of running them")
+    group = _add_run_arguments(parser)
+    group.add_argument("--slurm", action="store_true", help="write slurm.sh, an array job for the remaining runs, instead of running them")
     parser.add_argument("--resume", action="store_true", help="continue a sweep that was stopped; complete runs are not repeated")
     parser.add_argument("--csv", action="store_true", help="also write the tables as CSV files")
     parser.add_argument("--dry-run", action="store_true", help="make three trial runs, and print the number of runs and their estimated time")
@@ -29,9 +29,9 @@ def _add_run_arguments(parser: argparse.ArgumentParser) -> "argparse._MutuallyEx
                         help="simultaneous runs (default: the number of processors)")
     parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
     parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
-    where = parser.add_mutually_exclusive_group()
-    where.add_argument("--ray", metavar="ADDRESS", help="run on the Ray cluster at ADDRESS; auto uses the local cluster, and starts one if none is running")
-    return where
+    group = parser.add_mutually_exclusive_group()
+    group.add_argument("--ray", metavar="ADDRESS", help="run on the Ray cluster at ADDRESS; auto uses the local cluster, and starts one if none is running")
+    return group
 
 
 def add_plot_arguments(parser: argparse.ArgumentParser) -> None:

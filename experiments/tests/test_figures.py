@@ -64,7 +64,7 @@ def out(sweep: str) -> Iterator[Path]:
 def test_each_kind_is_a_vector_file_with_embedded_fonts(out: Path, kind: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(out), "--metric", "error", *KINDS[kind], "--size", "3.3x2.2", "--style", "ieee"]) == 0
     paths = capsys.readouterr().out.split()
-    assert len(paths) == 3 * (4 if kind in ("time", "ecdf") else 1), "there must be a figure for each value of a key that is neither x nor by"
+    assert len(paths) == 3 * (4 if kind in ("time", "ecdf") else 1), "each value of a key that is neither x nor by must have a figure"
     pdf = Path(paths[1]).read_bytes()
     assert b"/MediaBox [ 0 0 237.6 158.4 ]" in pdf
     assert b"/FontFile2" in pdf and b"/Type3" not in pdf

@@ -122,7 +122,7 @@ def test_kaplan_meier_of_uncensored_runs_is_the_empirical_distribution() -> None
         moments, shares, low, high = kaplan_meier(times, np.ones(size, bool))
         assert shares == pytest.approx([(times <= moment).mean() for moment in moments])
         assert ((low <= shares) & (shares <= high))[:-1].all()
-        # Censored runs lower the estimate. If all runs are censored, there is nothing to estimate.
+        # Censored runs lower the estimate. If all runs are censored, nothing can be estimated.
         moments, shares, _, _ = kaplan_meier(times, random.random(size) < 0.5)
         assert all(share <= (times <= moment).mean() + 1e-12 for moment, share in zip(moments, shares))
     assert len(kaplan_meier(np.ones(3), np.zeros(3, bool))[0]) == 0

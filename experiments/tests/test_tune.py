@@ -11,9 +11,9 @@ TUNE: dict[str, Any] = {"metric": "agreeing", "direction": "maximize", "trials":
                         "parameters": {"fields.lamps": {"from": 3, "to": 6}, "network.loss": [0, 0.5]}}
 
 
-def tune(project: Project, *words: str, out: str = "out", **changes: Any) -> subprocess.CompletedProcess[str]:
+def tune(project: Project, *arguments: str, out: str = "out", **changes: Any) -> subprocess.CompletedProcess[str]:
     path = project.experiment(vary={"seed": "1-2"}, set={"seconds": 1}, tune={**TUNE, **changes})
-    command = project.command("tune", path, "--out", str(project.folder / out), "--jobs", "2", *words)
+    command = project.command("tune", path, "--out", str(project.folder / out), "--jobs", "2", *arguments)
     return subprocess.run(command, capture_output=True, text=True, timeout=120)
 
 

@@ -115,7 +115,7 @@ typedef struct clk_jvm_config {
     const char *class_path;     /* jars of the host, with the platform's separator */
     const char *const *options; /* JVM options, one string each, in order; may be NULL when option_count is 0 */
     int32_t start_limit_ms;     /* limit of the whole call; 1 or greater */
-    int32_t check_options;      /* not 0: try the options in a child process first; recommended, as invalid options can end this one */
+    int32_t check_options;      /* not 0: try the options in a child process first, because invalid options can end this one */
     int32_t placement;          /* one of enum clk_placement */
     int32_t reserved;           /* 0 */
 } clk_jvm_config;

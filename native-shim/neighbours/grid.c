@@ -136,7 +136,7 @@ static bool collect(const struct grid *grid, const float place[3], float inner, 
     int64_t length = (int64_t)last.x - first.x + 1;
     int64_t rows = ((int64_t)last.y - first.y + 1) * ((int64_t)last.z - first.z + 1);
     if (length <= 0) return true;
-    /* If there are more cells than points, all points are checked. The number of cells may exceed the range of int64_t, so it is a double. */
+    /* If the cells outnumber the points, all points are checked. The number of cells may exceed the range of int64_t, so it is a double. */
     if ((double)length * (double)rows > grid->count || rows > MAX_ROWS)
         return append_hits(grid, 0, grid->count, place, band, true, 0, hits);
     for (int32_t y = first.y; y <= last.y; y++) {

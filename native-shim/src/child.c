@@ -18,7 +18,7 @@
 #define REAP_LIMIT_MS 1000 /* maximum time from the end of the connection to the end of the child */
 #define KILL_LIMIT_MS 10000
 
-/* Guarded by the turn, except atomics, semaphores, and the fields that the child's thread writes before it posts a semaphore. */
+/* The turn guards all fields except atomics, semaphores, and the fields that the child's thread writes before it posts a semaphore. */
 static struct {
     struct channel *channel; /* NULL before the first start */
     char **arguments;        /* command line of the child; NULL without a child */

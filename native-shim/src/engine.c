@@ -9,7 +9,7 @@
 #include "prim.h"
 #include "text.h"
 
-/* Large enough for deeply nested class loading and static initialisers. */
+/* This is large enough for deeply nested class loading and static initialisers. */
 #define STACK_BYTES ((size_t)16 * 1024 * 1024)
 
 static struct {

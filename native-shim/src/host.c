@@ -8,7 +8,7 @@
 
 #define COUNT(array) ((jint)(sizeof(array) / sizeof(array)[0]))
 
-/* Used on the engine thread only, except `security_exception`, which does not change after the start. */
+/* Only the engine thread uses these fields, except `security_exception`, which does not change after the start. */
 static struct {
     JNIEnv *env; /* JNI environment of the engine thread */
     jclass host;

@@ -184,7 +184,7 @@ void prim_child_kill(prim_child *child);
 
 /* Writes the argument with which the child finds the memory. */
 void prim_child_token(char *text, size_t size);
-/* Called in the child. Maps the memory, and ends this process when the parent ends. NULL if this process is not such a child. */
+/* Maps the memory in the child, and ends this process when the parent ends. NULL if this process is not such a child. */
 uint8_t *prim_child_attach(const char *token);
 
 #endif

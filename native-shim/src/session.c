@@ -13,7 +13,7 @@
 #define MAX_SESSIONS 256
 #define FIRST_ANSWER_BYTES (64 * 1024)
 #define DEBUG_CALL_MS 100   /* with a debugger, an open or step that takes longer is pending */
-#define DEBUG_LIMIT_MS 1000 /* with a debugger, other calls that take longer give up */
+#define DEBUG_LIMIT_MS 1000 /* with a debugger, other calls return CLK_TIMEOUT after this time */
 
 struct session {
     uint32_t generation; /* 0 before the first use */

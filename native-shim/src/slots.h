@@ -25,7 +25,7 @@ struct block {
 struct block *slots_pin(clk_slot slot);
 void slots_unpin(struct block *block); /* NULL does nothing */
 
-/* Gives the slot another block of at least `capacity` bytes, and returns this block pinned. The old block, which the caller has pinned, stays valid
+/* Assigns a block of at least `capacity` bytes to the slot, and returns this block pinned. The old block, which the caller has pinned, stays valid
  * until slots_unpin. On failure, sets the last error and returns NULL. */
 struct block *slots_exchange(clk_slot slot, int32_t capacity);
 

@@ -69,7 +69,7 @@ static void grow(int place) {
     clk_memory memory = {.size = sizeof memory};
     if (clk_slot_grow(any_handle(slots), any_number(200000), any_number(1000), &memory) == CLK_OK) {
         for (int i = 0; i < HANDLES; i++) {
-            /* Asking for 1 byte returns the current address, which has changed for the slot that grew. */
+            /* Requesting 1 byte returns the current address, which has changed for the slot that grew. */
             clk_memory same = {.size = sizeof same};
             if (memories[i].address != NULL && clk_slot_grow(slots[i], 1, 0, &same) == CLK_OK) memories[i] = same;
         }
@@ -160,7 +160,7 @@ void fuzz(void) {
     uint64_t count = 0;
     warm_up();
     for (; now_ns() < end; count++) {
-        /* Printed in advance, so that the seed is known after a crash. */
+        /* The seed is printed in advance, so it is in the output even after a crash. */
         printf("\rseed %llu", (unsigned long long)(first + count));
         fflush(stdout);
         run_sequence(first + count);

@@ -139,14 +139,14 @@ def _sync(path: Path) -> None:
 
 def summary(folder: Path) -> list[str]:
     """Returns the lines of a complete run's summary: metrics at the start and the end, times and files."""
-    ran = json.loads((folder / "manifest.json").read_text())
-    runtime = ran["scenario"]["runtime"]
+    run = json.loads((folder / "manifest.json").read_text())
+    runtime = run["scenario"]["runtime"]
     return [
-        f"{ran['nodes']} nodes, {ran['ticks']} ticks, {ran['shim_calls']} calls into the JVM, seed {ran['scenario']['seed']}, digest {ran['digest']}"
+        f"{run['nodes']} nodes, {run['ticks']} ticks, {run['shim_calls']} calls into the JVM, seed {run['scenario']['seed']}, digest {run['digest']}"
         + ("" if runtime == "BuiltIn" else f" (runtime {runtime})"),
-        *(f"  {name.replace('_', ' ')}: {float(ran['start'][name]):.2f} -> {float(ran['end'][name]):.2f}" for name in ran["end"]),
-        f"  bridge and rounds {ran['step_ms_median']:.2f} ms per tick (median), whole tick {ran['tick_ms_median']:.2f} ms (median), "
-        f"{ran['tick_ms_p99']:.2f} ms (p99)",
-        f"  {ran['ticks'] / max(ran['wall_seconds'], 1e-9):.0f} ticks/s; {ran['errors']} errors",
+        *(f"  {name.replace('_', ' ')}: {float(run['start'][name]):.2f} -> {float(run['end'][name]):.2f}" for name in run["end"]),
+        f"  bridge and rounds {run['step_ms_median']:.2f} ms per tick (median), whole tick {run['tick_ms_median']:.2f} ms (median), "
+        f"{run['tick_ms_p99']:.2f} ms (p99)",
+        f"  {run['ticks'] / max(run['wall_seconds'], 1e-9):.0f} ticks/s; {run['errors']} errors",
         *(str(folder / name) for name in sorted(os.listdir(folder))),
     ]

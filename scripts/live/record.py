@@ -9,7 +9,7 @@ from pathlib import Path
 from build.console import Failure
 from live.session import new_file
 
-# A record that becomes larger is deleted.
+# The content of a record that becomes larger is deleted.
 MAX_BYTES = 1_000_000_000
 _MAGIC_BYTES = 8
 _CHUNK = struct.Struct("<4sII")

@@ -53,21 +53,21 @@ class Compiler:
             start = time.monotonic()
             try:
                 programs = inputs.programs(plan.parts["programs"].path)
-                words = projects.compilation(plan.parts["schema"], programs, self._work, plan.parts.get("runtimeJars"), plan.parts.get("runtimePlugin"))
+                arguments = projects.compilation(plan.parts["schema"], programs, self._work, plan.parts.get("runtimeJars"), plan.parts.get("runtimePlugin"))
             except (Failure, OSError) as error:
                 return Compiled(None, [], str(error), 0)
-            code, messages = await self._request(words)
+            code, messages = await self._request(arguments)
             problems = [_problem(match, programs.path) for line in messages.splitlines() if (match := _PROBLEM.match(line))]
             return Compiled(self._work / "programs.jar" if code == 0 else None, problems, "" if code == 0 else messages,
                             round(1000 * (time.monotonic() - start)))
 
-    async def _request(self, words: Sequence[str | Path]) -> tuple[int, str]:
+    async def _request(self, arguments: Sequence[str | Path]) -> tuple[int, str]:
         if self._process is None or self._process.returncode is not None:
             command = projects.compile_server(self._folder)
             self._process = await asyncio.create_subprocess_exec(*command, stdin=asyncio.subprocess.DEVNULL)
         name = uuid.uuid4().hex
         part = self._folder / f"{name}.part"
-        part.write_text("".join(f"{word}\0" for word in words), encoding="utf-8")
+        part.write_text("".join(f"{argument}\0" for argument in arguments), encoding="utf-8")
         part.rename(self._folder / f"{name}.request")
         response = self._folder / f"{name}.response"
         while not response.exists():
@@ -100,13 +100,13 @@ class Player:
         self._writer: asyncio.StreamWriter | None = None
         self._reading: asyncio.Task[None] | None = None
 
-    async def start(self, scenario: str, plan: player.Plan, jar: Path, dll: Path, folder: Path, words: Sequence[str]) -> None:
+    async def start(self, scenario: str, plan: player.Plan, jar: Path, dll: Path, folder: Path, options: Sequence[str]) -> None:
         """Starts the process, which writes its outputs to `folder`. Deletes earlier content of the folder first."""
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir()
         own_end, player_end = socket.socketpair()
         with player_end:
-            command = player.command("live", scenario, plan, jar, dll, find_jdk(), ["--out", folder, "--channel", str(player_end.fileno()), *words])
+            command = player.command("live", scenario, plan, jar, dll, find_jdk(), ["--out", folder, "--channel", str(player_end.fileno()), *options])
             self._process = await asyncio.create_subprocess_exec(
                 *command, env=managed.environment("mono-sgen"), stdin=asyncio.subprocess.DEVNULL, pass_fds=[player_end.fileno()])
         reader, self._writer = await asyncio.open_connection(sock=own_end)

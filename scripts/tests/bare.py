@@ -162,7 +162,7 @@ def _make(name: str, work: Path, root: Path) -> None:
     """Creates a minimal system with a clone of HEAD and this machine's client settings."""
     suite = ROOTS[name]
     if suite == "noble":
-        # Debian 12's debootstrap does not know this suite. The script of another Ubuntu suite works, too, because they are identical.
+        # Debian 12's debootstrap does not support this suite. The script of another Ubuntu suite works, too, because they are identical.
         script = [] if Path("/usr/share/debootstrap/scripts", suite).exists() else ["/usr/share/debootstrap/scripts/jammy"]
         mirror = _mirror("Ubuntu")
         keyring = _ubuntu_keyring(name, work, suite, mirror, script)

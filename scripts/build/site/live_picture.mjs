@@ -1,5 +1,5 @@
 // Saves frames of a ./collektive live page as PNG files while an edit turns the swarm around: node live_picture.mjs ADDRESS FOLDER COUNT
-// The simulation should have just started. Between two frames it is paused, because a browser may be too busy to take one while it runs.
+// The simulation should have just started. Between two frames it is paused, because a browser may be too busy to capture one while it runs.
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { launch } from '../../../unity/Headless~/Replay/browser.mjs';

@@ -21,7 +21,7 @@ CLASSES = {
 YAML_ENDINGS = (".prefab", ".unity", ".mat", ".asset")
 # The file id and the reference type of the main object of an imported asset.
 IMPORTED = {".cs": ("11500000", "3"), ".shader": ("4800000", "3")}
-# The identifier that ProgramLibraryImporter.cs gives to a library of programs. A program's identifier is its name.
+# The identifier that ProgramLibraryImporter.cs assigns to a library of programs. A program's identifier is its name.
 LIBRARY = "<root>"
 # Fields that only scripts may set. Scenes must refer to libraries and programs instead.
 TEXTS = {"Collektive.Unity.SimulationManager": {"settings.schema", "settings.jars", "settings.program"}, "Collektive.Unity.Node": {"program"}}

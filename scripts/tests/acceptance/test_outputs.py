@@ -33,7 +33,7 @@ class Outputs(Project):
         _, frames = replay.read(self.path("out", "replay.html"))
         _, nodes, _ = frames[-1]
         brightest = {round(value, 3) for *_, value in nodes.values()}
-        self.assertEqual(len(brightest), 1, "in the end, all lamps must know the brightest one")
+        self.assertEqual(len(brightest), 1, "in the end, all lamps must have the same answer")
 
     def test_capsules_and_directions_of_links_are_in_the_replay(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')

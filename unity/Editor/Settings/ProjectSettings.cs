@@ -13,15 +13,15 @@ namespace Collektive.Unity.Editor
         /// <summary>Whether a running simulation continues with programs that are saved and built while it runs.</summary>
         public bool reloadWhilePlaying = true;
 
-        /// <summary>Used up to version 0.2. <see cref="PersonalSettings"/> has replaced this field.</summary>
+        /// <summary>Field of versions up to 0.2, replaced by <see cref="PersonalSettings"/>.</summary>
         [HideInInspector]
         public string jdk = "";
 
-        /// <summary>Used up to version 0.2. <see cref="PersonalSettings"/> has replaced this field.</summary>
+        /// <summary>Field of versions up to 0.2, replaced by <see cref="PersonalSettings"/>.</summary>
         [HideInInspector]
         public string kotlin = "";
 
-        /// <summary>Used up to version 0.2. <see cref="PersonalSettings"/> has replaced this field.</summary>
+        /// <summary>Field of versions up to 0.2, replaced by <see cref="PersonalSettings"/>.</summary>
         [HideInInspector]
         public string sourceCheckout = "";
 

@@ -100,7 +100,7 @@ namespace Collektive.Headless
                 FieldAssignments.Add(field);
                 return;
             }
-            // Fields are set after all keys. An earlier assignment of a field that this key changes must become a key, so that it does not win.
+            // Fields are set after all keys. An earlier assignment of a field that this key changes must become a key, so that it does not override this key.
             foreach (var earlier in FieldAssignments.FindAll(assignment.Changes))
             {
                 Assignments.Add(Assignment.OfField(earlier));

@@ -25,7 +25,7 @@ namespace UnityEditor
 
     public static class ObjectFactory
     {
-        /// Makes the object a child of the parent, if any, and resets the position, rotation and scale. Then gives the object a unique name and selects it.
+        /// Makes the object a child of the parent, if any, and resets the position, rotation and scale. Then assigns a unique name and selects the object.
         public static void PlaceGameObject(GameObject go, GameObject parent = null)
         {
             if (parent != null)

@@ -5,7 +5,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.Crowd
 {
-    /// <summary>Detects walls and pillars, but not walkers, which are on another layer. The program knows walkers from their messages.</summary>
+    /// <summary>Detects walls and pillars, but not walkers, which are on another layer. The program receives the walkers' data in messages.</summary>
     [AddComponentMenu("Collektive/Samples/Crowd/Wall Sensor")]
     public sealed class WallSensor : ObstacleSensor<SensorData>
     {

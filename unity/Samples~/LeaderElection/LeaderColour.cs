@@ -4,7 +4,7 @@ using UnityEngine;
 
 namespace CollektiveSamples.LeaderElection
 {
-    /// <summary>Gives all nodes with the same leader the same colour.</summary>
+    /// <summary>Sets the same colour on all nodes with the same leader.</summary>
     [AddComponentMenu("Collektive/Samples/Leader Election/Leader Colour")]
     public sealed class LeaderColour : ColourActuator<ActuatorData>
     {

@@ -19,7 +19,7 @@ class LivePlayer extends Player {
     document.title = `${recording.metadata.title}, live`;
   }
 
-  /** Shows another recording, after a restart or when the current view cannot hold all nodes. */
+  /** Shows another recording, after a restart or when the current view does not have room for all nodes. */
   adopt(recording) {
     const [{ view: old, recording: { metadata } }] = this.runs;
     const isSame = metadata.title === recording.metadata.title;

@@ -85,7 +85,7 @@ class Files {
     const shown = name === this.name ? this.view.state : known.state;
     const isChanged = shown.doc.toString() !== known.saved;
     known.problem = problem;
-    // A change of another editor becomes the base of the changes here only after a warning.
+    // A change from another editor becomes the base of the changes here only after a warning.
     if (!isChanged || text === known.sent || text === shown.doc.toString()) known.saved = text;
     if (isChanged || shown.doc.toString() === text) return;
     const change = { changes: { from: 0, to: shown.doc.length, insert: text } };

@@ -54,7 +54,7 @@ namespace Collektive.Headless.Tests.Components
         [TestCase(1, 3, 1f)]
         [TestCase(300, 8, 0f)]
         [TestCase(300, 400, 3f)]
-        public void FindNearest_returns_the_nearest_nodes_in_order_for_any_guess(int count, int sought, float guess)
+        public void FindNearest_returns_the_nearest_nodes_in_order_for_any_guess(int count, int limit, float guess)
         {
             var random = new RandomStream(4, 0, RandomPurpose.Scene);
             Scatter(count, random);
@@ -64,7 +64,7 @@ namespace Collektive.Headless.Tests.Components
                 var centre = new Vector3(random.Range(-30f, 30f), random.Range(-2f, 2f), random.Range(-30f, 30f));
                 var sorted = new List<Node>(nodes);
                 sorted.Sort((a, b) => DistanceTo(centre, a).CompareTo(DistanceTo(centre, b)));
-                Assert.That(NodesOf(grid.FindNearest(centre, sought, guess)), Is.EqualTo(sorted.GetRange(0, Math.Min(sought, count))));
+                Assert.That(NodesOf(grid.FindNearest(centre, limit, guess)), Is.EqualTo(sorted.GetRange(0, Math.Min(limit, count))));
             }
         }
 

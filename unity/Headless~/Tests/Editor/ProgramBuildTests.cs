@@ -119,7 +119,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Project.ProgressItems[Project.ProgressItems.Count - 1].Status, Is.EqualTo(Progress.Status.Canceled));
             Assert.That(Log, Is.Empty);
 
-            // Simulates a domain reload. The new domain knows of the build only through the session state, and must finish it.
+            // Simulates a domain reload. The new domain can find the build only in the session state, and must finish it.
             SessionState.SetString("Collektive.Build", Jar);
             Menus.Postprocess(new string[0], new string[0]);
             Build();

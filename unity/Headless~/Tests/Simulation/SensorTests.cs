@@ -164,7 +164,7 @@ namespace Collektive.Headless.Tests.Simulation
             ball.sleepThreshold = 0; // prevents sleeping, because contacts of a sleeping body have no impulse
             var sensor = ball.gameObject.AddComponent<Contacts>();
             Play(1);
-            Assert.That(sensor.Values, Is.Empty, "there must not be any contact before the first physics step");
+            Assert.That(sensor.Values, Is.Empty, "the sensor must have no contacts before the first physics step");
             Play(40);
             Assert.That(sensor.Values.Count, Is.EqualTo(1));
             Assert.That(sensor.Values[0].Body == null, Is.True);

@@ -30,9 +30,9 @@ namespace Collektive.Headless.Tests.Engine
         [TestCase(36f, true)] // tan 36 = 0.73
         public void A_box_slides_on_a_slope_above_its_friction_angle_and_rests_below(float degrees, bool slides)
         {
-            var way = SlideDistance(degrees, null, null); // both have the default friction, 0.6
-            if (slides) Assert.That(way, Is.GreaterThan(0.5f));
-            else Assert.That(way, Is.LessThan(0.01f));
+            var distance = SlideDistance(degrees, null, null); // both have the default friction, 0.6
+            if (slides) Assert.That(distance, Is.GreaterThan(0.5f));
+            else Assert.That(distance, Is.LessThan(0.01f));
         }
 
         [Test]

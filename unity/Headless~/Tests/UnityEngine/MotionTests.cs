@@ -42,7 +42,7 @@ namespace Collektive.Headless.Tests.Engine
             Run(2f);
             Assert.That(counter.Impulse, Is.EqualTo(mass * 9.81f * Step).Within(1f).Percent);
             Assert.That(counter.Enters, Is.EqualTo(1));
-            Assert.That(counter.Stays, Is.EqualTo(99), "there must be a Stay message in each step after Enter");
+            Assert.That(counter.Stays, Is.EqualTo(99), "each step after Enter must send a Stay message");
         }
 
         [Test]

@@ -95,7 +95,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(hit.collider, Is.SameAs(wall));
             Assert.That(hit.distance, Is.EqualTo(6.5f).Within(Gap));
             Assert.That(body.SweepTest(Vector3.right, out _, 6f), Is.False);
-            Assert.That(body.SweepTestAll(Vector3.right).Length, Is.EqualTo(2), "there must be a hit for each collider");
+            Assert.That(body.SweepTestAll(Vector3.right).Length, Is.EqualTo(2), "each collider must have a hit");
         }
 
         [TestCase(-1f, 1f, 1f)]

@@ -86,11 +86,11 @@ namespace UnityEngine
                 otherRotation = ownConnectedBody.rotation;
                 otherScale = ownConnectedBody.owner.TransformUnchecked.lossyScale;
             }
-            var unturn = Quaternion.Inverse(otherRotation);
-            var otherAnchor = unturn * (body.position + body.rotation * point - otherPosition);
+            var inverseRotation = Quaternion.Inverse(otherRotation);
+            var otherAnchor = inverseRotation * (body.position + body.rotation * point - otherPosition);
             if (ownAutoConfigure) ownConnectedAnchor = new Vector3(otherAnchor.x / otherScale.x, otherAnchor.y / otherScale.y, otherAnchor.z / otherScale.z);
             else otherAnchor = Vector3.Scale(ownConnectedAnchor, otherScale);
-            joint.OtherPose = new Physx.Pose(otherAnchor, (unturn * body.rotation * turn).normalized);
+            joint.OtherPose = new Physx.Pose(otherAnchor, (inverseRotation * body.rotation * turn).normalized);
             Describe(ref joint);
             PhysicsWorld.Flush();
             Handle = Physx.physics_joint_create(PhysicsWorld.Handle, &joint);

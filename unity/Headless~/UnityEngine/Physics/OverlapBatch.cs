@@ -18,7 +18,7 @@ namespace UnityEngine
 
         public static bool IsRunning { get; private set; }
 
-        /// Starts a batch. Each sphere has `maxHits` results, which receive the colliders that touch it. If there are fewer, null follows the last one.
+        /// Starts a batch. Each sphere has `maxHits` results, which receive the colliders that touch it. With fewer colliders, null follows the last one.
         public static void Begin(Span<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int maxHits)
         {
             PhysicsWorld.Flush();

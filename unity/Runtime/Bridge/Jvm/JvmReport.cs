@@ -31,7 +31,7 @@ namespace Collektive.Bridge
         /// <param name="toLaunch">Returns the JVM's command line; throws <see cref="BridgeException"/> if no JVM is found.</param>
         internal static JvmReport Of(JvmSettings settings, Func<JvmSettings, JvmLaunch> toLaunch) => Of(settings, Jvm.TryGetStatus(), toLaunch);
 
-        /// <summary>Like the other overload, but with a status that was read earlier. May be called from any thread.</summary>
+        /// <summary>Checks the settings against a status that was read earlier. May be called from any thread.</summary>
         internal static JvmReport Of(JvmSettings settings, JvmStatus status, Func<JvmSettings, JvmLaunch> toLaunch)
         {
             var report = new JvmReport(status);

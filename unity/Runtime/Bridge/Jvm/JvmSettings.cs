@@ -21,9 +21,9 @@ namespace Collektive.Bridge
     /// <summary>The process that the JVM runs in, which does not affect results.</summary>
     public enum JvmPlacement
     {
-        /// <summary>On a thread of this process. A process can start only one JVM.</summary>
+        /// <summary>A thread of this process. A process can start only one JVM.</summary>
         InProcess,
-        /// <summary>In a child process, connected by shared memory. A crash ends only the session, and the next session can have other settings.</summary>
+        /// <summary>A child process, connected by shared memory. A crash ends only the session, and the next session can have other settings.</summary>
         OwnProcess,
     }
 

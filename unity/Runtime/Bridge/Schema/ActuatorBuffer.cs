@@ -24,7 +24,7 @@ namespace Collektive.Bridge
         /// <summary>Returns the element at an index below <see cref="Count"/>, boxed, for tools that do not know the schema's types.</summary>
         internal abstract object Get(int index);
 
-        /// <summary>Like <see cref="Get"/>, for the previously attached table.</summary>
+        /// <summary>Returns an element of the previously attached table, boxed.</summary>
         internal abstract object GetPrevious(int index);
 
         /// <summary>

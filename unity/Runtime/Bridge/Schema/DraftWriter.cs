@@ -17,7 +17,7 @@ namespace Collektive.Bridge
         private const int MaxAlignment = 8;
 
         private FlatBufferBuilder builder;
-        // Filled backwards from its end, like the frame.
+        // This is filled backwards from its end, like the frame.
         private byte[] memory = new byte[1024];
         private int free;
         // Size of the frame when this block began.

@@ -19,7 +19,7 @@ namespace Collektive.Unity
         internal PartList Actuators;
         internal PartList Rules;
 
-        // Sorted by the time of enabling, which determines the ids. A disabled node leaves a gap (null), because closing each gap immediately would
+        // The order of enabling determines the ids. A disabled node leaves a gap (null), because closing each gap immediately would
         // move all later nodes.
         private static readonly List<Node> EnabledNodes = new List<Node>();
         private static int gaps;
@@ -116,7 +116,7 @@ namespace Collektive.Unity
         /// </summary>
         public ulong AnswerTick { get; private set; }
 
-        /// <summary>Simulated time of the last round that gave an answer, in seconds; -1 before the first answer.</summary>
+        /// <summary>Simulated time of the last round that returned an answer, in seconds; -1 before the first answer.</summary>
         public double AnswerTime { get; private set; } = -1;
 
         /// <summary>

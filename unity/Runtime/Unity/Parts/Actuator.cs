@@ -38,7 +38,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Called once after each round that gave an answer, on the main thread, before physics advances. A struct is passed as a copy. A table is passed
+        /// Called once after each round that returned an answer, on the main thread, before physics advances. A struct is passed as a copy. A table is passed
         /// as a view of the bridge's memory, which is valid during the call only.
         /// </summary>
         protected abstract void Act(TData data);

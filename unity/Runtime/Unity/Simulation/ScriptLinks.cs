@@ -41,7 +41,7 @@ namespace Collektive.Unity
             var missing = simulation.Find(a) == null ? a : b;
             if (simulation.Find(missing) == null)
             {
-                // Nodes may leave while scripts still know their ids or receive messages about their colliders.
+                // Nodes may leave while scripts still have their ids or receive messages about their colliders.
                 if (warnedIds.Add(missing))
                 {
                     Debug.LogWarning("cannot " + verb + " a link between nodes " + a + " and " + b + ": node " + missing

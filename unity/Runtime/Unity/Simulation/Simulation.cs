@@ -487,15 +487,15 @@ namespace Collektive.Unity
         {
             // Answers and due nodes are both sorted by id. A due node without an answer failed.
             var answer = session.Answer;
-            var answered = answer.Nodes;
-            var count = answered.Length;
+            var answeredIds = answer.Nodes;
+            var count = answeredIds.Length;
             var allAnswered = count == due.Count;
             AllRoundsFailed = count == 0 && !allAnswered;
             for (int i = 0, place = 0; i < count && IsOpen; i++, place++)
             {
                 if (!allAnswered)
                 {
-                    while (due.Items[place].Id != answered[i]) place++;
+                    while (due.Items[place].Id != answeredIds[i]) place++;
                 }
                 var (node, id) = due.Items[place];
                 // An earlier actuator may have removed the node, or removed and added it again.

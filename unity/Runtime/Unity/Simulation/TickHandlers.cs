@@ -12,7 +12,7 @@ namespace Collektive.Unity
         private readonly Dictionary<Action<SimulationManager>, int> failuresInRow = new Dictionary<Action<SimulationManager>, int>();
         private Action<SimulationManager> all;
 
-        // Never modified, only replaced, because handlers may be added or removed while others are called.
+        // This array is replaced and never modified, because handlers may be added or removed while others are called.
         private Delegate[] each = Array.Empty<Delegate>();
 
         internal void Add(Action<SimulationManager> handler) => Set(all + handler);

@@ -32,7 +32,7 @@ namespace Collektive.Unity
 
         [SerializeField]
         [Min(0)]
-        [Tooltip("Maximum number of links. If there are more, none are drawn. 100,000 links take 2 ms per tick.")]
+        [Tooltip("Maximum number of links. No links are drawn if the scene has more. 100,000 links take 2 ms per tick.")]
         private int limit = 100000;
 
         [SerializeField]
@@ -89,7 +89,7 @@ namespace Collektive.Unity
             set => width = value;
         }
 
-        /// <summary>Maximum number of directed links, 0 or greater. If there are more, none are drawn.</summary>
+        /// <summary>Maximum number of directed links, 0 or greater. No links are drawn if the scene has more.</summary>
         public int Limit
         {
             get => limit;
@@ -250,8 +250,8 @@ namespace Collektive.Unity
         {
             var nodes = manager.Nodes;
             if (places.Length < nodes.Count) Array.Resize(ref places, Math.Max(nodes.Count, 2 * places.Length));
-            var least = Vector3.positiveInfinity;
-            var most = Vector3.negativeInfinity;
+            var min = Vector3.positiveInfinity;
+            var max = Vector3.negativeInfinity;
             for (var i = 0; i < nodes.Count; i++)
             {
                 var node = nodes[i];
@@ -259,10 +259,10 @@ namespace Collektive.Unity
                 var position = node.Body.position;
                 placeOf[node.Id] = i;
                 places[i] = position;
-                least = Vector3.Min(least, position);
-                most = Vector3.Max(most, position);
+                min = Vector3.Min(min, position);
+                max = Vector3.Max(max, position);
             }
-            if (nodes.Count > 0) bounds = new Bounds(0.5f * (least + most), most - least + width * Vector3.one);
+            if (nodes.Count > 0) bounds = new Bounds(0.5f * (min + max), max - min + width * Vector3.one);
         }
 
         /// <summary>Copies the first items of an array to a buffer with room for the whole array.</summary>

@@ -61,7 +61,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
 
         private const val IMPORTS = "import it.unibo.collektive.aggregate.*; import it.unibo.collektive.aggregate.api.*;"
 
-        /** Compiles [source] with imports of all names of the DSL. Reports count the lines as they are written. */
+        /** Compiles [source] with imports of all names of the DSL. Reports contain the line numbers of [source]. */
         fun of(source: String, vararg options: String, module: String = "programs"): Compilation {
             val folder = Files.createTempDirectory("compilation")
             Runtime.getRuntime().addShutdownHook(Thread { folder.toFile().deleteRecursively() })

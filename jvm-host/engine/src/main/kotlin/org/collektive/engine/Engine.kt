@@ -318,7 +318,7 @@ public class Engine @JvmOverloads constructor(
         const val MIN_RANGE = 16
         const val MAX_RANGE = 128
 
-        // Large enough for the cache misses of the rounds to overlap, but small enough for the L1 cache.
+        // This is large enough for the cache misses of the rounds to overlap, but small enough for the L1 cache.
         const val PREFETCHED_ROUNDS = 64
     }
 }

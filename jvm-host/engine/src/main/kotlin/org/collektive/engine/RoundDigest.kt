@@ -5,7 +5,7 @@ import java.nio.ByteOrder
 import java.security.MessageDigest
 
 /**
- * The chained digest of a session's answers. Sessions with the same digest gave identical answers.
+ * The chained digest of a session's answers. Sessions with the same digest returned identical answers.
  *
  * `d[0]` is 32 zero bytes. `d[k]` is the SHA-256 of `d[k-1]` and the tick (u64), then for each due node in id order its id (i32), the
  * length of its answer in bytes (i32; -1 if the round failed) and the answer. All integers are little-endian.

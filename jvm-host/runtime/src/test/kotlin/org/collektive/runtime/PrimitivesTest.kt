@@ -129,7 +129,7 @@ class PrimitivesTest {
         network.line(1, 3)
         val third = network.round(program)
         assertEquals(mapOf(1 to "2 from 1"), third[2])
-        assertEquals(mapOf(1 to "1 from 1"), third[3], "node 1 did not know node 3 when it sent, so node 3 must get the local value")
+        assertEquals(mapOf(1 to "1 from 1"), third[3], "node 3 was not a neighbour when node 1 sent, so it must get the local value")
         assertEquals(mapOf(1 to "3 from 1"), network.round(program)[3])
     }
 

@@ -14,7 +14,7 @@ internal object FuzzSeeds {
 
     private val jars = listOf(FuzzedPrograms.PATH)
 
-    // Sorted, because the order of a `Map.of` differs from one run of the JVM to the next.
+    // The names are sorted, because the order of a `Map.of` differs from one run of the JVM to the next.
     private val types = ProbeSchema.types.toSortedMap()
 
     /** Returns the first tick of the network that [StepFuzzer] uses. */

@@ -12,7 +12,7 @@ class InlineSourceMapTest {
     fun `code that the compiler inlined has the line of its call`() {
         val here = Throwable().stackTrace.first().lineNumber
         val frame = assertFailsWith<IllegalStateException> { refuse("inlined") }.stackTrace.first()
-        assertTrue(frame.lineNumber > LAST_LINE, "the compiler must give inlined code line numbers beyond the end of the file: $frame")
+        assertTrue(frame.lineNumber > LAST_LINE, "inlined code must have line numbers beyond the end of the file: $frame")
         assertEquals(here + 1, lines.inFile(frame.lineNumber))
     }
 

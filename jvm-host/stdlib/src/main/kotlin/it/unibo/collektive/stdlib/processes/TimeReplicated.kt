@@ -17,7 +17,7 @@ public typealias ReplicaID = ULong
 /**
  * Runs several overlapping replicas of [process] and returns the result of the oldest one.
  *
- * Use this function for a process that never forgets, such as `nonStabilizingGossip`. The result then follows changes, because each
+ * Use this function for a process that never discards values, such as `nonStabilizingGossip`. The result then follows changes, because each
  * replica and its state end after [timeToSpawn] * [maxReplicas]. [process] must settle within [timeToSpawn] * ([maxReplicas] - 1).
  *
  * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).

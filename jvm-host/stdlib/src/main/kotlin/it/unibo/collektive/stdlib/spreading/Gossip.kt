@@ -19,7 +19,7 @@ import kotlinx.serialization.Serializable
  *
  * This is gossip over self-avoiding paths: each value carries the list of the devices that it passed. A device ignores offers by the
  * rules of [gradientCast], with distances in hops, so a value disappears after its origin has changed it or has left. The device combines
- * its own value with each of the remaining offers, beginning with the shortest paths. It takes a result that is better than the best one
+ * its own value with each of the remaining offers, beginning with the shortest paths. It keeps a result that is better than the best one
  * so far.
  *
  * The function is self-stabilising if [reducer] returns one of its arguments. Once values and links stop changing, every device has the

@@ -27,7 +27,7 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * - an offer whose path contains a neighbour that is nearer than the offer, or that offers nothing;
  * - an offer that has common hops in a different order with an offer over fewer hops, or over as many hops at a different distance.
  *
- * The device takes the nearest of the remaining offers and sends the result to its neighbours. The neighbour that made this offer gets
+ * The device selects the nearest of the remaining offers and sends the result to its neighbours. The neighbour that made this offer gets
  * the next best one instead. If offers are equally near, the neighbour with the lower id wins.
  *
  * The function is self-stabilising. Once sources, links, data and metric stop changing, stale offers disappear after as many rounds of
@@ -42,7 +42,7 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * @param metric the distances to the neighbours, coerced to [bottom]..[top]. Paths are shortest only if distances exceed [bottom].
  * @param maxDiameter the greatest number of hops of a neighbour's offer. Data therefore travels one hop farther.
  * @param accumulateData computes the data on this device from the neighbour's distance to the source, the distance to the neighbour and
- *   the neighbour's data. It is called only for offers that are taken, and must depend on its arguments alone.
+ *   the neighbour's data. It is called only for offers that are selected, and must depend on its arguments alone.
  * @param accumulateDistance adds the distance to a neighbour to that neighbour's distance from the source. The sum is coerced to
  *   [bottom]..[top].
  * @throws IllegalStateException when an aligned neighbour has no value in [metric], or when a sum is less than one of its parts.

@@ -15,7 +15,7 @@ import it.unibo.collektive.stdlib.util.aligned
  * Merges the values that all devices had in their first rounds into one by flooding.
  *
  * After as many rounds as the diameter of the connected component, the result contains the values of all its devices. The function is
- * **not** self-stabilising: a merged value remains even after its origin has changed it or has left. If values must be forgotten, use
+ * **not** self-stabilising: a merged value remains even after its origin has changed it or has left. If values must be discarded, use
  * [gossip].
  *
  * @param value this device's value in its first round. Later values are ignored.

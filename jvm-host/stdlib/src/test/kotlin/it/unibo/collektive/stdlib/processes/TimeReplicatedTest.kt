@@ -23,7 +23,7 @@ class TimeReplicatedTest {
         val before = (0 until 20).map { second(it, 100) }.last()
         assertEquals(setOf(100), before.values.toSet())
         val after = (20 until 20 + 3 * 10 + 15).map { second(it, 0) }.last()
-        assertEquals(setOf(4), after.values.toSet(), "the former maximum must be forgotten")
+        assertEquals(setOf(4), after.values.toSet(), "the former maximum must be discarded")
     }
 
     @Test
