@@ -76,6 +76,13 @@ def write(path: str, text: str) -> None:
     publish(path)
 
 
+def write_part(path: str, text: str) -> None:
+    """Writes a file into an unfinished folder. `publish` syncs it together with the folder."""
+    with create(path) as file:
+        file.write(text.encode())
+    os.replace(path + PART, path)
+
+
 def open_log(path: str) -> BinaryIO:
     """Opens a log file for appending."""
     return os.fdopen(_open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND), "ab")

@@ -121,7 +121,7 @@ class Store:
         if outcome.status == "complete" and not set(RESULTS) <= results.keys():
             outcome = Outcome("failed", f"the run did not write {' and '.join(name for name in RESULTS if name not in results)}")
         record = {"name": run.name, "values": run.values, "status": outcome.status, "message": outcome.message, "seconds": round(seconds, 3), "files": results}
-        files.write(os.path.join(part, "run.json"), json.dumps(record, indent=2) + "\n")
+        files.write_part(os.path.join(part, "run.json"), json.dumps(record, indent=2) + "\n")
         files.remove(folder)
         files.publish(folder)
 

@@ -11,6 +11,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Iterable
+from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Protocol
 
 import pyarrow as pa
@@ -78,6 +79,9 @@ class LocalPool:
             thread.join()
 
     def _work(self, worker: Worker, ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
+        # While the results of a run are written to the disk, the worker executes the next run.
+        writer = ThreadPoolExecutor(1)
+        written: Future[None] | None = None
         try:
             while True:
                 with self._lock:
@@ -91,12 +95,20 @@ class LocalPool:
                     self._running.remove(worker)
                     if self._stopped:
                         break
-                self._store.finish(run, outcome, time.monotonic() - began)
-                ended.put((run, outcome))
+                if written is not None:
+                    written.result()
+                written = writer.submit(self._finish, run, outcome, time.monotonic() - began, ended)
+            if written is not None:
+                written.result()
         except BaseException as error:
             ended.put(error)
         finally:
             worker.stop()
+            writer.shutdown()
+
+    def _finish(self, run: Run, outcome: Outcome, seconds: float, ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
+        self._store.finish(run, outcome, seconds)
+        ended.put((run, outcome))
 
 
 def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> list[Task]:

@@ -202,9 +202,12 @@ class Worker:
 
     def _run(self, settings: dict[str, Any], start: str, out: str, limit: float, fresh: bool) -> Outcome:
         process, self._idle = self._idle, None
-        if process is not None and (process.settings != start or (fresh and not process.is_fresh)):
+        warm: _Process | None = None
+        if process is not None and process.settings != start:
             process.end()
             process = None
+        elif process is not None and fresh and not process.is_fresh:
+            process, warm = None, process
         self._busy = process = process or self._start(start)
         try:
             keeps_state = process.keeps_state()
@@ -226,6 +229,11 @@ class Worker:
             if self._busy is not None:
                 self._busy.end()
             self._busy = None
+            # The JVM of this process has compiled the programs, so the next run is faster there than in a fresh process.
+            if warm is not None:
+                if self._idle is not None:
+                    self._idle.end()
+                self._idle = warm
 
     def _start(self, settings: str | None) -> _Process:
         process = _Process(self._bundle, self._log, self._trust, settings)

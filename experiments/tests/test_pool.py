@@ -82,3 +82,16 @@ def test_a_current_run_is_killed_and_discarded(started: tuple[LocalPool, FakeWor
     pool.stop()
     assert (worker.kills, worker.stops) == (1, 1)
     assert ended.empty()
+
+
+def test_an_error_while_results_are_written_is_reported(started: tuple[LocalPool, FakeWorker, Events], monkeypatch: pytest.MonkeyPatch) -> None:
+    pool, worker, ended = started
+
+    def fail(*_: Any) -> None:
+        raise OSError("No space left on device")
+
+    monkeypatch.setattr(FakeStore, "finish", fail)
+    worker.may_end.set()
+    assert str(ended.get(timeout=60)) == "No space left on device"
+    pool.stop()
+    assert worker.stops == 1

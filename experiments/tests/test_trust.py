@@ -97,7 +97,7 @@ def test_a_process_is_reused_only_for_scripts_without_state(project: Project, tm
     try:
         kept = []
         for index in range(2):
-            assert worker.run({"seed": index}, "{}", str(tmp_path / str(index)), 60, is_repeated=False).status == "complete"
+            assert worker.run({"seed": index}, "{}", str(tmp_path / str(index)), 60, is_repeated=index == 1).status == "complete"
             kept.append(worker._idle)
         assert kept[0] is not None
         assert (kept[0] is kept[1]) == is_used_again

@@ -43,6 +43,7 @@ namespace Collektive.Headless
             // Processes that scripts start must not inherit the channel. They could send answers, and would keep the channel open.
             Syscall.fcntl(options.Channel, FcntlCommand.F_SETFD, CloseOnExec);
             channel = new UnixStream(options.Channel);
+            ResultFile.Syncs = false;
             // The JVM keeps running when a run ends, as in the editor.
             Loop.IsEditor = true;
             new Thread(ReadRequests) { IsBackground = true }.Start();

@@ -9,6 +9,9 @@ namespace Collektive.Headless
     /// <summary>Creates the files of a run. It never writes through a symbolic link. Files that were synced survive a power failure.</summary>
     internal static class ResultFile
     {
+        /// <summary>Whether files are synced, which takes some milliseconds each. A sweep syncs the files of a run itself.</summary>
+        internal static bool Syncs { get; set; } = true;
+
         /// <summary>Creates a file that grows during the run. An existing file is replaced.</summary>
         internal static StreamWriter Create(string path)
         {
@@ -39,6 +42,7 @@ namespace Collektive.Headless
         /// <summary>Waits until a file, or the list of files in a folder, is on disk. Does nothing if the file does not exist.</summary>
         internal static void Sync(string path)
         {
+            if (!Syncs) return;
             var descriptor = Syscall.open(path, OpenFlags.O_RDONLY | OpenFlags.O_NOFOLLOW);
             if (descriptor < 0 && Stdlib.GetLastError() == Errno.ENOENT) return;
             if (descriptor < 0) throw Failure(path);
