@@ -12,5 +12,5 @@ public interface Conversion {
     public object Lost
 }
 
-/** The number of values that devices had [stored] before a [Conversion], and the number of them that were [kept]. */
+/** The number of values that devices had [stored] before a [Conversion], and how many of them were [kept]. */
 public class StoredValues(public val stored: Int, public val kept: Int)

@@ -6,7 +6,7 @@ public interface DeviceRuntime {
      * Runs one round of [program] and returns its result. Only [commit] changes the device's state and messages.
      *
      * @param inbox the links into this device.
-     * @param sensors passed on to [program].
+     * @param sensors the sensor data to pass to [program].
      * @throws Throwable the exception that [program] throws.
      */
     public fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any?

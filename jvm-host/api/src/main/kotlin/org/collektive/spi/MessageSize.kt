@@ -7,7 +7,7 @@ import java.util.IdentityHashMap
 /**
  * The values and bytes of one message, as a compact binary format would encode them. Not thread-safe.
  *
- * A value takes [PATH_BYTES] for its path, plus its content: 1 for `Boolean`, `Byte` and `null`, 2 for `Short` and `Char`, 4 for `Int`, `Float`
+ * A value takes [PATH_BYTES] for its path, plus 1 for `Boolean`, `Byte` and `null`, 2 for `Short` and `Char`, 4 for `Int`, `Float`
  * and enums, 8 for `Long` and `Double`, and 0 for `Unit` and other objects without properties. Strings take 4 bytes plus their UTF-8;
  * collections, maps and arrays take 4 bytes plus their elements. Other objects take the sum of their properties, JDK objects as their text.
  * A value for a single receiver is added with the receiver's id, but only if it differs from the value for all other receivers.

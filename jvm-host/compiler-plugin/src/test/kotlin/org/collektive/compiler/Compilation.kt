@@ -36,7 +36,7 @@ internal class Compilation private constructor(val succeeded: Boolean, val repor
     /**
      * Returns a top-level function of the source as a program.
      *
-     * [name] begins with the package of the source if it has one. The parameters after the receiver get [arguments].
+     * [name] begins with the package of the source if it has one. [arguments] are passed after the receiver.
      */
     fun program(name: String, vararg arguments: Any?): Aggregate<Int>.() -> Any? {
         check(succeeded) { "the source does not compile: $reports" }

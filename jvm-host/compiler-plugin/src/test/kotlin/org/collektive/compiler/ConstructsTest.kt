@@ -5,7 +5,7 @@ import org.collektive.testkit.ReferenceDevices
 import kotlin.test.Test
 import kotlin.test.assertEquals
 
-/** Tests that unusual Kotlin constructs compile to valid code, which computes the same with and without the plugin. */
+/** Tests that unusual Kotlin constructs compile to valid code, which computes the same results with and without the plugin. */
 class ConstructsTest {
     @Test
     fun `all constructs give the same results with and without the plugin`() {

@@ -11,7 +11,7 @@ import java.util.function.LongSupplier
  *
  * Call it from one thread at a time; rounds run on the engine's own threads. In steady state the engine allocates nothing per tick.
  *
- * @param limitClock nanoseconds for the deadlines of [step].
+ * @param limitClock the clock, in nanoseconds, against which [step] checks its deadline.
  */
 public class Engine @JvmOverloads constructor(
     private val settings: EngineSettings,

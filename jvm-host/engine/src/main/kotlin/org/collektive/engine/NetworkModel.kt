@@ -7,17 +7,17 @@ package org.collektive.engine
  * A message is lost with probability `loss + lossPerMetre * length + lossPerAttenuation * attenuation` of its link, at most 1. It arrives
  * [delay] to [delay] + [jitter] seconds after its tick. A message that arrives after a later one is ignored.
  *
- * Losses can come in bursts: each link is in a good or a bad state, and may change it with each message (Gilbert-Elliott model: E. O. Elliott,
+ * Losses can come in bursts: each link is in a good or bad state, which may change with each message (Gilbert-Elliott model: E. O. Elliott,
  * "Estimates of error rates for codes on burst-noise channels", Bell System Technical Journal 42(5), 1963). In the bad state, a message
- * that is not lost otherwise is lost with probability [burstLoss].
+ * that would otherwise arrive is lost with probability [burstLoss].
  *
  * @property loss base probability of loss, 0..1.
  * @property lossPerMetre additional probability per metre of the link, 0 or greater.
  * @property lossPerAttenuation additional probability per unit of attenuation, 0 or greater.
- * @property delay least delay in seconds, 0 or greater.
- * @property jitter greatest additional delay in seconds, 0 or greater; uniformly distributed.
+ * @property delay minimum delay in seconds, 0 or greater.
+ * @property jitter maximum additional delay in seconds, 0 or greater; uniformly distributed.
  * @property retention seconds for which a received message stays readable, greater than 0.
- * @property burstShare share of a link's messages that are sent in the bad state in the long run, 0 or greater and less than 1.
+ * @property burstShare long-run share of a link's messages that are sent in the bad state, 0 or greater and less than 1.
  * @property burstLength mean number of successive messages in the bad state, at least 1 and at least `burstShare / (1 - burstShare)`.
  * @property burstLoss probability of loss in the bad state, 0..1.
  * @throws IllegalArgumentException when a value is out of range.

@@ -6,7 +6,7 @@ import org.collektive.spi.Export
  * The exports of a node's last two successful rounds.
  *
  * All rounds of a tick read a node's export from before the tick, even during or after the node's own round, which writes the other slot.
- * Two slots therefore save a second pass that would publish exports.
+ * With two slots, no second pass is needed to publish exports.
  *
  * Thread safety: one thread at a time may call [send], while any thread may call [readable]. Read [last], [sentAt] and [sentTime] only
  * while no round runs.

@@ -65,7 +65,7 @@ internal class RoundPool @JvmOverloads constructor(
     /**
      * Runs [task] on [input] over `0 until count` in ranges of [range] indices, and waits for the end.
      *
-     * @return `false` when the clock of limits passed [deadline] first; the caller must then [abandon] the pool.
+     * @return `false` if the limit clock passed [deadline] first; the caller must then [abandon] the pool.
      */
     fun <T> run(task: Task<T>, input: T, count: Int, range: Int, deadline: Long): Boolean {
         if (count == 0) return true
@@ -156,7 +156,7 @@ internal class RoundPool @JvmOverloads constructor(
     }
 
     private companion object {
-        // Distance between counters in ints, against false sharing.
+        // Distance between counters, in ints, to avoid false sharing.
         const val PADDING = 16
         const val SPIN_NANOS = 500_000L
     }

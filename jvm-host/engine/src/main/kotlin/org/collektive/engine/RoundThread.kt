@@ -11,7 +11,7 @@ public class RoundThread internal constructor(name: String, task: Runnable) : Th
     @Volatile
     private var running = -1
 
-    /** Id of the node whose round runs on this thread, or -1. Other threads may read a stale value, because a fence per round would be too slow. */
+    /** Id of the node whose round runs on this thread, or -1. Other threads may read a stale value; a fence per round is too slow. */
     public val node: Int get() = running
 
     /** Number of rounds that have begun on this thread. */

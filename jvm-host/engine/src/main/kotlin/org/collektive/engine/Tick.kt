@@ -65,7 +65,7 @@ public class Tick {
 }
 
 /**
- * A node to add, whose [id] must be unused and 0 or greater, or the node with new parameters.
+ * A node to add, whose [id] must be unused and 0 or greater, or an existing node with new parameters.
  *
  * @property source the data from which the owner of the engine recreates the node with another [program]; see [Engine.replacements].
  */

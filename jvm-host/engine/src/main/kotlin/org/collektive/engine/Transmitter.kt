@@ -28,7 +28,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
         channel.send(export, from.sentAt, from.sentTime + delay)
     }
 
-    /** Moves a link to its state for the next message. Returns whether that state is the bad one. */
+    /** Advances a link's state for the next message. Returns whether the new state is bad. */
     private fun isBad(id: Int, tick: Long, to: Int, channel: Channel): Boolean {
         draw(id, tick, to, BURST_PURPOSE)
         val number = uniform(words[0], words[1])

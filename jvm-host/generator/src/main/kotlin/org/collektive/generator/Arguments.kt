@@ -50,7 +50,7 @@ internal class Arguments(
                 optional("--layouts"),
             )
             if (!Files.isExecutable(arguments.flatc)) throw GeneratorException("no flatc at ${arguments.flatc}: run ./collektive setup")
-            arguments.schemas.find { !Files.isRegularFile(it) }?.let { throw GeneratorException("the schema does not exist at $it") }
+            arguments.schemas.find { !Files.isRegularFile(it) }?.let { throw GeneratorException("schema not found: $it") }
             if (!Files.isRegularFile(arguments.include.resolve(CORE_TYPES))) {
                 throw GeneratorException("no $CORE_TYPES in ${arguments.include}: set --include to the folder that contains it")
             }

@@ -301,8 +301,8 @@ internal class CSharp(private val schema: UserSchema) {
         private val TAKEN = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
 
         /**
-         * Adapts flatc's C# to the package's FlatBuffers assembly: changes the namespace, and defines the symbols with which it was
-         * compiled. Symbols defined in each file need no settings in users' projects.
+         * Adapts flatc's C# to the package's FlatBuffers assembly: changes the namespace, and defines the symbols used to compile
+         * that assembly. Symbols defined in each file need no settings in users' projects.
          */
         fun adapt(text: String): String {
             val header = "// </auto-generated>\n"

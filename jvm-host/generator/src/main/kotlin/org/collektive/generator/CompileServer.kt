@@ -13,8 +13,8 @@ import kotlin.io.path.writeBytes
 /**
  * Compiles the requests in a [folder], one after the other, so that the compilers stay loaded.
  *
- * A request is a file `NAME.request` with the words of [ProgramCompiler.USAGE], each followed by a NUL. It is removed when the work begins.
- * The answer `NAME.response` starts with the exit code in one line, and continues with the messages. Both files are renamed into place.
+ * A request is a file `NAME.request` with the arguments of [ProgramCompiler.USAGE], each followed by a NUL. It is deleted when work starts.
+ * The answer `NAME.response` contains the exit code on its first line, followed by the messages. Both files are renamed into place.
  * Files are used instead of a connection, because a request survives when the editor reloads its code, and only users with access to the
  * project can create one.
  */

@@ -1,7 +1,7 @@
 package org.collektive.generator
 
 /**
- * Creates the canonical text of a type, and its hash. Two texts are the same exactly if both sides read the same bytes under the same
+ * Creates the canonical text of a type, and its hash. Texts are equal if and only if both sides read the same bytes under the same
  * names.
  *
  * The text contains the kind, the fields in the order of their ids with offset or id, name, type and default, and nested types inline. A

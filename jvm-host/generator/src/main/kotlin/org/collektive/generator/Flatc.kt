@@ -51,7 +51,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
     }
 
     internal companion object {
-        /** The exit code of a process that was ended by a signal, minus the number of the signal. */
+        /** A process that a signal ended exits with this code plus the number of the signal. */
         private const val SIGNAL = 128
 
         /** Part of flatc's warning about naming style. */

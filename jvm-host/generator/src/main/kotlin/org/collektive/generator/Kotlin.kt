@@ -75,7 +75,7 @@ internal class Kotlin(private val schema: UserSchema) {
             is Scalar -> " = ${literal(type, field.default)}"
             is EnumType -> " = ${literal(type.underlying, field.default)}"
             is Composite -> " = ${value(type)}()"
-            else -> error("${field.name} lies outside of its struct")
+            else -> error("${field.name} is stored outside its struct")
         }
     }
 
@@ -107,7 +107,7 @@ internal class Kotlin(private val schema: UserSchema) {
             is StructType -> puts(part, value, at)
             is EnumType -> listOf(put(part.underlying, at, value))
             is Scalar -> listOf(put(part, at, value))
-            else -> error("${field.name} lies outside of its struct")
+            else -> error("${field.name} is stored outside its struct")
         }
     }
 
@@ -195,7 +195,7 @@ internal class Kotlin(private val schema: UserSchema) {
 
     private fun addScalar(field: Field, type: Scalar, value: String): String {
         if (!field.optional) return "builder.${adder(type)}(${field.id}, ${built(type, value)}, ${builtDefault(type, field.default)})"
-        // A present value is always written.
+        // A value that is present is always written, even if it equals the default.
         return "$value?.let { builder.${adder(type)}(${built(type, "it")}); builder.slot(${field.id}) }"
     }
 
@@ -206,7 +206,7 @@ internal class Kotlin(private val schema: UserSchema) {
 
     private fun built(type: Scalar, value: String): String = if (type == Scalar.BOOL) value else written(type, value).second
 
-    /** The default value in the form in which the builder compares it. */
+    /** The default value, converted to the type that the builder compares. */
     private fun builtDefault(type: Scalar, default: Default): String = when (type) {
         Scalar.BOOL -> literal(type, default)
         Scalar.FLOAT -> "${literal(type, default)}.toDouble()"

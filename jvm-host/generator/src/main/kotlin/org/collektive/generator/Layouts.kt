@@ -47,6 +47,6 @@ internal object Layouts {
         is Scalar -> type.bytes
         is EnumType -> type.underlying.bytes
         is StructType -> type.bytes
-        else -> error("$type lies outside of its table")
+        else -> error("$type is stored outside its table")
     }
 }

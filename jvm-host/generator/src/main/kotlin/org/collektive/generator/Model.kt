@@ -4,8 +4,8 @@ package org.collektive.generator
 internal sealed interface Type
 
 /**
- * A number or truth value. [bytes] is both its size and its alignment. [kotlin] is the type of flatc's Java, which is wider than an
- * unsigned number.
+ * A number or truth value. [bytes] is both its size and its alignment. [kotlin] is the type in flatc's Java code, a wider one for
+ * unsigned numbers.
  */
 internal enum class Scalar(val text: String, val csharp: String, val kotlin: String, val bytes: Int) : Type {
     BOOL("bool", "bool", "Boolean", 1),

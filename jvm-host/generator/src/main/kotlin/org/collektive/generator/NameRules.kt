@@ -49,7 +49,7 @@ internal class NameRules(
         if (simple in ReservedNames.reserved || simple in ReservedNames.types) {
             reject(name, "generated code uses a type of this name; rename the type")
         }
-        namespace.find { it in ReservedNames.reserved }?.let { reject(name, "the namespace has the keyword '$it'; rename the namespace") }
+        namespace.find { it in ReservedNames.reserved }?.let { reject(name, "the namespace uses the keyword '$it'; rename the namespace") }
         namespace.find { it in ReservedNames.types }?.let { reject(name, "generated code uses a type named $it; rename the namespace") }
         if (namespace.firstOrNull() in ReservedNames.roots || namespace.joinToString(".") in ReservedNames.packages) {
             reject(
@@ -59,7 +59,7 @@ internal class NameRules(
         }
         if (simple in roots) reject(name, "in generated code it hides the namespace $simple; rename one of them")
         namespace.drop(1).find { it in roots }?.let {
-            reject(name, "in C# the $it inside its namespace hides the namespace $it; rename one of them")
+            reject(name, "in C#, the inner namespace $it hides the root namespace $it; rename one of them")
         }
         if (name.length > MAX_NAME) {
             reject(name.take(MAX_NAME), "the name, including its namespace, has more than $MAX_NAME characters; shorten it")
@@ -72,7 +72,7 @@ internal class NameRules(
     }
 
     /**
-     * Rejects names that are too similar. Each type becomes a file, also on case-insensitive file systems, and a constant in upper case.
+     * Rejects names that are too similar. Each type becomes a file, even on case-insensitive file systems, and a constant in upper case.
      */
     private fun checkDistinct(generatedTypes: List<String>) {
         val seen = HashMap<String, String>()
@@ -83,7 +83,7 @@ internal class NameRules(
         }
         for (name in objects.map { it.name() }) {
             val verifier = seen["${name}Verify".replace('.', '_').uppercase()] ?: continue
-            reject(verifier, "generated code of $name has a class of this name; rename one of them")
+            reject(verifier, "code generated for $name has a class of this name; rename one of them")
         }
         val namespaces = seen.values.flatMap { name -> prefixes(name) }.toSet()
         seen.values.find { it in namespaces }?.let { reject(it, "a namespace has the same name; rename one of them") }
@@ -110,7 +110,7 @@ internal class NameRules(
             seen.put(member, field.name())?.let {
                 reject(place, "this field and $it are both named $member in generated code; rename one of them")
             }
-            taken[member]?.let { reject(place, "generated code of $it has a member of this name; rename one of them") }
+            taken[member]?.let { reject(place, "code generated for $it has a member of this name; rename one of them") }
         }
     }
 

@@ -43,7 +43,7 @@ internal object ReservedNames {
         """,
     )
 
-    /** Our namespaces, whose classes take precedence in the host. */
+    /** The product's namespaces, whose classes take precedence in the host. */
     val packages: Set<String> = words(
         """
         com com.google com.google.flatbuffers org org.collektive org.collektive.frame org.collektive.frames org.collektive.frames.data

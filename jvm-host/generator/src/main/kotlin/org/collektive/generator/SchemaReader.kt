@@ -234,7 +234,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
         val identifier = schema.fileIdent().orEmpty()
         if (!identifier.all { it in 'A'..'Z' || it in 'a'..'z' || it in '0'..'9' }) {
-            throw error("the file_identifier may have only ASCII letters and digits; correct or remove it")
+            throw error("the file_identifier may contain only ASCII letters and digits; correct or remove it")
         }
     }
 

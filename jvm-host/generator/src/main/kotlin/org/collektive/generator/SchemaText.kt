@@ -36,7 +36,7 @@ internal class SchemaText(private val text: String) {
         sanitized = rewritten.toString()
     }
 
-    /** The line of a type, or of a field of a type (`a.b.Type.field`), named with the namespace; `null` if it is not in this text. */
+    /** The line of the type or field with the qualified [name], such as `a.b.Type.field`; `null` if it is not in this text. */
     fun lineOf(name: String): Int? = starts[name]
 
     /** The end of the comment, string, word or single character at [at]. */
@@ -89,7 +89,7 @@ internal class SchemaText(private val text: String) {
             val zero = text.indexOf('\u0000')
             if (zero >= 0) {
                 val line = 1 + text.substring(0, zero).count { it == '\n' }
-                throw GeneratorException("${file.fileName}:$line: the file has a NUL character; remove it, or save the file as text")
+                throw GeneratorException("${file.fileName}:$line: the file contains a NUL character; remove it, or save the file as text")
             }
             SchemaText(text)
         } catch (_: MalformedInputException) {
@@ -106,7 +106,7 @@ internal class SchemaText(private val text: String) {
         /** Returns [text] on one line, without the start or end of block comments. */
         fun withoutCommentEnds(text: String): String = withoutLineEnds(text).replace("*/", "*&#47;").replace("/*", "/&#42;")
 
-        /** Returns [text] with spaces in place of line ends in any language and right-to-left controls. */
+        /** Returns [text] with control characters, line separators and bidirectional controls replaced by spaces. */
         fun withoutLineEnds(text: String): String = text.map {
             if (it.isISOControl() || it in '\u2028'..'\u202E' || it in '\u2066'..'\u2069') ' ' else it
         }.joinToString("")

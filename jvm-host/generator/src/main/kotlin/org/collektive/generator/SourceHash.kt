@@ -10,7 +10,7 @@ import kotlin.io.path.name
 import kotlin.io.path.readBytes
 
 /**
- * The hash of a jar's sources, which the jar's manifest contains. The editor finds outdated jars by it. `SourceHash.cs` computes the same
+ * The hash of a jar's sources, stored in the jar's manifest. The editor uses it to detect outdated jars. `SourceHash.cs` computes the same
  * hash without a JVM.
  *
  * The hash covers the names and contents of the schema, of the files that it includes (except files of the package), and of the Kotlin

@@ -103,13 +103,13 @@ internal class RefusalTest {
             fields("foo_bar: int;\nfooBar: int;") to
                 "user.fbs:5: SensorData.fooBar: this field and foo_bar are both named FooBar in generated code; rename",
             fields("xs: [int];\nxs_as_byte_buffer: int;") to
-                "user.fbs:5: SensorData.xs_as_byte_buffer: generated code of xs has a member of this name",
-            fields("builder: int;") to "user.fbs:4: SensorData.builder: generated code of SensorData has a member of this name",
-            fields("xs: string;\nxs_offset: int;") to "user.fbs:5: SensorData.xs_offset: generated code of xs has a member of this name",
-            fields("a: int;\u0000") to "user.fbs:4: the file has a NUL character",
-            fields("add_y: int;\ny: int;") to "user.fbs:4: SensorData.add_y: generated code of y has",
-            namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace has the keyword 'class'",
-            namespace("a.fun") to "the namespace has the keyword 'fun'; rename the namespace",
+                "user.fbs:5: SensorData.xs_as_byte_buffer: code generated for xs has a member of this name",
+            fields("builder: int;") to "user.fbs:4: SensorData.builder: code generated for SensorData has a member of this name",
+            fields("xs: string;\nxs_offset: int;") to "user.fbs:5: SensorData.xs_offset: code generated for xs has a member of this name",
+            fields("a: int;\u0000") to "user.fbs:4: the file contains a NUL character",
+            fields("add_y: int;\ny: int;") to "user.fbs:4: SensorData.add_y: code generated for y has",
+            namespace("a.class.b") to "user.fbs:3: ActuatorData: the namespace uses the keyword 'class'",
+            namespace("a.fun") to "the namespace uses the keyword 'fun'; rename the namespace",
             namespace("String.inner") to "generated code uses a type named String; rename the namespace",
             namespace("java.util") to "the namespace java.util is used by a library or by generated code",
             namespace("kotlin") to "the namespace kotlin is used by a library",
@@ -117,17 +117,17 @@ internal class RefusalTest {
             namespace("data") to "the namespace data is used by a library or by generated code",
             fields("table: int;") to "user.fbs:4: SensorData.table: C# or Java has a member of this name",
             type("struct SensorDataVerify { y: int; }") to
-                "user.fbs:3: SensorDataVerify: generated code of a.SensorData has a class of this name; rename one of them",
+                "user.fbs:3: SensorDataVerify: code generated for a.SensorData has a class of this name; rename one of them",
             type("struct a { y: int; }") to "user.fbs:3: a: in generated code it hides the namespace a; rename one of them",
             namespace("SensorData.inner") to "SensorData: in generated code it hides the namespace SensorData",
-            namespace("swarm.inner.swarm") to "in C# the swarm inside its namespace hides the namespace swarm; rename one of them",
-            "include \"types.fbs\";\n" + namespace("swarm.org") to "in C# the org inside its namespace hides the namespace org",
+            namespace("swarm.inner.swarm") to "in C#, the inner namespace swarm hides the root namespace swarm; rename one of them",
+            "include \"types.fbs\";\n" + namespace("swarm.org") to "in C#, the inner namespace org hides the root namespace org",
             namespace("Big").replace("x: int", "big: int") to "user.fbs:2: SensorData.big: in C# it hides the namespace Big",
             type("struct C { z: int; }\nstruct B { is: C; }\nstruct A { b: B; }") to
                 "user.fbs:4: B.is: C# cannot use this name where the struct is nested; rename the field",
             type("table ${"L".repeat(101)} {}") to "the name has more than 100 characters",
             type("") + "\nroot_type SensorData;\nfile_identifier \"\\\"+x+\";" to
-                "user.fbs:1: the file_identifier may have only ASCII letters and digits",
+                "user.fbs:1: the file_identifier may contain only ASCII letters and digits",
         )
         for ((schema, message) in refusals) assertContains(refusal(schema), message, message = schema)
     }
@@ -231,7 +231,7 @@ internal class RefusalTest {
         assertContains(message("--colour", "red"), "unknown option --colour")
         assertContains(message("--flatc", flatc, "--flatc", flatc), "--flatc is used twice")
         assertContains(message("--flatc", "nothing", "--schema", schema, "--include", "x"), "no flatc at nothing: run ./collektive setup")
-        assertContains(message("--flatc", flatc, "--schema", "nothing.fbs", "--include", "x"), "the schema does not exist at nothing.fbs")
+        assertContains(message("--flatc", flatc, "--schema", "nothing.fbs", "--include", "x"), "schema not found: nothing.fbs")
         assertContains(message("--flatc", flatc, "--schema", schema, "--include", "x"), "no types.fbs in x")
     }
 
@@ -242,7 +242,7 @@ internal class RefusalTest {
         val words = arrayOf("--flatc", "${Fixture.flatc}", "--include", include, "--schema", "$first", "--schema")
         assertEquals(listOf(first, second), Arguments.parse(words + "$second").schemas)
         val failure = assertFailsWith<GeneratorException> { Arguments.parse(words + "gone.fbs") }
-        assertContains(failure.message.orEmpty(), "the schema does not exist at gone.fbs")
+        assertContains(failure.message.orEmpty(), "schema not found: gone.fbs")
     }
 
     private fun user(before: String, fields: String) = "namespace a; $before table SensorData { $fields } struct ActuatorData { x: float; }"

@@ -72,7 +72,7 @@ internal class LiftedFunction private constructor(private val function: StdlibFu
         private val FIELD = ClassName("it.unibo.collektive.aggregate", "Field")
         private val ID = TypeVariableName("ID", Any::class)
 
-        /** Returns all lifted versions of [function]: one per non-empty set of positions. Parameters of type `Any?` already accept fields. */
+        /** Returns all lifted versions of [function]: one per non-empty set of positions. Parameters of type `Any?` accept fields. */
         fun of(function: StdlibFunction): List<LiftedFunction> {
             val places =
                 listOf(0) + function.parameters.indices.map { it + 1 }.filter { function.parameters[it - 1].type != typeOf<Any?>() }

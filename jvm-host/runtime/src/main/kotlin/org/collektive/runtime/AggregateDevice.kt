@@ -39,7 +39,7 @@ internal class AggregateDevice<ID : Any>(
 
     // The alignment stack of the thread that runs the round; null between rounds.
     private var ownStack: PathStack? = null
-    private val stack get() = ownStack ?: error("device $localId, or a field of it, is used outside of its round")
+    private val stack get() = ownStack ?: error("device $localId or one of its fields is used outside its round")
     override val depth get() = stack.depth
 
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {

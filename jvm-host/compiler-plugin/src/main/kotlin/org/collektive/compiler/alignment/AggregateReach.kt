@@ -80,12 +80,12 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         else -> mayPassDslType(value)
     }
 
-    /** Whether [value] may pass a DSL type on. A function value whose body is unknown may reach a primitive. */
+    /** Whether [value] may pass on a DSL type. A function value whose body is unknown may reach a primitive. */
     private fun mayPassDslType(value: IrExpression) = isFunction(value.type) || dsl.containsDslType(value.type)
 
     private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
-    /** The lambda that initialises the `val` that [read] reads; `null` if a lambda does not initialise it. */
+    /** The lambda that initialises the `val` read by [read]; `null` if the initialiser is not a lambda. */
     private fun functionIn(read: IrGetValue): IrFunction? {
         val variable = read.symbol.owner as? IrVariable ?: return null
         if (variable.isVar) return null
@@ -98,7 +98,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
 
     private fun reachesPrimitive(function: IrFunction): Boolean {
         reachability[function]?.let { return it }
-        reachability[function] = false // ends the recursion; the rest of the body decides
+        reachability[function] = false // stops the recursion; the rest of the body determines the result
         // A constructor runs the initialisers of its class.
         val code = if (function is IrConstructor) function.parentAsClass else function
         val found = Finder().apply { code.acceptChildrenVoid(this) }.found

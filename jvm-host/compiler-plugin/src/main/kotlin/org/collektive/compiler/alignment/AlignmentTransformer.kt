@@ -85,7 +85,7 @@ internal class AlignmentTransformer(
     /** An Aggregate that is the [parameter] itself, or is stored in the parameter's [property]. */
     private class Source(val parameter: IrValueParameter, val property: IrProperty? = null)
 
-    /** A part of the program with the same aligned neighbours: the body of a function or an `alignedOn`, or an arm. */
+    /** A part of the program in which the aligned neighbours stay the same: an arm, or the body of a function or `alignedOn`. */
     private class Region(val outer: Region?)
 
     private var region: Region? = null

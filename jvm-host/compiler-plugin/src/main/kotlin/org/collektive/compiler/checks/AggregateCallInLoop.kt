@@ -68,7 +68,7 @@ internal object AggregateCallInLoop : FirExpressionChecker<FirQualifiedAccessExp
 
     private fun isAlignedOn(call: FirFunctionCall) = call.callee?.isDsl(DslNames.alignedOn) == true
 
-    /** Whether [call] gets the Aggregate. Excludes `align`, `dealign`, `alignedOn` and the properties of Aggregate. */
+    /** Whether an Aggregate is passed to [call]. Excludes `align`, `dealign`, `alignedOn` and the properties of Aggregate. */
     context(context: CheckerContext)
     private fun isAggregateCall(call: FirQualifiedAccessExpression): Boolean = with(context.session) {
         val given = listOfNotNull(call.extensionReceiver) + call.contextArguments + when (call) {

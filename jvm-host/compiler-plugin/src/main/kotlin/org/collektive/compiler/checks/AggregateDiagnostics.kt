@@ -45,7 +45,7 @@ internal object AggregateDiagnostics : KtDiagnosticsContainer() {
     override fun getRendererFactory(): BaseDiagnosticRendererFactory = Texts
 
     private object Texts : BaseDiagnosticRendererFactory() {
-        @Suppress("ktlint:standard:property-naming") // The compiler's name.
+        @Suppress("ktlint:standard:property-naming") // The compiler prescribes this name.
         override val MAP by KtDiagnosticFactoryToRendererMap("Collektive") { map ->
             for (diagnostic in listOf(FIELD_FROM_BRANCH, FIELD_LEAVES_BRANCH)) {
                 map.put(

@@ -11,7 +11,7 @@ import org.jetbrains.kotlin.fir.expressions.arguments
 import org.jetbrains.kotlin.fir.symbols.impl.FirVariableSymbol
 
 /**
- * Reports `evolve(init) { old -> ... neighboring(old) ... }`, also through local `val`s: it sends each value one round later than `share`
+ * Reports `evolve(init) { old -> ... neighboring(old) ... }`, also through local `val`s. This sends each value one round later than `share`
  * does.
  */
 internal object EvolveInsteadOfShare : FirExpressionChecker<FirFunctionCall>(MppCheckerKind.Common) {

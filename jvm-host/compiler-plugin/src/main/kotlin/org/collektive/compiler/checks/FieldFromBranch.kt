@@ -31,8 +31,8 @@ import org.jetbrains.kotlin.fir.symbols.impl.FirValueParameterSymbol
 import org.jetbrains.kotlin.fir.types.resolvedType
 
 /**
- * Reports fields that are the value of an `if` or `when`. They lack the neighbours that took other arms, although these are aligned
- * outside.
+ * Reports fields that are the value of an `if` or `when`. Such a field lacks the neighbours in other arms, although they are aligned
+ * again after the branch.
  */
 internal object FieldFromBranch : FirExpressionChecker<FirWhenExpression>(MppCheckerKind.Common) {
     context(context: CheckerContext, reporter: DiagnosticReporter)

@@ -21,7 +21,7 @@ import org.jetbrains.kotlin.fir.visitors.FirVisitorVoid
 internal val FirFunctionCall.lambda: FirAnonymousFunction?
     get() = (arguments.lastOrNull()?.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction?.takeIf { it.isLambda }
 
-/** The parameter for which this call passes [lambda]; `null` if it does not. */
+/** The parameter to which this call passes [lambda]; `null` if it does not pass it. */
 internal fun FirFunctionCall.parameterOf(lambda: FirAnonymousFunction): FirValueParameter? = resolvedArgumentMapping?.entries
     ?.firstOrNull { (argument) -> (argument.unwrapArgument() as? FirAnonymousFunctionExpression)?.anonymousFunction === lambda }?.value
 

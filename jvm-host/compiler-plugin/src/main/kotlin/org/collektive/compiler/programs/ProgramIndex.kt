@@ -27,11 +27,11 @@ import java.io.File
  * Lists the programs of a module below [output], so that tools can read them from a jar without a JVM.
  *
  * There is one UTF-8 file for each class that declares programs, `META-INF/collektive/programs/CLASS`, so an incremental compilation
- * rewrites only the files of the changed classes. An index is valid only with its class. Each line is one record; its columns are
+ * rewrites only the files of the changed classes. An index without its class is stale. Each line is one record; its columns are
  * separated by tabs, and `\\`, `\t`, `\n`, `\r` stand for these characters in a column:
  *
- * - `program`, the name, the full name of the type of the sensor data;
- * - `parameter` of the program above: the name, the default, the description, and the constants of its enum class.
+ * - `program`: the program's name, and the qualified name of its sensor data type;
+ * - `parameter`, for the program above: its name, its default, its description, and the constants of its enum class.
  */
 internal class ProgramIndex(private val output: File) : IrGenerationExtension {
     override fun generate(moduleFragment: IrModuleFragment, pluginContext: IrPluginContext) {

@@ -10,7 +10,7 @@ import it.unibo.collektive.aggregate.api.Aggregate.Companion.dataSharingMethod
  *
  * [body] receives a field of the values that the aligned neighbours sent to this device. Its local value is the one stored by the previous
  * round, or [initial] in the first round. [body] yields the field to send; the field's local value is stored. A receiver that is not
- * in that field also gets its local value.
+ * in that field gets the local value.
  */
 public inline fun <ID : Any, reified Shared, Return> Aggregate<ID>.exchanging(
     initial: Shared,
