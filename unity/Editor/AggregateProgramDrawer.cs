@@ -39,6 +39,8 @@ namespace Collektive.Unity.Editor
         /// </summary>
         private static SerializedProperty NameOf(SerializedProperty property)
         {
+            var owner = property.serializedObject.targetObject;
+            if (!(owner is Node) && !(owner is SimulationManager)) return null;
             var path = property.propertyPath;
             return property.serializedObject.FindProperty(path.Substring(0, path.LastIndexOf('.') + 1) + nameof(SimulationSettings.program));
         }

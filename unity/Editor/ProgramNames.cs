@@ -36,15 +36,15 @@ namespace Collektive.Unity.Editor
 
         private static void Replace(Scene scene)
         {
+            // The Hierarchy window can also contain scenes that are not loaded.
+            if (!scene.isLoaded) return;
             var prefabs = PrefabsOf(scene);
             var roots = scene.GetRootGameObjects();
             var unknown = new HashSet<string>();
             // Prefabs must be saved first, because instances in the scene inherit their values.
             var settings = ReplaceInManagers(prefabs, new SimulationSettings());
-            Array.ForEach(prefabs, AssetDatabase.SaveAssetIfDirty);
             settings = ReplaceInManagers(roots, settings);
             ReplaceInNodes(prefabs, settings, unknown);
-            Array.ForEach(prefabs, AssetDatabase.SaveAssetIfDirty);
             ReplaceInNodes(roots, settings, unknown);
         }
 
@@ -126,6 +126,7 @@ namespace Collektive.Unity.Editor
                         "'" + manager.name + "' names program '" + settings.program + "', which none of its libraries contains: select another one", manager);
                 }
             }
+            Save(manager);
             Debug.Log("'" + manager.name + "' now refers to the libraries of its programs: save the scene", manager);
         }
 
@@ -138,7 +139,14 @@ namespace Collektive.Unity.Editor
                 target.FindProperty("program").stringValue = "";
                 target.ApplyModifiedProperties();
             }
+            Save(node);
             return true;
+        }
+
+        /// <summary>Saves the prefab of a changed component. Does nothing for an object in a scene.</summary>
+        private static void Save(Component component)
+        {
+            if (AssetDatabase.Contains(component)) AssetDatabase.SaveAssetIfDirty(component);
         }
 
         /// <summary>Returns the library that replaces a jar, or null if no library or several libraries match.</summary>

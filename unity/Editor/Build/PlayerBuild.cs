@@ -49,6 +49,7 @@ namespace Collektive.Unity.Editor
             var failed = ProgramBuild.Refresh(SchemaProject.FindAll(new[] { settings }));
             if (failed.Count > 0)
                 throw simulation.Failure(failed[0].Jar + " is older than its sources because the build failed: fix the errors in the console");
+            if (EditorApplication.isCompiling) throw simulation.Failure("the C# code of a schema has changed: build again when Unity has compiled it");
             try
             {
                 Schemas.Find(settings.SchemaName);

@@ -159,7 +159,7 @@ namespace Collektive.Unity.Editor
             var built = current;
             Finish(code == 0 ? Progress.Status.Succeeded : Progress.Status.Failed);
             if (code == 0) AssetDatabase.ImportAsset(built.Jar);
-            UpdateWhilePlaying(code == 0);
+            if (built.IsUsed) UpdateWhilePlaying(code == 0);
             if (built.HasGeneratedSince(startTime)) AssetDatabase.Refresh();
         }
 
@@ -179,8 +179,9 @@ namespace Collektive.Unity.Editor
         {
             Waiting.Clear();
             Debug.LogError(error.Message);
+            var failed = current;
             Finish(Progress.Status.Failed);
-            UpdateWhilePlaying(false);
+            if (failed.IsUsed) UpdateWhilePlaying(false);
         }
 
         private static void Cancel()

@@ -36,7 +36,11 @@ namespace Collektive.Unity.Editor
             var found = new List<SceneSimulation>();
             if (scenes == null || scenes.Length == 0)
             {
-                for (var i = 0; i < SceneManager.sceneCount; i++) FindIn(SceneManager.GetSceneAt(i), SceneManager.GetSceneAt(i).path, found);
+                for (var i = 0; i < SceneManager.sceneCount; i++)
+                {
+                    var scene = SceneManager.GetSceneAt(i);
+                    if (scene.isLoaded) FindIn(scene, scene.path, found);
+                }
                 return found;
             }
             foreach (var path in scenes)

@@ -96,8 +96,11 @@ namespace Collektive.Unity.Editor
         internal static string FindKotlin(AggregateRuntime runtime)
         {
             var candidates = new List<string> { PersonalSettings.instance.kotlin, Environment.GetEnvironmentVariable("KOTLIN_HOME") ?? "" };
-            foreach (var folder in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
+            foreach (var entry in (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator))
             {
+                // Windows allows quotes and empty entries.
+                var folder = entry.Trim().Trim('"');
+                if (folder.Trim('/', '\\').Length == 0 || folder.IndexOfAny(Path.GetInvalidPathChars()) >= 0) continue;
                 // Accept only the bin folder of a compiler, because a link in /usr/bin does not reveal the compiler's folder.
                 var parent = Path.GetDirectoryName(folder.TrimEnd('/', '\\'));
                 if (File.Exists(Path.Combine(folder, Windows ? "kotlinc.bat" : "kotlinc")) && File.Exists(Path.Combine(parent ?? "", "build.txt")))

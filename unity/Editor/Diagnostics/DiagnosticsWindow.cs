@@ -78,7 +78,9 @@ namespace Collektive.Unity.Editor
         private void Attach()
         {
             var manager = SimulationManager.Current;
-            if (diagnostics != null && manager != null && diagnostics.Manager == manager) return;
+            // A manager that has failed is not the current one, but its errors and its log are still of interest.
+            var isKept = diagnostics != null && diagnostics.Manager != null && (manager == null || manager == diagnostics.Manager);
+            if (isKept && EditorApplication.isPlaying) return;
             Detach();
             if (EditorApplication.isPlaying && manager != null) diagnostics = new Diagnostics(manager);
         }

@@ -46,8 +46,14 @@ namespace UnityEditor
         public static void SaveAssetIfDirty(Object obj)
         {
             AssetState.CheckChange();
-            PrefabFile.Save((UnityEngine.GameObject)obj);
+            PrefabFile.Save(RootOf(obj));
         }
+
+        /// Supports prefabs only.
+        public static bool Contains(Object obj) => EditorUtility.IsPersistent(RootOf(obj));
+
+        static UnityEngine.GameObject RootOf(Object obj) =>
+            (obj is UnityEngine.Component part ? part.transform : ((UnityEngine.GameObject)obj).transform).root.gameObject;
 
         /// Loads a prefab as objects outside any scene, and other assets through their importers. An existing file without an importer is an asset without
         /// content.

@@ -52,8 +52,8 @@ namespace CollektiveSamples.Swarm
         {
             var manager = SimulationManager.Current;
             if (manager == null || model == null || Application.isBatchMode) return;
-            // OnEnable would be too early, because the model may not be set yet.
-            if (mesh == null) Prepare();
+            // OnEnable would be too early, because the model may not be set yet. A reload of code during Play clears the materials, but not the mesh.
+            if (materials[0] == null) Prepare();
             if (tick != manager.Tick) Take(manager);
             Draw(manager.Nodes, manager.TickFraction);
         }

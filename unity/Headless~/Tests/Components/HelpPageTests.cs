@@ -39,11 +39,13 @@ namespace Collektive.Headless.Tests.Components
             Directory.CreateDirectory(folder);
             var before = Installation.ToPhysical;
             Installation.ToPhysical = path => Path.Combine(folder, path.Replace("Packages/org.collektive.unity/", ""));
+            var clone = Installation.ToPhysical;
             try
             {
                 var help = typeof(JvmSettingsAsset).GetCustomAttribute<HelpURLAttribute>();
                 Assert.That(help.URL, Is.EqualTo("file://" + folder + "/Documentation~/jvm-and-jfr.md#settings"));
                 File.WriteAllText(Path.Combine(folder, "package.json"), "{ \"documentationUrl\": \"https://example.org/blob/v1/Documentation~/index.md\" }");
+                Installation.ToPhysical = clone;
                 Assert.That(help.URL, Is.EqualTo("https://example.org/blob/v1/Documentation~/jvm-and-jfr.md#settings"));
             }
             finally

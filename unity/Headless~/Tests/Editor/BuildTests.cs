@@ -124,6 +124,25 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
         }
 
         [Test]
+        public void Empty_and_quoted_entries_of_PATH_are_accepted()
+        {
+            var path = Environment.GetEnvironmentVariable("PATH");
+            UseKotlin("2.0.0");
+            var kotlin = PersonalSettings.instance.kotlin;
+            PersonalSettings.instance.kotlin = "";
+            File.WriteAllText(Path.Combine(Directory.CreateDirectory(Path.Combine(kotlin, "bin")).FullName, "kotlinc"), "");
+            Environment.SetEnvironmentVariable("PATH", ":/:\"" + Path.Combine(kotlin, "bin") + "\":");
+            try
+            {
+                Assert.That(Toolchain.FindKotlin(AggregateRuntime.Collektive), Is.EqualTo(kotlin));
+            }
+            finally
+            {
+                Environment.SetEnvironmentVariable("PATH", path);
+            }
+        }
+
+        [Test]
         public void A_Kotlin_compiler_of_another_version_is_refused()
         {
             UseKotlin("1.9.0");

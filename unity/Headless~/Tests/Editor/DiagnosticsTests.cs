@@ -255,6 +255,18 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void The_window_keeps_the_errors_of_a_simulation_that_has_failed()
+        {
+            MakeThree();
+            Draw();
+            Manager.Fail("out of memory", null);
+            Gui.Act("toolbar", 1);
+            Draw();
+            Draw();
+            Assert.That(Gui.Lines, Has.Some.EqualTo("label No errors."));
+        }
+
+        [Test]
         public void The_window_survives_the_end_of_play_mode()
         {
             MakeThree();

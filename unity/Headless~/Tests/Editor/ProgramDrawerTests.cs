@@ -70,7 +70,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             var script = ScriptableObject.CreateInstance<Mission>();
             Drag(EventType.DragPerform, new SerializedObject(script).FindProperty("goal"), Import("single", ProgramLibraryTests.Program("only")));
-            Assert.That(script.goal.Name, Is.EqualTo("only"));
+            Assert.That((script.goal.Name, script.program), Is.EqualTo(("only", "the user's text")));
         }
 
         [Test]
@@ -162,6 +162,7 @@ namespace Collektive.Headless.Tests.Editor
         private sealed class Mission : ScriptableObject
         {
             public AggregateProgram goal = null;
+            public string program = "the user's text";
         }
 
         private static ProgramLibrary Import(string name, params string[] programs)

@@ -1,10 +1,12 @@
 using System.IO;
 using Collektive.Unity;
+using Collektive.Unity.Editor;
 using NUnit.Framework;
 using UnityEditor;
 using UnityEditor.Headless;
 using UnityEditor.SceneManagement;
 using UnityEngine;
+using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Editor
 {
@@ -86,6 +88,17 @@ namespace Collektive.Headless.Tests.Editor
             AssetDatabase.TryGetGUIDAndLocalFileIdentifier(library.Find("flock"), out var guid, out var id);
             Assert.That(File.ReadAllText("Assets/Robot.prefab"), Is.EqualTo(Fields("{fileID: " + id + ", guid: " + guid + ", type: 3}", "")));
             Assert.That(File.ReadAllText("Assets/Unused.prefab"), Is.StringContaining("program: flock"), "the prefab is not in an open scene");
+        }
+
+        [Test]
+        public void Scenes_that_are_not_loaded_are_skipped()
+        {
+            Loop.AddUnloadedScene();
+            Settings.program = "hops";
+            Settings.jars.Add("Library/Collektive/swarm.jar");
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.That(Settings.program, Is.Empty);
+            Assert.That(SceneSimulation.FindAll(null).Count, Is.EqualTo(1));
         }
 
         [Test]

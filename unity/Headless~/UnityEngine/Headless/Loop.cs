@@ -29,6 +29,9 @@ namespace UnityEngine.Headless
         /// The asset path of the scene that the editor opened.
         public static string ScenePath { set => SceneManagement.Scene.Active.File = value; }
 
+        /// Lists another scene in the Hierarchy window without loading it.
+        public static void AddUnloadedScene() => SceneManagement.Scene.Loaded.Add(new SceneManagement.Scene("Unloaded") { IsUnloaded = true });
+
         /// The last address that a script opened in a browser.
         public static string OpenedUrl { get; internal set; } = "";
 

@@ -19,18 +19,27 @@ namespace UnityEngine.SceneManagement
             internal readonly List<GameObject> Roots = new List<GameObject>();
             internal string Name;
             internal string Path = "";
+            internal bool IsUnloaded;
         }
 
         internal List<GameObject> Roots => content.Roots;
         internal string File { set => content.Path = value; }
 
+        /// Whether the scene is only listed in the Hierarchy window.
+        internal bool IsUnloaded { set => content.IsUnloaded = value; }
+
         public bool IsValid() => content != null;
         public string path => content == null ? "" : content.Path;
         public string name { get => content == null ? "" : content.Name; set => content.Name = value; }
-        public bool isLoaded => Loaded.Contains(this);
+        public bool isLoaded => Loaded.Contains(this) && !content.IsUnloaded;
         public int buildIndex => Loaded.IndexOf(this);
         public int rootCount => content == null ? 0 : Roots.Count;
-        public GameObject[] GetRootGameObjects() => content == null ? new GameObject[0] : Roots.ToArray();
+
+        public GameObject[] GetRootGameObjects()
+        {
+            if (content != null && content.IsUnloaded) throw new System.ArgumentException("The scene is not loaded.");
+            return content == null ? new GameObject[0] : Roots.ToArray();
+        }
 
         public void GetRootGameObjects(List<GameObject> rootGameObjects)
         {
@@ -41,7 +50,7 @@ namespace UnityEngine.SceneManagement
         internal static IEnumerable<GameObject> AllRoots()
         {
             foreach (var scene in Loaded)
-                foreach (var root in scene.GetRootGameObjects()) yield return root;
+                foreach (var root in scene.Roots.ToArray()) yield return root;
         }
 
         internal static void ResetState()

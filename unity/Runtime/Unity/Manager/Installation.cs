@@ -16,11 +16,21 @@ namespace Collektive.Unity
         /// Returns the real path of a file that is named relative to the project's folder. The editor replaces this function, because it stores packages
         /// elsewhere.
         /// </summary>
-        internal static Func<string, string> ToPhysical { get; set; } = InPlayer;
+        internal static Func<string, string> ToPhysical
+        {
+            get => toPhysical;
+            set
+            {
+                toPhysical = value;
+                manual = null;
+            }
+        }
 
         /// <summary>Returns the path of the asset with a GUID, relative to the project's folder. Set by the editor; null in a player.</summary>
         internal static Func<string, string> ToAssetPath { get; set; }
 
+        private static Func<string, string> toPhysical = InPlayer;
+        private static string manual;
         private static string hostJar;
         private static string javaHome;
 
@@ -87,13 +97,14 @@ namespace Collektive.Unity
         /// <summary>
         /// Returns the address of a page of the manual. For a release, the page is in the repository; otherwise it is the package's own file.
         /// </summary>
-        internal static string AddressOf(string page)
+        internal static string AddressOf(string page) => (manual ?? (manual = FindManual())) + page;
+
+        // Inspectors request the address whenever they are drawn, so the file is read only once.
+        private static string FindManual()
         {
             var manifest = ToPhysical(Package + "/package.json");
-            var index = Regex.Match(File.Exists(manifest) ? File.ReadAllText(manifest) : "", "\"documentationUrl\": *\"([^\"]*)/index\\.md\"");
-            if (index.Success) return index.Groups[1].Value + "/" + page;
-            var parts = page.Split('#');
-            return new Uri(ToPhysical(Package + "/Documentation~/" + parts[0])).AbsoluteUri + (parts.Length > 1 ? "#" + parts[1] : "");
+            var index = Regex.Match(File.Exists(manifest) ? File.ReadAllText(manifest) : "", "\"documentationUrl\": *\"([^\"]*/)index\\.md\"");
+            return index.Success ? index.Groups[1].Value : new Uri(ToPhysical(Package + "/Documentation~/")).AbsoluteUri;
         }
 
         /// <summary>

@@ -14,9 +14,12 @@ namespace Collektive.Unity
         internal static void Show(bool hasFailed)
         {
             if (hasFailed == (shown != null)) return;
-            if (hasFailed) shown = new GameObject("Build Failure Label") { hideFlags = HideFlags.HideInHierarchy }.AddComponent<BuildFailureLabel>();
+            if (hasFailed) new GameObject("Build Failure Label") { hideFlags = HideFlags.HideInHierarchy }.AddComponent<BuildFailureLabel>();
             else Destroy(shown.gameObject);
         }
+
+        // A reload of code during Play clears the static field, but keeps the label.
+        private void OnEnable() => shown = this;
 
         private void OnDisable() => Legends.Remove(this);
 

@@ -36,7 +36,8 @@ namespace Collektive.Unity
 
         private void OnDisable()
         {
-            if (shown != null) transform.SetLocalPositionAndRotation(restPosition, restRotation);
+            // The pose must also be restored if the manager has been destroyed.
+            if (!ReferenceEquals(shown, null)) transform.SetLocalPositionAndRotation(restPosition, restRotation);
             shown = null;
         }
 
