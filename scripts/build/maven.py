@@ -126,9 +126,11 @@ def package(names: list[str], tests: bool) -> int:
     STARTED.parent.mkdir(parents=True, exist_ok=True)
     STARTED.touch()
     changed, code = _changed(chosen), 0
+    # A module between two changed modules is compiled with them, because the upper one must not be compiled with its outdated classes.
+    changed.update(module for module in chosen if changed.intersection(module.upstream) and any(module in upper.upstream for upper in changed))
     if any(changed.intersection(module.upstream) for module in chosen if module not in changed):
-        # Other modules are compiled only if the change is visible to them.
-        code = run(closure([module.name for module in changed], modules), changed, ["package", WITHOUT_TESTS], tests=False)
+        # Other modules are compiled only if the change is visible to them. It rarely is, so this call already packages everything.
+        code = run(chosen, changed, ["package", WITHOUT_TESTS], tests=False)
         changed = _changed(chosen)
         changed.update(module for module in chosen if changed.intersection(module.upstream))
     if code == 0:
@@ -142,7 +144,7 @@ def run(modules: Sequence[Module], changed: set[Module], words: Sequence[str], t
 
     Removes the marks afterwards, so that Maven compiles everything if a user runs it directly.
     """
-    packaged = [module for module in modules if module in changed or module.stored("build.key") != module.build_key]
+    packaged = [module for module in modules if changed.intersection([module, *module.upstream]) or module.stored("build.key") != module.build_key]
     tested = [module for module in modules if tests and (
         changed.intersection(module.upstream_of_tests) or module.stored("tests.key") != module.tests_key())]
     if not packaged and not tested and "package" in words:
