@@ -11,7 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from build import csharp, fetch, inputs
+from build import csharp, fetch, inputs, maven
 from build.console import Failure, print_progress
 from build.inputs import Part
 from build.jdk import feature_version, find_jdk
@@ -71,7 +71,10 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
     fetch.fetch("kotlinc")
     runtime = [jars, plugin, inputs.programs(LINKS)] if jars and plugin else []
     parts = [schema, programs, *runtime]
-    key = _key(parts, [HOST_JAR, BUILD / "stamp/kotlinc", find_jdk() / "release", *([] if runtime else [LIBRARY_JAR, compiler_plugin()])])
+    # A change of the host or the library that is not visible to programs does not change their jar.
+    host = maven.read_modules()["host"]
+    visible = [maven.PARENT, host.folder / "pom.xml", *(module.target / "abi" for module in [host, *host.upstream])]
+    key = _key(parts, [*visible, BUILD / "stamp/kotlinc", find_jdk() / "release", *([] if runtime else [compiler_plugin()])])
 
     def compile_programs(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
         try:
