@@ -64,7 +64,7 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
         output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.adapt(text) else null }
         for ((name, model) in csharp.mirrors()) output.write("${path(name)}.cs", Templates.render("Mirror.cs", model))
         for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
-        output.write("${path(schema.name)}.cs", Templates.render("Schema.cs", csharp.schema()))
+        output.writeSchema("${path(schema.name)}.cs", Templates.render("Schema.cs", csharp.schema()))
     }
     arguments.jvm?.let { folder ->
         val output = OutputFolder(folder)
@@ -73,7 +73,7 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
         // Programs only write the actuator data.
         output.copy(work.resolve("java")) { path, text -> text.takeIf { path != "${path(schema.actuator.name)}.java" } }
         for ((name, model) in kotlin.values()) output.write("${path(name)}.kt", Templates.render("Value.kt", model))
-        output.write("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
+        output.writeSchema("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
         sanitized.binarySchema(copies.of(file), work.resolve("portable"))
         output.write("META-INF/collektive/${schema.name}.bfbs", Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
         output.addLine(SERVICES, "${schema.name}") { output.contains("${it.replace('.', '/')}.kt") }

@@ -1,23 +1,55 @@
 package org.collektive.generator
 
 import java.nio.file.Files
+import java.nio.file.LinkOption.NOFOLLOW_LINKS
 import java.nio.file.Path
+import kotlin.io.path.nameWithoutExtension
 
 /** A folder of generated files. An unchanged file keeps its modification time, so that builds do not redo work. */
 internal class OutputFolder(private val root: Path) {
+    private val written = LinkedHashSet<String>()
+
     fun write(path: String, text: String): Unit = write(path, text.encodeToByteArray())
 
     fun write(path: String, bytes: ByteArray) {
+        written += path
         val file = root.resolve(path)
         val old = if (Files.exists(file)) Files.readAllBytes(file) else null
         if (old.contentEquals(bytes)) return
         if (Files.isSymbolicLink(file)) throw GeneratorException("$file is a symbolic link: remove it, or choose another folder")
-        if (path.substringAfterLast('.') in SOURCES && old != null && !isGenerated(old)) {
+        if (isSource(path) && old != null && !isGenerated(old)) {
             throw GeneratorException("$file exists and was not generated: move it, or choose another folder")
         }
         Files.createDirectories(file.parent)
         Files.write(file, bytes)
     }
+
+    /**
+     * Writes the last source file of a schema. Its last line lists all source files of the schema. Deletes generated files of the previous list that neither
+     * this schema nor another one in the folder needs.
+     */
+    fun writeSchema(path: String, text: String) {
+        val previous = listedIn(root.resolve(path))
+        write(path, "$text$LIST${(written + path).filter(::isSource).joinToString()}\n")
+        val obsolete = previous - written
+        if (obsolete.isEmpty()) return
+        val schemas = Files.walk(root).use { paths -> paths.filter { it.nameWithoutExtension.endsWith("Schema") }.toList() }
+        for (file in (obsolete - schemas.flatMap(::listedIn).toSet()).filter(::isSource).map(root::resolve)) {
+            // On systems that ignore case, a renamed type may have the same file.
+            if (isOwn(file) && written.none { Files.isSameFile(root.resolve(it), file) }) Files.delete(file)
+        }
+    }
+
+    /** Returns whether a file is generated and in this folder, not behind a link. */
+    private fun isOwn(file: Path): Boolean = Files.isRegularFile(file, NOFOLLOW_LINKS) && file.toRealPath().startsWith(root.toRealPath()) &&
+        isGenerated(Files.readAllBytes(file))
+
+    private fun listedIn(file: Path): List<String> {
+        val line = if (Files.isRegularFile(file)) Files.readAllBytes(file).decodeToString().trimEnd().substringAfterLast('\n') else ""
+        return if (line.startsWith(LIST)) line.removePrefix(LIST).split(", ") else emptyList()
+    }
+
+    private fun isSource(path: String): Boolean = path.substringAfterLast('.') in SOURCES
 
     fun contains(path: String): Boolean = Files.exists(root.resolve(path))
 
@@ -45,6 +77,7 @@ internal class OutputFolder(private val root: Path) {
     }
 
     private companion object {
+        const val LIST = "// Files: "
         val SOURCES = setOf("cs", "java", "kt")
     }
 }
