@@ -14,6 +14,8 @@ PICTURES = ("start.png", "middle.png", "end.png")
 RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkrec", "profile.jfr", *PICTURES)
 # Values of the outcome in the player's manifests.
 RUNNING, COMPLETE, WITHOUT_PICTURES = "running", "complete", "the pictures are missing"
+# The player's exit code after it has printed a file error.
+FILE_ERROR = 74
 # The exit codes of a player that a signal interrupted or killed.
 SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM, 128 + signal.SIGKILL)
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
@@ -103,14 +105,16 @@ def require(folder: Path, outcome: str, code: int) -> None:
     """Raises `Failure` if the manifest of a run contradicts the player's exit code.
 
     After code 0, the manifest must exist and contain the given outcome. After another code, its outcome must not be `RUNNING`, unless a signal ended the
-    player.
+    player. Raises `Failure` without a message if the player has printed a file error.
     """
     try:
         found = json.loads((folder / "manifest.json").read_text())["outcome"]
     except (OSError, ValueError, KeyError) as error:
-        if code != 0:
-            return
-        raise Failure(f"the run wrote no usable manifest to '{folder}': {error}") from error
+        if code == 0:
+            raise Failure(f"the run wrote no usable manifest to '{folder}': {error}") from error
+        found = None
+    if code == FILE_ERROR and found not in (COMPLETE, WITHOUT_PICTURES):
+        raise Failure("", 1)
     if found == RUNNING and code not in SIGNALLED:
         raise Failure(f"the player exited with code {code} during the run. Usual causes: infinite recursion in a script, a script that ends the process, "
                       "a JVM crash", max(code, 1))

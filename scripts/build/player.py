@@ -56,7 +56,7 @@ def plan(scenario: str, options: Sequence[str]) -> Plan:
     if result.returncode < 0:
         raise Failure(f"the player was ended by {signal.Signals(-result.returncode).name}", 128 - result.returncode)
     if result.returncode != 0:
-        raise InvalidScenario(result.returncode)
+        raise InvalidScenario(1)
     values = json.loads(result.stdout)
     return Plan(values, {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)})
 

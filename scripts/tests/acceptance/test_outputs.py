@@ -219,6 +219,7 @@ class FullDisks(Project):
                 reached.add(kilobytes)
                 self.assertEqual(result.returncode, 1)
                 self.assertRegex(result.stderr, "(?m)^collektive: [^\n]*(No space left|Disk full|could not be)")
+                self.assertNotIn("Usual causes", result.stderr)
                 manifest = os.path.join(found, "manifest.json")
                 if os.path.exists(manifest):
                     with open(manifest) as file:

@@ -75,3 +75,17 @@ def test_a_link_to_a_folder_of_the_user_is_not_followed(folder: Path, tmp_path_f
     with pytest.raises(Failure, match="cannot write to the output folder"), outputs.open_folder(folder, True):
         pass
     assert (elsewhere / "metrics.csv").read_text() == "of the user"
+
+
+@pytest.mark.parametrize("manifest", [None, '{"outcome": "running"}', '{"outcome": "failed: Disk full"}'])
+def test_a_printed_file_error_is_the_only_message(folder: Path, manifest: str | None) -> None:
+    (folder / "manifest.json").unlink()
+    if manifest is not None:
+        (folder / "manifest.json").write_text(manifest)
+    with pytest.raises(Failure) as failure:
+        outputs.require(folder, outputs.COMPLETE, outputs.FILE_ERROR)
+    assert (str(failure.value), failure.value.code) == ("", 1)
+
+
+def test_a_script_may_return_the_code_of_a_file_error(folder: Path) -> None:
+    outputs.require(folder, outputs.COMPLETE, outputs.FILE_ERROR)

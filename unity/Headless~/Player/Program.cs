@@ -11,6 +11,9 @@ namespace Collektive.Headless
     {
         private const int JvmStopLimitMs = 5000;
 
+        /// <summary>The exit code after a file error. The manifest may not contain the error, for example because the disk is full.</summary>
+        private const int FileError = 74;
+
         private static int Main(string[] arguments)
         {
             // If a thread that a script started throws an exception, the runtime prints it and ends the process. The JVM must be stopped before that.
@@ -68,9 +71,12 @@ namespace Collektive.Headless
         /// <returns>The exit code.</returns>
         internal static int Report(Exception error)
         {
-            if (error is ScenarioException || error is BridgeException) Console.Error.WriteLine("collektive: " + error.Message);
-            else if (error is IOException || error is UnauthorizedAccessException)
+            if (error is IOException || error is UnauthorizedAccessException)
+            {
                 Console.Error.WriteLine("collektive: a file could not be read or written: " + error.Message);
+                return FileError;
+            }
+            if (error is ScenarioException || error is BridgeException) Console.Error.WriteLine("collektive: " + error.Message);
             else Console.Error.WriteLine("collektive: the run ended with an unhandled exception: " + error);
             return 1;
         }
