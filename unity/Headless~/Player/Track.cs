@@ -168,6 +168,8 @@ namespace Collektive.Headless
                 case "FeatureCollection":
                     foreach (var feature in Items(file, part, "features")) AddPoints(file, feature, tracks);
                     break;
+                case "Feature" when part["geometry"] == null || part["geometry"].Type == JTokenType.Null:
+                    throw file.Error(line, "the feature has no geometry; remove it, or give it a point");
                 case "Feature":
                     AddPoints(file, part["geometry"], tracks);
                     break;
