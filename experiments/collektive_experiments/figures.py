@@ -113,18 +113,20 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     if experiment:
         check_labels(experiment, metrics_at_end(results))
     shown = [] if options else list(metrics or [*results.metrics, *results.convergence_times])
-    reserved = {f"{file_name(metric)}-{kind}" for metric in shown for kind in ("time", "end")}
+    known = metrics_at_end(results)
+    # Names that differ only in case are the same file on some systems.
+    reserved = {f"{file_name(metric, known)}-{kind}".lower() for metric in shown for kind in ("time", "end")}
     drawn: dict[str, Drawing] = {}
     tables: dict[str, str] = {}
     for request in requests:
         for name, figure, caption in draw(results, request):
-            if name in drawn or name in reserved:
+            if name.lower() in {*map(str.lower, drawn), *reserved}:
                 raise request.fail("metric", f"and the other options describe an existing figure: '{name}'; remove one")
             drawn[name] = _render(figure, caption, STYLES[request.style], request.fail)
     for metric in shown:
         if metric in results.metrics:
-            drawn[f"{file_name(metric)}-time"] = _render(*over_time(results, metric), {})
-        last = f"{file_name(metric)}-end"
+            drawn[f"{file_name(metric, known)}-time"] = _render(*over_time(results, metric), {})
+        last = f"{file_name(metric, known)}-end"
         drawn[last] = _render(*at_end(results, metric), {})
         tables[last] = _table(results, metric)
     files.make(os.path.join(folder, "figures"))
@@ -167,10 +169,14 @@ def _fits(figure: Figure) -> bool:
     return bool(is_inside and min(axes.width * width, axes.height * height) > MIN_AXES)
 
 
-def file_name(metric: str) -> str:
-    """Returns a file name for a metric. Adds a hash if the metric's name contains characters that file names cannot contain."""
+def file_name(metric: str, metrics: Sequence[str]) -> str:
+    """Returns a file name for one of the metrics.
+
+    Adds a hash if the metric's name contains characters that file names cannot contain, or differs from an earlier name only in case.
+    """
     name = re.sub(r"[^A-Za-z0-9_.,=-]", "_", metric)[:100]
-    return name if name == metric and not name.startswith(".") else f"metric-{name}-{hashlib.sha256(metric.encode()).hexdigest()[:8]}"
+    first = next(other for other in metrics if other.lower() == metric.lower())
+    return name if name == metric == first and not name.startswith(".") else f"metric-{name}-{hashlib.sha256(metric.encode()).hexdigest()[:8]}"
 
 
 def check(results: Results, options: FigureOptions) -> None:
@@ -195,19 +201,21 @@ def metrics_at_end(results: Results) -> list[str]:
 
 def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure, str]]:
     """Draws the requested figure for each metric and each combination of values of the keys that it does not show. Yields name, figure and caption."""
+    data = results.series if options.x == TIME else results.complete
+    others = _other_keys(data, results.configuration, [key for key in (options.x, options.by) if key and key != TIME])
+    combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
+    if len(combinations) > MAX_PANELS:
+        raise options.fail("by", f"leaves {len(combinations)} combinations of {', '.join(others)}, each with its own figure; the maximum is {MAX_PANELS}")
+    endings = ["-".join(["", options.kind, *filter(None, [options.x, options.by]),
+                         *(f"{key}={text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(others, values))])
+               for values, _ in combinations]
+    names = [metric + ending for metric in metrics_at_end(results) for ending in endings]
     for metric in options.metrics:
-        data = results.series if options.x == TIME else results.complete
-        others = _other_keys(data, results.configuration, [key for key in (options.x, options.by) if key and key != TIME])
-        combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
-        if len(combinations) > MAX_PANELS:
-            raise options.fail("by", f"leaves {len(combinations)} combinations of {', '.join(others)}, each with its own figure; the maximum is {MAX_PANELS}")
-        for values, part in combinations:
-            rest = [f"{key}={text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(others, values)]
-            name = "-".join([metric, options.kind, *([options.x] if options.x else []), *([options.by] if options.by else []), *rest])
+        for (values, part), ending in zip(combinations, endings):
             with matplotlib.rc_context(STYLE), matplotlib.rc_context(STYLES[options.style]):
                 figure = Figure(figsize=options.size, layout="constrained")
                 caption = _draw(figure, results, part, metric, options)
-            yield file_name(name), figure, caption + (f" {label(values, others)}." if others else "")
+            yield file_name(metric + ending, names), figure, caption + (f" {label(values, others)}." if others else "")
 
 
 def _other_keys(data: pd.DataFrame, keys: list[str], shown: list[str]) -> list[str]:

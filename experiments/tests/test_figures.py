@@ -184,6 +184,20 @@ def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
         plot(folder)
 
 
+def test_metrics_that_differ_only_in_case_have_distinct_files(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (0.0,), figures=[{"metric": ["nodes", "Nodes"], "kind": "ecdf"}])
+    for path in (tmp_path / "out/runs.parquet", tmp_path / "out/series.parquet"):
+        table = pd.read_parquet(path)
+        table.insert(list(table.columns).index("error"), "Error", table["error"])
+        table["Nodes"] = 1
+        table.to_parquet(path)
+    names = [Path(path).name for path in plot(folder)]
+    assert len({name.lower() for name in names}) == len(names)
+    # The names do not depend on the chosen figures.
+    assert {Path(path).name for path in plot(folder, metrics=["error"])} < set(names)
+    assert {Path(path).name for path in plot(folder, options=read_options({"metric": "Nodes", "kind": "ecdf"}))} < set(names)
+
+
 def test_runs_that_do_not_converge_are_censored_in_each_kind(sweep: str) -> None:
     results = load(sweep)
     censored = results.censored("converged.error")
