@@ -296,15 +296,14 @@ class Live:
 
     async def watch(self) -> None:
         """Reloads programs that another editor changed."""
+        changes = session.Changes(lambda: self.read_sources(self.plan))
         while True:
             await asyncio.sleep(WATCH_SECONDS)
-            try:
+            with contextlib.suppress(OSError):
                 if self.record.limit():
                     self.broadcast({"event": "warning", "message": self.record.deletion})
-                current = self.read_sources(self.plan)
-            except (OSError, Failure):
-                continue  # an editor is just replacing a file
-            if current != self._sources:
+            current = changes.since(self._sources)
+            if current is not None:
                 self._sources = current
                 self.broadcast({"event": "files", "files": self.files})
                 await self.reload()

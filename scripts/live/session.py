@@ -194,6 +194,24 @@ def _source(path: Path, roots: list[Path]) -> Source:
     return Source(path, re.sub("\r\n?", "\n", text), problem, mark, newline)
 
 
+class Changes:
+    """Detects changes of sources that other programs made. Sources that were missing count as changed, because their compilation may have failed."""
+
+    def __init__(self, read: Callable[[], dict[str, Source]]) -> None:
+        self._read = read
+        self._were_missing = False
+
+    def since(self, known: dict[str, Source]) -> dict[str, Source] | None:
+        """Returns the changed sources, or None if they equal the known ones or cannot be read, for example while an editor replaces a file."""
+        try:
+            current = self._read()
+        except (OSError, Failure):
+            self._were_missing = True
+            return None
+        is_changed, self._were_missing = self._were_missing or current != known, False
+        return current if is_changed else None
+
+
 @contextlib.contextmanager
 def new_file(path: Path) -> Iterator[BinaryIO]:
     """Opens a new file, and removes it after an error. Raises `FileExistsError` if a file or link of that name exists."""

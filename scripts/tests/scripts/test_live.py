@@ -136,6 +136,21 @@ def test_sources_that_vanish_before_their_compilation_are_reported(tmp_path: Pat
     assert str(programs) in compiled.messages
 
 
+def test_sources_that_return_unchanged_are_compiled_again(tmp_path: Path) -> None:
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    (programs / "A.kt").write_text("a")
+    plan: Any = SimpleNamespace(parts={"programs": inputs.programs(programs)})
+    changes = session.Changes(lambda: session.sources(plan, tmp_path))
+    known = sources(tmp_path)
+    assert changes.since(known) is None
+    programs.rename(tmp_path / "away")
+    assert changes.since(known) is None
+    (tmp_path / "away").rename(programs)
+    assert changes.since(known) == known
+    assert changes.since(known) is None
+
+
 def test_a_set_option_without_a_value_is_refused() -> None:
     parser = argparse.ArgumentParser()
     live.add_arguments(parser)
