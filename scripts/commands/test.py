@@ -136,11 +136,14 @@ def test_projects(paths: Sequence[Path]) -> int:
     """Runs the Kotlin tests of users' projects."""
     graph.build("runtime", "jvm_modules")
     setup_environment()
-    from tests import results
+    from tests import junit, results
     shutil.rmtree(RESULTS / "projects", ignore_errors=True)
-    cases = {}
+    cases: dict[str, list[junit.Case]] = {}
     for path in paths:
         name = path.resolve().name
+        # Projects in different folders may have the same name.
+        while name in cases:
+            name += "-again"
         code = project_tests.run(path, RESULTS / "projects" / name)
         cases[name] = results.read(RESULTS / "projects" / name, "JUnit found no tests, or ended early" if code else "")
     return results.verdict(cases, RESULTS / "projects")

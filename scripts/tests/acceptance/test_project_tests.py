@@ -1,5 +1,6 @@
 """Runs the Kotlin tests of a project."""
 import os
+import shutil
 
 from command import Project, collektive
 
@@ -42,3 +43,17 @@ class ProjectTestsTest(Project):
             else:
                 self.assertIn("LampsTest.kt:1", result.stderr)
 
+
+    def test_each_failure_counts(self) -> None:
+        tests = self.path("project", "tests")
+        os.mkdir(tests)
+        others = []
+        for text in (TESTS.replace("(1, 2)", "(2, 2)"), TESTS.replace("assertEquals(1, 2)", "System.exit(0)"), TESTS):
+            with open(os.path.join(tests, "LampsTest.kt"), "w") as output:
+                output.write(text)
+            if text != TESTS:
+                others.append(shutil.copytree(self.path("project"), self.path(str(len(others)), "project")))
+        # A later project of the same name must not replace the results, and a test that ends the process has none.
+        result = collektive("test", "project", *others, cwd=self.folder)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertEqual(result.stdout.splitlines()[-1], "3 passed, 2 failed")
