@@ -93,9 +93,11 @@ def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
 
 
 def require_replaceable(file: str, beginning: bytes, option: str) -> None:
-    """Raises `Failure` if a file exists that does not begin like the results that would replace it."""
+    """Raises `Failure` if a file exists that does not begin like the results that would replace it, or that has another name, which would change too."""
     if not os.path.isfile(file):
         return
+    if os.stat(file).st_nlink > 1:
+        raise Failure(f"'{file}' is a hard link: {option} would also overwrite its other names; name another file, or remove it")
     with open(file, "rb") as existing:
         if existing.read(len(beginning)) not in (b"", beginning):
             raise Failure(f"'{file}' exists and was not written by {option}: name another file, or remove it")

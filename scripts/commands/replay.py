@@ -30,9 +30,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     if arguments.out is not None:
-        outputs.require_replaceable(arguments.out, b"CLKREC", "--out")
         if os.path.exists(arguments.out) and os.path.exists(arguments.record) and os.path.samefile(arguments.out, arguments.record):
             raise Failure(f"replay: --out '{arguments.out}' is the record that is read: name another file")
+        outputs.require_replaceable(arguments.out, b"CLKREC", "--out")
     graph.build("jvm")
     # The samples' programs may have run in Unity.
     projects.record_own_program(SAMPLES_JAR)

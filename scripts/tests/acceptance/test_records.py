@@ -1,5 +1,6 @@
 """Tests replaying and comparing recorded runs."""
 import os
+import shutil
 import struct
 import zlib
 
@@ -58,9 +59,11 @@ class Records(Project):
             before = file.read()
         os.link(self.a, self.path("link.clkrec"))
         os.symlink(self.a, self.path("symlink.clkrec"))
+        shutil.copy(self.a, self.path("kept.clkrec"))
+        os.link(self.path("kept.clkrec"), self.path("name.clkrec"))
         scenario = self.path("project", "lamps.json")
         for out, message in ((self.a, "is the record that is read"), (self.path("link.clkrec"), "is the record that is read"),
-                             (self.path("symlink.clkrec"), "is the record that is read"), (scenario, "exists and was not written by --out")):
+                             (self.path("symlink.clkrec"), "is the record that is read"), (self.path("name.clkrec"), "is a hard link"), (scenario, "exists and was not written by --out")):
             result = collektive("replay", self.a, "--out", out)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(message, last_error(result))
