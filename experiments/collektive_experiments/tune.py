@@ -32,11 +32,13 @@ class Search:
     direction: str
     trials: int
     parameters: dict[str, optuna.distributions.BaseDistribution]
+    runs: list[tuple[str, list[Any]]]
+    """The keys that vary between the runs of a trial, with their values."""
 
     @property
     def identity(self) -> str:
         """Returns the settings that must not change when a search is resumed."""
-        return json.dumps([self.metric, self.direction, {key: repr(value) for key, value in self.parameters.items()}])
+        return json.dumps([self.metric, self.direction, {key: repr(value) for key, value in self.parameters.items()}, self.runs])
 
 
 def read_search(experiment: Experiment) -> Search:
@@ -63,7 +65,8 @@ def read_search(experiment: Experiment) -> Search:
         reject_fixed_key(located, "tune", key)
         if key in experiment.fixed or key in experiment.keys:
             raise located.error(f"'{key}' is in 'tune', and also in 'vary', 'zip' or 'set'; remove one", "tune", "parameters", key)
-    return Search(tune["metric"], direction, trials, {key: _distribution(located, key, value) for key, value in parameters.items()})
+    return Search(tune["metric"], direction, trials, {key: _distribution(located, key, value) for key, value in parameters.items()},
+                  experiment.product + experiment.together)
 
 
 def _distribution(located: Located, key: str, given: Any) -> optuna.distributions.BaseDistribution:
@@ -150,7 +153,7 @@ def _study(search: Search, store: Store) -> optuna.Study:
     study = optuna.create_study(storage=storage, study_name=STUDY, direction=search.direction, load_if_exists=True)
     former = study.user_attrs.setdefault("search", search.identity) if "search" in study.user_attrs else search.identity
     if former != search.identity:
-        raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction or parameters differ; name another folder with --out")
+        raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or varied values differ; name another folder with --out")
     study.set_user_attr("search", search.identity)
     # The seed is the number of trials, so a resumed search always proposes the same values.
     study.sampler = optuna.samplers.TPESampler(seed=len(study.trials), constant_liar=True)

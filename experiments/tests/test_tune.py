@@ -7,6 +7,9 @@ from typing import Any
 import pytest
 from conftest import Project
 
+from collektive_experiments import read
+from collektive_experiments.tune import read_search
+
 TUNE: dict[str, Any] = {"metric": "agreeing", "direction": "maximize", "trials": 3,
                         "parameters": {"fields.lamps": {"from": 3, "to": 6}, "network.loss": [0, 0.5]}}
 
@@ -59,6 +62,11 @@ def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
     damaged = tune(project, "--resume", "--trials", "2", out=out)
     assert (damaged.returncode, damaged.stderr.count("\n")) == (1, 1), damaged.stderr
     assert f"'{storage}' cannot be read or written: database disk image is malformed" in damaged.stderr
+
+
+def test_a_search_with_other_runs_is_another_search(project: Project) -> None:
+    searches = [read_search(read(project.experiment(vary={"seed": seeds}, tune=TUNE))) for seeds in ("1-2", "1-2", "1-3")]
+    assert searches[0].identity == searches[1].identity != searches[2].identity
 
 
 @pytest.mark.parametrize(("changes", "message"), [
