@@ -9,6 +9,7 @@ from . import experiment as experiments
 from . import figure_options
 from .options import add_plot_arguments, add_sweep_arguments, add_tune_arguments
 from .positions import ExperimentError, Located
+from .search import check_search, read_search
 from .slurm import run_task, write_job
 from .store import Store
 from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
@@ -58,7 +59,11 @@ def _sweep(options: argparse.Namespace) -> int:
     experiment = experiments.read(options.experiment)
     out = options.out or os.path.join("out", os.path.splitext(os.path.basename(options.experiment))[0])
     if options.dry_run:
-        seconds = estimate(experiment, options.jobs, options.time_limit, options.trust_jvm)
+        checks = []
+        if "tune" in experiment.located.root:
+            search = read_search(experiment)
+            checks.append(lambda store: check_search(experiment, search, store, options.trust_jvm))
+        seconds = estimate(experiment, options.jobs, options.time_limit, options.trust_jvm, *checks)
         print(f"{experiment.count} runs into {out}, {options.jobs} at once, about {duration(seconds)}")
         for _, run in zip(range(5), experiment.runs()):
             print("  " + run.name)
@@ -77,7 +82,7 @@ def _sweep(options: argparse.Namespace) -> int:
 
 def _tune(options: argparse.Namespace) -> int:
     # This import is here because Optuna is downloaded only for this command.
-    from .tune import read_search, tune
+    from .tune import tune
     experiment = experiments.read(options.experiment)
     search = read_search(experiment)
     out = options.out or os.path.join("out", os.path.splitext(os.path.basename(options.experiment))[0] + "-tuned")

@@ -10,7 +10,7 @@ import tempfile
 import threading
 import time
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import Any, Protocol
 
@@ -142,11 +142,15 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
     return code
 
 
-def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool) -> float:
-    """Estimates the duration of the sweep in seconds. Executes the first run once and the middle run twice, all with one worker."""
+def estimate(experiment: Experiment, jobs: int, limit: float, trust: bool, check: Callable[[Store], None] = lambda store: None) -> float:
+    """Estimates the duration of the sweep in seconds. Executes the first run once and the middle run twice, all with one worker.
+
+    Calls `check` before the first run.
+    """
     runs = list(experiment.runs())
     with tempfile.TemporaryDirectory(prefix="collektive-") as folder, Store(os.path.join(folder, "out")) as store:
         begin(experiment, store, False, trust)
+        check(store)
         worker = Worker(store.bundle, os.path.join(store.logs, "trial.txt"), trust)
         seconds = []
         try:

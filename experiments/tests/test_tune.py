@@ -8,7 +8,7 @@ import pytest
 from conftest import Project
 
 from collektive_experiments import read
-from collektive_experiments.tune import read_search
+from collektive_experiments.search import read_search
 
 TUNE: dict[str, Any] = {"metric": "agreeing", "direction": "maximize", "trials": 3,
                         "parameters": {"fields.lamps": {"from": 3, "to": 6}, "network.loss": [0, 0.5]}}
@@ -87,3 +87,12 @@ def test_an_invalid_search_is_refused_with_its_line(project: Project, changes: d
     assert result.returncode == 1
     assert message in result.stderr
     assert "experiment.json:" in result.stderr
+
+
+@pytest.mark.parametrize(("changes", "message"), [
+    ({"sampler": "x"}, "unknown key 'tune.sampler'"),
+    pytest.param({"parameters": {"fields.lmps": [3, 4]}}, "no public field 'lmps'", marks=pytest.mark.slow),
+])
+def test_a_dry_run_of_a_sweep_checks_the_search(project: Project, changes: dict[str, Any], message: str) -> None:
+    result = project.sweep("--dry-run", vary={"seed": "1-2"}, set={"seconds": 1}, tune={**TUNE, **changes})
+    assert (result.returncode, message in result.stderr) == (1, True), result.stderr
