@@ -85,7 +85,8 @@ def _study(search: Search, store: Store) -> optuna.Study:
     study = optuna.create_study(storage=storage, study_name=STUDY, direction=search.direction, load_if_exists=True)
     former = study.user_attrs.setdefault("search", search.identity) if "search" in study.user_attrs else search.identity
     if former != search.identity:
-        raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or varied values differ; name another folder with --out")
+        raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or varied values differ; "
+                              "name another folder with --out")
     study.set_user_attr("search", search.identity)
     # The seed is the number of trials, so a resumed search always proposes the same values.
     study.sampler = optuna.samplers.TPESampler(seed=len(study.trials), constant_liar=True)

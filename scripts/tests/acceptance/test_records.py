@@ -63,7 +63,8 @@ class Records(Project):
         os.link(self.path("kept.clkrec"), self.path("name.clkrec"))
         scenario = self.path("project", "lamps.json")
         for out, message in ((self.a, "is the record that is read"), (self.path("link.clkrec"), "is the record that is read"),
-                             (self.path("symlink.clkrec"), "is the record that is read"), (self.path("name.clkrec"), "is a hard link"), (scenario, "exists and was not written by --out")):
+                             (self.path("symlink.clkrec"), "is the record that is read"), (self.path("name.clkrec"), "is a hard link"),
+                             (scenario, "exists and was not written by --out")):
             result = collektive("replay", self.a, "--out", out)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(message, last_error(result))
