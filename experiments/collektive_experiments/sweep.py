@@ -39,6 +39,10 @@ Task = tuple[Run, bool]
 Ended = tuple[Run, Outcome]
 
 
+class Stopped(ExperimentError):
+    """The results of the finished runs are a reason to stop the sweep."""
+
+
 class Pool(Protocol):
     """A pool executes runs. It stores the results of each finished run, and adds the run to a queue."""
 
@@ -107,8 +111,11 @@ class LocalPool:
             writer.shutdown()
 
     def _finish(self, run: Run, outcome: Outcome, seconds: float, ended: "queue.SimpleQueue[Ended | BaseException]") -> None:
-        self._store.finish(run, outcome, seconds)
-        ended.put((run, outcome))
+        try:
+            self._store.finish(run, outcome, seconds)
+            ended.put((run, outcome))
+        except BaseException as error:
+            ended.put(error)
 
 
 def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> list[Task]:
@@ -119,7 +126,9 @@ def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> li
     todo = [run for run in experiment.runs() if not store.is_complete(run)]
     if len(todo) < experiment.count:
         print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are already complete", file=sys.stderr)
-    repeated = set(_spread(len(todo)))
+    # Runs that gave different results are repeated again, because one execution of them could hide that.
+    differing = {index for index, run in enumerate(todo) if (store.record(run) or {}).get("status") == "differs"}
+    repeated = differing | set(_spread(len(todo)))
     return [(run, index in repeated) for index, run in enumerate(todo)]
 
 
@@ -134,7 +143,11 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
 
     Returns 0 if all runs are complete, 1 if some are not, and 128 plus the number of the signal if a signal interrupted the sweep.
     """
-    code = drive(store, experiment.count, todo, pool, jobs, math.inf if keep_going else MAX_EQUAL_FAILURES)
+    try:
+        code = drive(store, experiment.count, todo, pool, jobs, math.inf if keep_going else MAX_EQUAL_FAILURES)
+    except Stopped:
+        tables.write(experiment, store, with_csv)
+        raise
     written = tables.write(experiment, store, with_csv)
     if code == 0 and written != experiment.count:
         raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; "
@@ -195,12 +208,12 @@ def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, max
                 progress.print(f"{run.name}: {outcome.status}: {outcome.message}")
                 _require_room(store)
             progress.ended(outcome)
-            if failed >= max_equal_failures and progress.done == 0 and len(messages) == 1:
-                raise ExperimentError(f"the sweep stopped: its first {failed} runs all failed in the same way; correct the cause and continue with "
-                                      "--resume, or run all with --keep-going")
+            if failed >= max_equal_failures and progress.done == total - len(todo) and len(messages) == 1:
+                raise Stopped(f"the sweep stopped: its first {failed} runs all failed in the same way; correct the cause and continue with "
+                              "--resume, or run all with --keep-going")
             if outcome.status == "differs":
-                raise ExperimentError(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
-                                      "inputs, such as a clock, a file or a random number without the scenario's seed")
+                raise Stopped(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
+                              "inputs, such as a clock, a file or a random number without the scenario's seed")
     except (OSError, WorkerError) as error:
         progress.end()
         raise ExperimentError(f"the sweep stopped: {error}; to continue, add --resume") from error
@@ -254,14 +267,17 @@ def check_keys(experiment: Experiment, store: Store, trust: bool, others: Iterab
         worker.stop()
 
 
+def convergence_times(experiment: Experiment, others: Iterable[str] = ()) -> list[str]:
+    """Returns the columns of convergence times, which the scenario, the experiment's keys or the keys `others` define."""
+    converged = [*Located(experiment.scenario).root.get("converged", {}), *experiment.fixed.get("converged", {})]
+    keys = [key for key in [*experiment.fixed, *experiment.keys, *others] if key.startswith(CONVERGED)]
+    return list(dict.fromkeys([*(CONVERGED + name for name in converged), *(re.sub(r"\.(from|to|seconds)$", "", key) for key in keys)]))
+
+
 def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
     """Checks that the metrics in `figures` and `labels` exist."""
-    converged = list(Located(experiment.scenario).root.get("converged", {}))
-    keys = [key.removeprefix(CONVERGED) for key in [*experiment.fixed, *experiment.keys] if key.startswith(CONVERGED)]
-    converged += [re.sub(r"\.(from|to|seconds)$", "", key) for key in keys]
-    converged += experiment.fixed.get("converged", {})
     numbers = [name for name, kind in tables.RUN_COLUMNS + tables.RUN_TIMES if not pa.types.is_string(kind)]
-    at_end = [*metrics, *(CONVERGED + name for name in dict.fromkeys(converged))]
+    at_end = [*metrics, *convergence_times(experiment)]
     for options in experiment.figures:
         check_metrics(options, at_end + numbers, metrics)
     check_labels(experiment, at_end + numbers)

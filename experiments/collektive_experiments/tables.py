@@ -16,6 +16,7 @@ import pyarrow.parquet as pq
 from . import files
 from .experiment import Experiment, Run, text
 from .figure_options import CENSORED, CONVERGED
+from .positions import ExperimentError
 from .store import Store
 
 BATCH = 2000
@@ -161,6 +162,8 @@ class _Columns:
         if record["status"] != "complete":
             return row
         manifest = self._manifest(run)
+        if not {"end", "converged", "versions"} <= manifest.keys():
+            raise ExperimentError(f"the manifest of '{run.name}' was changed: repeat the run with --resume")
         row |= {name: manifest.get(name) for name in ("digest", "nodes", "ticks", "errors", *(name for name, _ in RUN_TIMES))}
         row |= {column: self._number(run, name, manifest["end"].get(name)) for name, column in self._names.items()}
         for name in self.converged:

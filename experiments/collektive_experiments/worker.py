@@ -209,6 +209,9 @@ class Worker:
         elif process is not None and fresh and not process.is_fresh:
             process, warm = None, process
         self._busy = process = process or self._start(start)
+        # A reused process was not busy during an earlier call of `kill`.
+        if self._closed:
+            process.kill()
         try:
             keeps_state = process.keeps_state()
             if isinstance(keeps_state, Outcome):
@@ -280,7 +283,7 @@ def java_home() -> str:
         home = os.path.join(folder, entry)
         if not os.path.exists(os.path.join(home, "lib/server/libjvm.so")) or not os.path.exists(os.path.join(home, "release")):
             continue
-        with open(os.path.join(home, "release")) as file:
+        with open(os.path.join(home, "release"), encoding="utf-8") as file:
             version = next((line.split('"')[1] for line in file if line.startswith("JAVA_VERSION=")), "0")
         if int(version.split(".")[0]) > best_version:
             best, best_version = home, int(version.split(".")[0])
@@ -291,7 +294,7 @@ def java_home() -> str:
 
 def _last_error(log: str) -> str:
     try:
-        with open(log, errors="replace") as file:
+        with open(log, encoding="utf-8", errors="replace") as file:
             lines = [line.strip() for line in file if line.strip()]
     except OSError:
         return ""

@@ -1,15 +1,17 @@
 """Tests the local pool with fake workers."""
 import queue
 import threading
+from collections.abc import Iterator
 from typing import Any, cast
 
 import pytest
 
 from collektive_experiments import sweep
-from collektive_experiments.experiment import Run
+from collektive_experiments.experiment import Experiment, Run
+from collektive_experiments.positions import ExperimentError
 from collektive_experiments.store import Store
 from collektive_experiments.sweep import Ended, LocalPool
-from collektive_experiments.worker import Outcome
+from collektive_experiments.worker import Outcome, Worker
 
 
 class FakeWorker:
@@ -35,7 +37,8 @@ class FakeWorker:
 
 
 class FakeRun:
-    def __init__(self) -> None:
+    def __init__(self, name: str = "") -> None:
+        self.name = name
         self.process = ""
         self.settings: dict[str, Any] = {}
 
@@ -44,12 +47,40 @@ class FakeStore:
     bundle = ""
 
     def __init__(self, folder: str):
-        self.logs = folder
+        self.logs = self.folder = folder
+
+    def open(self, *_: Any) -> None:
+        pass
+
+    def is_complete(self, run: Run) -> bool:
+        return False
+
+    def record(self, run: Run) -> dict[str, Any] | None:
+        return {"status": "differs"} if run.name == "0" else None
 
     def begin(self, run: Run) -> str:
         return ""
 
     def finish(self, *_: Any) -> None:
+        pass
+
+
+class FakeExperiment:
+    count = 10
+    scenario, runtimes = "", ()
+
+    def runs(self) -> Iterator[Run]:
+        return (cast(Run, FakeRun(str(index))) for index in range(self.count))
+
+
+class FailingPool:
+    """A pool whose runs all fail in the same way."""
+
+    def start(self, tasks: list[sweep.Task], ended: "Events") -> None:
+        for run, _ in tasks:
+            ended.put((run, Outcome("failed", "no luck")))
+
+    def stop(self) -> None:
         pass
 
 
@@ -95,3 +126,67 @@ def test_an_error_while_results_are_written_is_reported(started: tuple[LocalPool
     assert str(ended.get(timeout=60)) == "No space left on device"
     pool.stop()
     assert worker.stops == 1
+
+
+class SlowWorker(FakeWorker):
+    """A worker whose first run ends immediately."""
+
+    def run(self, *_: Any) -> Outcome:
+        return super().run() if self.began.is_set() else self.began.set() or Outcome("complete")
+
+
+def test_an_error_while_results_are_written_is_reported_during_the_next_run(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    worker = SlowWorker()
+    monkeypatch.setattr(sweep, "Worker", lambda *_: worker)
+
+    def fail(*_: Any) -> None:
+        raise OSError("No space left on device")
+
+    monkeypatch.setattr(FakeStore, "finish", fail)
+    pool = LocalPool(cast(Store, FakeStore(str(tmp_path))), 1, 60, False)
+    ended: Events = queue.SimpleQueue()
+    pool.start([(cast(Run, FakeRun()), False)] * 2, ended)
+    try:
+        assert str(ended.get(timeout=5)) == "No space left on device"
+    finally:
+        pool.stop()
+
+
+def test_runs_that_gave_different_results_are_repeated_again(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sweep, "prepare", lambda *_: None)
+    monkeypatch.setattr(sweep, "check_keys", lambda *_: None)
+    todo = sweep.begin(cast(Experiment, FakeExperiment()), cast(Store, FakeStore(str(tmp_path))), True, False)
+    assert [run.name for run, is_repeated in todo if is_repeated] == ["0", "2", "5", "9"]
+
+
+def test_a_resumed_sweep_stops_after_equal_failures_and_writes_its_tables(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    written = []
+    monkeypatch.setattr(sweep.tables, "write", lambda *_: written.append(True))
+    experiment = FakeExperiment()
+    todo: list[sweep.Task] = [(run, False) for run in experiment.runs()][3:]
+    with pytest.raises(ExperimentError, match="its first 5 runs all failed in the same way"):
+        sweep.sweep(cast(Experiment, experiment), cast(Store, FakeStore(str(tmp_path))), todo, FailingPool(), 1, False)
+    assert written
+
+
+class IdleProcess:
+    """A process that would execute a run unless it is killed first."""
+
+    settings = ""
+    is_killed = False
+
+    def kill(self) -> None:
+        self.is_killed = True
+
+    def keeps_state(self) -> Outcome:
+        return Outcome("crashed" if self.is_killed else "complete")
+
+    def end(self) -> None:
+        pass
+
+
+def test_a_reused_process_does_not_run_after_kill(tmp_path: Any) -> None:
+    worker = Worker(str(tmp_path), "")
+    worker._idle = cast(Any, IdleProcess())
+    worker.kill()
+    assert worker.run({}, "", "", 60, False).status == "crashed"

@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project, processes
 
-from collektive_experiments import compare, files, load
+from collektive_experiments import ExperimentError, compare, files, load, read, tables
 from collektive_experiments.store import Store
 
 MANY = {"vary": {"seed": "1-16"}, "set": {"seconds": 20}}
@@ -368,3 +368,15 @@ def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
     assert "3 of 4 runs are already complete" in resumed.stderr
     digests = lamps.digests()
     assert lamps.digests("slurm") == {run: digest for run, digest in digests.items() if "lamps=5" in run}
+
+
+def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project) -> None:
+    experiment = read(project.experiment(vary={"seed": [1]}))
+    (run,) = experiment.runs()
+    store = Store(str(project.folder))
+    folder = project.folder / "runs" / run.name
+    folder.mkdir(parents=True)
+    (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": {}}))
+    (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *tables.TIMES]) + "\n")
+    with pytest.raises(ExperimentError, match=f"the manifest of '{run.name}' was changed: repeat the run with --resume"):
+        tables.write(experiment, store, False)
