@@ -51,7 +51,7 @@ class Results:
     @property
     def convergence_times(self) -> list[str]:
         """The columns of convergence times."""
-        return [name for name in self.runs.columns if name.startswith(CONVERGED)]
+        return [name for name in self.runs.columns if name.startswith(CONVERGED) and name not in self.keys]
 
     def censored(self, metric: str) -> "pd.Series[bool]":
         """Returns for each complete run whether only a lower bound of its convergence time is known. Values of other metrics are never censored."""
@@ -97,7 +97,9 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     - `n_a` and `n_b`, the numbers of runs with a value, and `pairs`, the number of their pairs.
     """
     rows = []
-    others = [key for key in results.configuration if key != by]
+    # Other keys of a `zip` with `by` have the same value in all runs with a value of `by`.
+    others = [key for key in results.configuration
+              if key != by and (results.runs[key].nunique() == 1 or results.runs.groupby(by)[key].nunique().max() > 1)]
     data = results.complete.assign(**{VALUE: results.values(metric)}).dropna(subset=VALUE)
     groups = data.groupby(others, sort=False, dropna=False) if others else [((), data)]
     for place, group in groups:

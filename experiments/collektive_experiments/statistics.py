@@ -12,6 +12,9 @@ MAX_EXACT_PAIRS = 12
 """The maximum number of pairs for which the permutation test enumerates all sign changes."""
 NORMAL_95 = 1.959963984540054
 """The 97.5 % quantile of the normal distribution."""
+ROUNDING = 1e-14
+"""The share of the largest value below which differences count as equal. It is 45 times the precision of a float, which exceeds the rounding errors of
+NumPy's sums, because these grow only with the logarithm of the number of values."""
 EFFECTS = ("mean_a", "mean_b", "difference", "difference_low", "difference_high", "delta", "delta_low", "delta_high", "p")
 
 
@@ -42,7 +45,7 @@ def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
     difference = b.mean() - a.mean()
     both = np.concatenate([a, b])
     shuffled = random.permuted(np.tile(both, (RESAMPLES, 1)), axis=1)
-    extreme = np.abs(shuffled[:, len(a):].mean(axis=1) - shuffled[:, :len(a)].mean(axis=1)) >= abs(difference) - 1e-12
+    extreme = np.abs(shuffled[:, len(a):].mean(axis=1) - shuffled[:, :len(a)].mean(axis=1)) >= abs(difference) - _slack(a, b)
     values = (a.mean(), b.mean(), difference, *differences, np.sign(b[None, :] - a[:, None]).mean(), *deltas, (extreme.sum() + 1) / (RESAMPLES + 1))
     return dict(zip(EFFECTS, map(float, values)))
 
@@ -59,10 +62,15 @@ def paired_effect(a: Floats, b: Floats) -> dict[str, float]:
     deltas = np.quantile(np.sign(samples).mean(axis=1), [0.025, 0.975])
     is_exact = count <= MAX_EXACT_PAIRS
     signs = ((np.arange(2 ** count)[:, None] >> np.arange(count)) & 1) * 2 - 1 if is_exact else random.choice((-1, 1), (RESAMPLES, count))
-    extreme = np.abs((signs * differences).mean(axis=1)) >= abs(differences.mean()) - 1e-12
+    extreme = np.abs((signs * differences).mean(axis=1)) >= abs(differences.mean()) - _slack(a, b)
     p = extreme.mean() if is_exact else (extreme.sum() + 1) / (RESAMPLES + 1)
     values = (a.mean(), b.mean(), differences.mean(), *bounds, np.sign(differences).mean(), *deltas, p)
     return dict(zip(EFFECTS, map(float, values)))
+
+
+def _slack(a: Floats, b: Floats) -> float:
+    """Returns the difference below which two differences of means count as equal."""
+    return ROUNDING * float(max(np.abs(a).max(), np.abs(b).max()))
 
 
 def holm(values: Floats) -> Floats:

@@ -7,6 +7,7 @@ import pytest
 
 from collektive_experiments import Results, compare, holm, interval, kaplan_meier
 from collektive_experiments.figures import at_end, over_time
+from collektive_experiments.statistics import paired_effect, unpaired_effect
 
 
 def results(shift: float, size: int = 20) -> Results:
@@ -126,3 +127,26 @@ def test_kaplan_meier_of_uncensored_runs_is_the_empirical_distribution() -> None
         moments, shares, _, _ = kaplan_meier(times, random.random(size) < 0.5)
         assert all(share <= (times <= moment).mean() + 1e-12 for moment, share in zip(moments, shares))
     assert len(kaplan_meier(np.ones(3), np.zeros(3, bool))[0]) == 0
+
+
+@pytest.mark.parametrize("scale", [1e-15, 1e4, 1e9])
+def test_p_values_do_not_depend_on_the_unit(scale: float) -> None:
+    a = np.random.default_rng(0).random(4)
+    b = a[::-1] * 0.9 + 1.5
+    assert unpaired_effect(a, b)["p"] == pytest.approx(2 / 70, abs=0.01)
+    for effect in (unpaired_effect, paired_effect):
+        assert effect(scale * a, scale * b)["p"] == effect(a, b)["p"]
+
+
+def test_a_varied_key_of_convergence_is_not_a_convergence_time() -> None:
+    some = results(0)
+    some.runs["converged.error.seconds"] = 1.0
+    assert replace(some, keys=[*some.keys, "converged.error.seconds"]).convergence_times == []
+
+
+def test_values_are_compared_although_other_keys_vary_with_them() -> None:
+    zipped = results(2)
+    zipped.runs["gain"] = zipped.runs["program"].map({"a": 1, "b": 2})
+    table = compare(replace(zipped, keys=[*zipped.keys, "gain"]), "error", "program")
+    assert len(table) == 1
+    assert "gain" not in table
