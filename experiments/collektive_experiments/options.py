@@ -11,7 +11,6 @@ def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--resume", action="store_true", help="continue a sweep that was stopped; complete runs are not repeated")
     parser.add_argument("--csv", action="store_true", help="also write the tables as CSV files")
     parser.add_argument("--dry-run", action="store_true", help="make three trial runs, and print the number of runs and their estimated time")
-    parser.add_argument("--keep-going", action="store_true", help="continue even if the first runs all fail in the same way")
 
 
 def add_tune_arguments(parser: argparse.ArgumentParser) -> None:
@@ -29,6 +28,7 @@ def _add_run_arguments(parser: argparse.ArgumentParser) -> "argparse._MutuallyEx
                         help="simultaneous runs (default: the number of processors)")
     parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
     parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
+    parser.add_argument("--keep-going", action="store_true", help="continue even if the first runs all fail in the same way")
     group = parser.add_mutually_exclusive_group()
     group.add_argument("--ray", metavar="ADDRESS", help="run on the Ray cluster at ADDRESS; auto uses the local cluster, and starts one if none is running")
     return group

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from .experiment import Experiment, reject_fixed_key
-from .figure_options import CONVERGED
 from .positions import Located
 from .store import Store
-from .sweep import check_keys
+from .sweep import check_keys, convergence_times
 
 TRIALS = 50
 DIRECTIONS = ("minimize", "maximize")
@@ -82,8 +81,7 @@ def check_search(experiment: Experiment, search: Search, store: Store, trust: bo
     ends = {key: value if isinstance(value, list) else [value["from"], value["to"]] for key, value in search.parameters.items()}
     first = {key: values[0] for key, values in ends.items()}
     metrics = check_keys(experiment, store, trust, [({**first, key: value}, ("tune", "parameters", key)) for key, values in ends.items() for value in values])
-    converged = Located(experiment.scenario).root.get("converged", {})
-    known = [*metrics, *(CONVERGED + name for name in converged)]
+    known = [*metrics, *convergence_times(experiment, search.parameters)]
     if search.metric not in known:
         raise experiment.located.error(f"'tune.metric' is '{search.metric}', which does not exist; existing metrics: {', '.join(known)}", "tune", "metric")
 

@@ -40,24 +40,31 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     distributions = {key: _distribution(value) for key, value in search.parameters.items()}
     code = 0
     while code == 0 and (left := total - len(_finished(study))) > 0:
-        trials = [study.ask(distributions) for _ in range(min(left, options.jobs))]
+        count = min(left, options.jobs)
+        # Trials of an interrupted search are continued first.
+        trials: list[Any] = [trial for trial in study.get_trials(states=(optuna.trial.TrialState.RUNNING,))
+                             if trial.params.keys() == search.parameters.keys()][:count]
+        trials += [study.ask(distributions) for _ in range(count - len(trials))]
         runs = {trial.number: [_run(experiment, run, trial.params) for run in experiment.runs()] for trial in trials}
         # Runs are collected by name, because different trials may propose the same values.
         every = {run.name: run for group in runs.values() for run in group}
         todo = [(run, False) for run in every.values() if not store.is_complete(run)]
         if todo:
-            code = drive(store, len(todo), todo, pool(), options.jobs, MAX_EQUAL_FAILURES)
+            is_limited = not options.keep_going and not _finished(study)
+            code = drive(store, len(todo), todo, pool(), options.jobs, MAX_EQUAL_FAILURES if is_limited else math.inf)
         if code >= 128:
             break
         code = 0
         for trial in trials:
             values = [_value(store, run, search.metric) for run in runs[trial.number]]
             if any(math.isnan(value) for value in values):
-                study.tell(trial, state=optuna.trial.TrialState.FAIL)
+                study.tell(trial.number, state=optuna.trial.TrialState.FAIL)
             else:
-                study.tell(trial, sum(values) / len(values))
+                study.tell(trial.number, sum(values) / len(values))
     _write(study, search, os.path.join(store.folder, "trials.csv"))
     done = [trial for trial in _finished(study) if trial.value is not None]
+    if not done and code >= 128:
+        return code
     if not done:
         raise ExperimentError(f"no trial has a value of '{search.metric}'; the messages are in '{store.runs}'")
     print(f"{len(done)} trials, best {search.metric} {text(study.best_value)} in trial {study.best_trial.number}:")

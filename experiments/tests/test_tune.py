@@ -1,14 +1,19 @@
 """Tests the search for parameter values."""
+import argparse
 import csv
 import json
+import math
 import subprocess
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from conftest import Project
 
 from collektive_experiments import read
-from collektive_experiments.search import read_search
+from collektive_experiments import search as searching
+from collektive_experiments import tune as tuning
+from collektive_experiments.search import check_search, read_search
+from collektive_experiments.store import Store
 
 TUNE: dict[str, Any] = {"metric": "agreeing", "direction": "maximize", "trials": 3,
                         "parameters": {"fields.lamps": {"from": 3, "to": 6}, "network.loss": [0, 0.5]}}
@@ -96,3 +101,36 @@ def test_an_invalid_search_is_refused_with_its_line(project: Project, changes: d
 def test_a_dry_run_of_a_sweep_checks_the_search(project: Project, changes: dict[str, Any], message: str) -> None:
     result = project.sweep("--dry-run", vary={"seed": "1-2"}, set={"seconds": 1}, tune={**TUNE, **changes})
     assert (result.returncode, message in result.stderr) == (1, True), result.stderr
+
+
+def test_an_interrupted_search_continues_its_trials(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    experiment = read(project.experiment(vary={"seed": "1-2"}, tune=TUNE))
+    calls: list[tuple[list[str], float]] = []
+
+    def search(code: int, resume: bool) -> int:
+        def drive(store: Store, total: int, todo: Any, pool: Any, jobs: int, max_equal_failures: float) -> int:
+            calls.append(([run.name for run, _ in todo], max_equal_failures))
+            return code
+
+        monkeypatch.setattr(tuning, "drive", drive)
+        options = argparse.Namespace(resume=resume, trust_jvm=False, trials=None, jobs=2, keep_going=False)
+        with Store(str(project.folder / "out")) as store:
+            return tuning.tune(experiment, read_search(experiment), store, cast(Any, lambda: None), options)
+
+    monkeypatch.setattr(tuning, "prepare", lambda *_: None)
+    monkeypatch.setattr(tuning, "check_search", lambda *_: None)
+    monkeypatch.setattr(tuning, "_value", lambda *_: 1.0)
+    assert search(130, resume=False) == 130
+    assert search(0, resume=True) == 0
+    assert calls[0] == calls[1]
+    # After the first trials, failures are results of the search.
+    assert [limit for _, limit in calls] == [5, 5, math.inf]
+    assert [line.split(",")[0] for line in (project.folder / "out/trials.csv").read_text().splitlines()] == ["trial", "0", "1", "2"]
+
+
+@pytest.mark.parametrize("keys", [{"set": {"converged": {"agreeing": {"from": 3}}}}, {"set": {"converged.agreeing": {"from": 3}}},
+                                  {"vary": {"converged.agreeing.from": [3, 4]}}])
+def test_the_metric_can_be_a_convergence_time_of_the_experiment(project: Project, keys: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    experiment = read(project.experiment(**keys, tune={**TUNE, "metric": "converged.agreeing"}))
+    monkeypatch.setattr(searching, "check_keys", lambda *_: ["agreeing"])
+    check_search(experiment, read_search(experiment), Store(""), False)
