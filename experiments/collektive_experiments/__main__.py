@@ -13,6 +13,7 @@ from .search import check_search, read_search
 from .slurm import run_task, write_job
 from .store import Store
 from .sweep import LocalPool, Pool, begin, duration, estimate, sweep
+from .worker import WorkerError
 
 
 class Parser(argparse.ArgumentParser):
@@ -44,7 +45,7 @@ def main(words: list[str]) -> int:
         if options.command == "task":
             return run_task(options.folder, options.index)
         return _tune(options) if options.command == "tune" else _sweep(options)
-    except ExperimentError as error:
+    except (ExperimentError, WorkerError) as error:
         print(f"collektive: {_line(str(error))}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:

@@ -48,6 +48,9 @@ def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = (
     The programs are compiled for the given runtimes. Without runtimes, they are compiled for the runtime of the scenario. The environment variable
     `COLLEKTIVE` is the path of the command in the checkout that builds the bundle.
     """
+    for runtime in runtimes if os.path.isdir(bundle) else ():
+        if not os.path.exists(programs_jar(bundle, runtime)):
+            raise ExperimentError(f"'{bundle}' contains no programs for the runtime '{runtime}': name another folder with --out")
     work = bundle + PART
     files.make_marked(work)
     try:

@@ -3,6 +3,7 @@ import io
 import logging
 import os
 import queue
+import shutil
 import tarfile
 import tempfile
 import threading
@@ -58,6 +59,7 @@ class _RemoteWorker:
         packed = io.BytesIO()
         with tarfile.open(fileobj=packed, mode="w:gz") as tar:
             tar.add(out, ".")
+        shutil.rmtree(out)
         return outcome, seconds, packed.getvalue()
 
 

@@ -84,8 +84,8 @@ def write_part(path: str, text: str) -> None:
 
 
 def open_log(path: str) -> BinaryIO:
-    """Opens a log file for appending."""
-    return os.fdopen(_open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND), "ab")
+    """Opens a log or lock file for appending. It is also readable, because shared locks on NFS need this."""
+    return os.fdopen(_open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND), "ab")
 
 
 def _open(path: str, flags: int) -> int:

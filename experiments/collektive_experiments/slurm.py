@@ -25,7 +25,7 @@ SCRIPT = """#!/usr/bin/env bash
 #SBATCH --output={folder}/logs/slurm-%a.txt
 set -euo pipefail
 export PYTHONPATH={package}
-exec {python} -m collektive_experiments task {folder} "${{SLURM_ARRAY_TASK_ID:?run this with sbatch}}"
+exec {python} -P -s -m collektive_experiments task {folder} "${{SLURM_ARRAY_TASK_ID:?run this with sbatch}}"
 """
 
 

@@ -1,7 +1,12 @@
 """Tests which files of a project a sweep copies."""
 import json
+from pathlib import Path
 
+import pytest
 from conftest import Project
+
+from collektive_experiments.bundle import prepare
+from collektive_experiments.positions import ExperimentError
 
 
 def test_an_include_outside_the_project_is_rejected(project: Project) -> None:
@@ -44,3 +49,9 @@ def test_runs_use_copies_of_linked_and_included_files(project: Project) -> None:
     again = project.sweep("--resume", vary={"seed": [1]})
     assert again.returncode == 1
     assert "differ from those of the runs in" in again.stderr
+
+
+def test_a_runtime_cannot_be_added_to_a_bundle(tmp_path: Path) -> None:
+    (tmp_path / "programs-collektive.jar").touch()
+    with pytest.raises(ExperimentError, match="contains no programs for the runtime 'builtin': name another folder with --out"):
+        prepare("scenario.json", str(tmp_path), False, ["builtin", "collektive"])
