@@ -140,7 +140,7 @@ def open_closed_descriptors() -> None:
 
 def check_environment() -> None:
     """Sets UTF-8 for file names, and checks the stack limit and the path of the checkout."""
-    if codecs.lookup(locale.getpreferredencoding()).name != "utf-8" or os.environ.get("LC_ALL") in ("C", "POSIX"):
+    if codecs.lookup(locale.getencoding()).name != "utf-8" or os.environ.get("LC_ALL") in ("C", "POSIX"):
         os.environ["LC_ALL"] = "C.UTF-8"
     stack, _ = resource.getrlimit(resource.RLIMIT_STACK)
     if stack != resource.RLIM_INFINITY and stack < STACK_KB * 1024:

@@ -6,6 +6,7 @@ Exit code: 0 all are valid; 1 at least one is not."""
 import argparse
 import os
 import re
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -29,7 +30,9 @@ def run(arguments: argparse.Namespace) -> int:
     files = [(file, kind) for path in arguments.paths for file, kind in find_files(path)]
     graph.build("runtime")
     trust = ["--trust-jvm"] if arguments.trust_jvm else []
-    invalid = [file for file, kind in files if not (_check_scenario if kind == SCENARIO else _check_experiment)(file, trust)]
+    # Scenarios come first, because the check of an experiment releases the lock of the outputs.
+    ordered = sorted(files, key=lambda entry: entry[1] != SCENARIO)
+    invalid = [file for file, kind in ordered if not (_check_scenario if kind == SCENARIO else _check_experiment)(file, trust)]
     for file, kind in files:
         print(f"{file}: {'invalid' if file in invalid else 'valid'} {'scenario' if kind == SCENARIO else 'experiment'}")
     return 1 if invalid else 0
@@ -61,7 +64,7 @@ def _check_scenario(file: Path, trust: list[str]) -> bool:
         plan = player.plan(str(file), trust)
         jar, dll = plan.programs_jar(), plan.scripts_dll()
         with tempfile.TemporaryDirectory(prefix="collektive-") as out:
-            return player.run(str(file), plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), "--check", *trust]) == 0
+            return _is_valid(player.run(str(file), plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), "--check", *trust]))
     except Failure as failure:
         if str(failure):
             print(f"collektive: {failure}", file=sys.stderr)
@@ -71,4 +74,11 @@ def _check_scenario(file: Path, trust: list[str]) -> bool:
 def _check_experiment(file: Path, trust: list[str]) -> bool:
     # The command takes the lock itself.
     lock.release()
-    return processes.call([COLLEKTIVE, "sweep", file, "--dry-run", *trust]) == 0
+    return _is_valid(processes.call([COLLEKTIVE, "sweep", file, "--dry-run", *trust]))
+
+
+def _is_valid(code: int) -> bool:
+    """Evaluates the exit code of a check. Raises `KeyboardInterrupt` if Ctrl-C ended the check."""
+    if code == 128 + signal.SIGINT:
+        raise KeyboardInterrupt
+    return code == 0

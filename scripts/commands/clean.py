@@ -3,6 +3,7 @@ import argparse
 import shutil
 
 from build import lock
+from build.console import Failure
 from build.places import BUILD, JVM
 
 
@@ -13,5 +14,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(_: argparse.Namespace) -> int:
     lock.exclusive()
     for folder in [BUILD, JVM / "target", *JVM.glob("*/target")]:
-        shutil.rmtree(folder, ignore_errors=True)
+        if folder.is_symlink():
+            raise Failure(f"'{folder}' is a symbolic link: delete it and its target")
+        if folder.exists():
+            shutil.rmtree(folder)
     return 0

@@ -24,8 +24,9 @@ def run(arguments: argparse.Namespace) -> int:
     code = run_command.run_scenario(**{**vars(arguments), "out": out, "overwrite": arguments.overwrite or not arguments.out, "recording": str(recording)})
     # If a run cannot begin, an earlier recording remains.
     if _modified(recording) not in (0, before):
-        processes.call([find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", f"{TOOLS_JAR}:{HOST_JAR}", "org.collektive.tools.profile.ProfileReport",
-                        recording])
+        report = processes.call([find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", f"{TOOLS_JAR}:{HOST_JAR}", "org.collektive.tools.profile.ProfileReport",
+                                 recording])
+        return code or report
     return code
 
 

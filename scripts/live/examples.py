@@ -2,6 +2,7 @@
 import json
 import re
 import shutil
+import tempfile
 from pathlib import Path
 
 from build import sample_programs
@@ -49,12 +50,15 @@ def copy(scenario: Path) -> Path:
         return target
     if folder.exists():
         raise Failure(f"'{folder}' exists and has no {scenario.name}: delete or rename the folder")
-    shutil.copytree(scenario.parent, folder, ignore=shutil.ignore_patterns(*_UNITY_FILES))
-    if scenario.parent.parent == FOLDER:
-        return target
-    (schema,) = scenario.parent.glob("*.fbs")
-    shutil.copytree(sample_programs.folder(schema), folder / "programs")
-    values = json.loads(scenario.read_text(encoding="utf-8"))
-    values["programs"] = "programs"
-    target.write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix=".", dir=folder.parent) as work:
+        part = Path(work, folder.name)
+        shutil.copytree(scenario.parent, part, ignore=shutil.ignore_patterns(*_UNITY_FILES))
+        if scenario.parent.parent != FOLDER:
+            (schema,) = scenario.parent.glob("*.fbs")
+            shutil.copytree(sample_programs.folder(schema), part / "programs")
+            values = json.loads(scenario.read_text(encoding="utf-8"))
+            values["programs"] = "programs"
+            (part / scenario.name).write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
+        part.rename(folder)
     return target

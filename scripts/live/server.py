@@ -127,7 +127,7 @@ class Live:
         try:
             await self.player.stop()
             await self.start()
-        except Failure as failure:
+        except (Failure, OSError) as failure:
             # The player has already printed the error of an invalid scenario, and the compilers have printed their errors.
             reason = str(failure) or f"the {'scenario is invalid' if self.plan is plan else 'sources do not compile'}; the reason is in the terminal"
             stopped = {"event": "stopped", "message": reason}
@@ -232,6 +232,8 @@ class Live:
                 await self.execute(page, command)
             except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
                 page.event({"event": "warning", "message": f"a command from the page is invalid: {error!r}"})
+            except OSError as error:
+                page.event({"event": "warning", "message": str(error)})
 
     async def execute(self, page: Page, command: dict[str, Any]) -> None:
         if self.pages[0] is not page:
@@ -435,7 +437,7 @@ async def main(options: dict[str, Any]) -> int:
 if __name__ == "__main__":
     try:
         sys.exit(asyncio.run(main(json.loads(sys.argv[1]))))
-    except Failure as failure:
+    except (Failure, OSError) as failure:
         if str(failure):
             print(f"collektive: {failure}", file=sys.stderr)
-        sys.exit(failure.code or 1)
+        sys.exit(getattr(failure, "code", None) or 1)

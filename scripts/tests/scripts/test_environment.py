@@ -48,3 +48,9 @@ def test_without_a_search_path_python_knows_its_own_path(checkout: Checkout) -> 
     environment = {name: value for name, value in os.environ.items() if name != "PATH"}
     result = subprocess.run(["/bin/sh", checkout.root / "collektive"], capture_output=True, text=True, env=environment)
     assert os.access(result.stdout.strip(), os.X_OK), result.stderr
+
+
+def test_files_are_utf_8_in_any_locale(checkout: Checkout) -> None:
+    (checkout.root / "scripts/collektive.py").write_text("import sys; print(sys.flags.utf8_mode)")
+    result = subprocess.run([checkout.root / "collektive"], capture_output=True, text=True, env={**os.environ, "LC_ALL": "C.UTF-8"})
+    assert result.stdout == "1\n", result.stderr

@@ -1,19 +1,23 @@
 """Tests the records and the sources of live runs."""
 import argparse
 import asyncio
+import importlib
+import json
 import os
 import shutil
 import struct
+import sys
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
+from unittest.mock import AsyncMock, MagicMock
 
 import pytest
 
-from build import inputs
+from build import inputs, sample_programs
 from build.console import Failure
 from commands import live
-from live import session
+from live import examples, session
 from live.record import Record
 
 
@@ -156,3 +160,30 @@ def test_a_set_option_without_a_value_is_refused() -> None:
     live.add_arguments(parser)
     with pytest.raises(Failure, match="--set reading: write it as --set KEY=VALUE"):
         live.run(parser.parse_args(["gradient", "--set", "reading"]))
+
+
+def test_an_interrupted_copy_of_an_example_is_not_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    scenario = examples.find("GradientAscent")
+    assert scenario is not None
+    with monkeypatch.context() as context:
+        context.setattr(sample_programs, "folder", MagicMock(side_effect=KeyboardInterrupt))
+        with pytest.raises(KeyboardInterrupt):
+            examples.copy(scenario)
+    assert os.listdir("out/live") == []
+    assert json.loads(examples.copy(scenario).read_text())["programs"] == "programs"
+    assert list(Path("out/live/GradientAscent/programs").glob("**/*.kt"))
+
+
+def test_an_unreadable_source_at_a_restart_is_reported_to_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    # The environment of this suite does not contain this package.
+    for name in ("asyncio.server", "datastructures", "exceptions", "http11"):
+        monkeypatch.setitem(sys.modules, f"websockets.{name}", MagicMock())
+    server = importlib.import_module("live.server")
+    live_run = server.Live({"scenario": "a.json", "trust_jvm": False, "seed": None, "values": []}, tmp_path)
+    live_run.plan = None
+    live_run.player = AsyncMock()
+    live_run.start = AsyncMock(side_effect=PermissionError(13, "Permission denied", "A.kt"))
+    asyncio.run(live_run.restart("b.json", None, {}, False))
+    assert live_run.stopped == {"event": "stopped", "message": "[Errno 13] Permission denied: 'A.kt'"}
+    assert live_run.scenario == "a.json"

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from checkout import Checkout
 
+from build import graph, project_tests
 from build.console import Failure
 from build.places import COLLEKTIVE, ROOT
 from commands import test as command
@@ -119,6 +120,22 @@ def test_the_results_of_ctest_are_read(tmp_path: Path) -> None:
     subprocess.run(["ctest", "--test-dir", tmp_path, "--output-junit", tmp_path / "results.xml"], capture_output=True)
     assert {case.name.split(".")[-1]: bool(case.failure) for case in junit.read(str(tmp_path / "results.xml"))} == {
         "good": False, "bad": True, "crash": True, "missing": True}
+
+
+def test_projects_whose_scenarios_have_the_same_name_have_separate_results(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def run(project: Path, folder: Path) -> int:
+        folder.mkdir(parents=True, exist_ok=True)
+        is_bad = project.parent.name == "a"
+        (folder / "results.xml").write_text(BAD if is_bad else GOOD)
+        return int(is_bad)
+
+    monkeypatch.setattr(graph, "build", lambda *_: None)
+    monkeypatch.setattr(command, "setup_environment", lambda: None)
+    monkeypatch.setattr(project_tests, "run", run)
+    monkeypatch.setattr(command, "RESULTS", tmp_path / "results")
+    assert command.test_projects([tmp_path / "a/scenario.json", tmp_path / "b/scenario.json"]) == 1
+    assert capsys.readouterr().out == "3 passed, 1 failed\n"
 
 
 @pytest.fixture

@@ -1,0 +1,61 @@
+"""Tests how commands report steps that fail or are interrupted."""
+import argparse
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from checkout import Checkout
+
+from build import graph, lock, processes
+from commands import check, profile
+from commands import run as run_command
+
+
+def write_experiment(folder: Path) -> Path:
+    file = folder / "experiment.json"
+    file.write_text('{"version": 1, "scenario": "scenario.json"}')
+    return file
+
+
+def test_scenarios_are_checked_while_the_outputs_are_locked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    order: list[str] = []
+
+    def record(kind: str) -> Callable[..., bool]:
+        def check_file(*_: object) -> bool:
+            order.append(kind)
+            return True
+        return check_file
+
+    monkeypatch.setattr(graph, "build", lambda *_: None)
+    monkeypatch.setattr(check, "_check_experiment", record("experiment"))
+    monkeypatch.setattr(check, "_check_scenario", record("scenario"))
+    assert check.run(argparse.Namespace(paths=[write_experiment(tmp_path), tmp_path / "scenario.json"], trust_jvm=False)) == 0
+    # The check of an experiment releases the lock.
+    assert order == ["scenario", "experiment"]
+
+
+def test_ctrl_c_ends_a_check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(graph, "build", lambda *_: None)
+    monkeypatch.setattr(lock, "release", lambda: None)
+    monkeypatch.setattr(processes, "call", lambda *_: 130)
+    with pytest.raises(KeyboardInterrupt):
+        check.run(argparse.Namespace(paths=[write_experiment(tmp_path)], trust_jvm=False))
+
+
+def test_a_failed_report_is_the_exit_code_of_profile(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def run_scenario(recording: str, **_: object) -> int:
+        Path(recording).write_text("")
+        return 0
+
+    monkeypatch.setattr(run_command, "run_scenario", run_scenario)
+    monkeypatch.setattr(profile, "find_jdk", lambda: tmp_path)
+    monkeypatch.setattr(processes, "call", lambda *_: 3)
+    assert profile.run(argparse.Namespace(scenario="", out=str(tmp_path), overwrite=False)) == 3
+
+
+def test_clean_does_not_follow_links(checkout: Checkout, tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (checkout.root / "build").symlink_to(tmp_path / "elsewhere")
+    command = checkout.start_command("clean")
+    errors = command.communicate()[1]
+    assert (command.returncode, errors) == (1, f"collektive: '{checkout.root}/build' is a symbolic link: delete it and its target\n")
