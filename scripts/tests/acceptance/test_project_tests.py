@@ -2,6 +2,7 @@
 import os
 import shutil
 
+import pytest
 from command import Project, collektive
 
 TESTS = """package lamps
@@ -43,7 +44,7 @@ class ProjectTestsTest(Project):
             else:
                 self.assertIn("LampsTest.kt:1", result.stderr)
 
-
+    @pytest.mark.slow
     def test_each_failure_counts(self) -> None:
         tests = self.path("project", "tests")
         os.mkdir(tests)
