@@ -21,6 +21,9 @@ namespace Collektive.Headless
             @"""[^""\\]*(\\.[^""\\]*)*""|'[^'\\]*(\\.[^'\\]*)*'|//[^\n]*|/\*.*?\*/|-?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][+-]?[0-9]+)?(?![\w.+-])|-Infinity"
                 + @"|[\p{L}_$][\w.$-]*|(?<number>[0-9.+-][\w.+-]*)", RegexOptions.Singleline | RegexOptions.ExplicitCapture | RegexOptions.CultureInvariant);
 
+        /// <summary>Numbers that Newtonsoft.Json writes as strings.</summary>
+        private static readonly string[] NotFinite = { "NaN", "Infinity", "-Infinity" };
+
         private readonly string path;
 
         private JsonFile(string path, JObject root)
@@ -135,6 +138,8 @@ namespace Collektive.Headless
                 if (type == typeof(ulong) && kind == JTokenType.Integer) return (ulong)token;
                 if (type == typeof(float) && number && (!float.IsInfinity((float)token) || double.IsInfinity((double)token))) return (float)token;
                 if (type == typeof(double) && number) return (double)token;
+                if ((type == typeof(float) || type == typeof(double)) && kind == JTokenType.String && NotFinite.Contains((string)token))
+                    return System.Convert.ChangeType(double.Parse((string)token, CultureInfo.InvariantCulture), type);
                 if (type == typeof(JObject) && kind == JTokenType.Object) return token;
                 if (type == typeof(string[]) && kind == JTokenType.Array) return Strings((JArray)token, key).ToArray();
                 if (type == typeof(List<string>) && kind == JTokenType.Array) return Strings((JArray)token, key);
@@ -195,6 +200,7 @@ namespace Collektive.Headless
                 case string _:
                 case bool _:
                 case int _:
+                case long _:
                 case float _:
                 case double _: return new JValue(value);
                 default: return null;

@@ -86,6 +86,8 @@ namespace Collektive.Headless
             NodeFields = file.Optional(nodes, "fields", new string[0]);
             if (NodeFields.GroupBy(field => field).FirstOrDefault(group => group.Count() > 1) is IGrouping<string, string> repeated)
                 throw file.Error(nodes["fields"], "'outputs.nodes.fields' contains '" + repeated.Key + "' twice");
+            if (NodeFields.FirstOrDefault(field => field == "second" || field == "node") is string taken)
+                throw file.Error(nodes["fields"], "'outputs.nodes.fields' contains '" + taken + "', but nodes.csv already has a column of that name");
             NodeInterval = ReadInterval(file, nodes, "outputs.nodes.");
             Replay = file.Optional(outputs, "replay", false);
             Pictures = file.Optional(outputs, "pictures", false);
@@ -192,7 +194,7 @@ namespace Collektive.Headless
         {
             Settings.seed = seed ?? Settings.seed;
             Seconds = seconds ?? Seconds;
-            if (seconds != null) Count(message => new ScenarioException("--seconds " + seconds + ": " + message));
+            if (seconds != null) Count(message => new ScenarioException("--seconds " + Text(seconds.Value) + ": " + message));
         }
 
         /// <summary>Checks and prepares the metrics in SQL. The schema's code must be loaded.</summary>

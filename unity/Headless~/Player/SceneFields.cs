@@ -19,16 +19,17 @@ namespace Collektive.Headless
 
         internal static void Set(SceneBuilder builder, Scenario scenario, IReadOnlyList<string> assignments)
         {
-            foreach (var property in scenario.Fields.Properties())
-            {
-                var field = Find(builder, property.Name);
-                field.SetValue(builder, Value(scenario.File, property.Value, field.FieldType, field.Name));
-            }
+            var tokens = new Dictionary<string, JToken>();
+            foreach (var property in scenario.Fields.Properties()) tokens[property.Name] = property.Value;
             foreach (var assignment in assignments)
             {
-                var equals = assignment.IndexOf('=');
-                var field = Find(builder, assignment.Substring(0, equals));
-                field.SetValue(builder, Value(scenario.File, Token(assignment.Substring(equals + 1), field), field.FieldType, field.Name));
+                var name = assignment.Substring(0, assignment.IndexOf('='));
+                tokens[name] = Token(assignment.Substring(name.Length + 1), Find(builder, name));
+            }
+            foreach (var token in tokens)
+            {
+                var field = Find(builder, token.Key);
+                field.SetValue(builder, Value(scenario.File, token.Value, field.FieldType, field.Name, field.GetValue(builder)));
             }
         }
 
@@ -56,7 +57,8 @@ namespace Collektive.Headless
             return scenario.File.Error(found, problem);
         }
 
-        private static object Value(JsonFile file, JToken token, Type type, string key)
+        /// <param name="current">The current value. An object keeps the fields that the token does not contain.</param>
+        private static object Value(JsonFile file, JToken token, Type type, string key, object current = null)
         {
             if (type == typeof(Vector3))
             {
@@ -78,9 +80,10 @@ namespace Collektive.Headless
             if (!IsObject(type)) return file.Convert(token, type, key);
             var part = (JObject)file.Convert(token, typeof(JObject), key);
             file.RejectUnknownKeys(part, key + ".", Array.ConvertAll(type.GetFields(Public), field => field.Name));
-            var value = Activator.CreateInstance(type);
+            var value = current ?? Activator.CreateInstance(type);
             foreach (var field in type.GetFields(Public))
-                if (part[field.Name] is JToken given) field.SetValue(value, Value(file, given, field.FieldType, key + "." + field.Name));
+                if (part[field.Name] is JToken given)
+                    field.SetValue(value, Value(file, given, field.FieldType, key + "." + field.Name, field.GetValue(value)));
             return value;
         }
 

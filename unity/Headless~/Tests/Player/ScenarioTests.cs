@@ -1,11 +1,14 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Reflection;
+using System.Threading;
 using Collektive.Unity;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
+using UnityEngine;
 
 namespace Collektive.Headless.Tests.Player
 {
@@ -82,6 +85,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be at least 'deltaTime'")]
         [TestCase("outputs", "{\"interval\": 1e9}", "'outputs.interval' is 1E+09: it must be at most 1E+08 s")]
         [TestCase("outputs", "{\"nodes\": {\"fields\": [\"a\", \"b\", \"a\"]}}", "'outputs.nodes.fields' contains 'a' twice")]
+        [TestCase("outputs", "{\"nodes\": {\"fields\": [\"a\", \"node\"]}}", "'outputs.nodes.fields' contains 'node', but nodes.csv already has a column")]
         [TestCase("outputs", "{\"nodes\": {\"field\": []}}", "unknown key 'outputs.nodes.field'; known here: fields, interval")]
         public void Errors_in_experiment_keys_name_their_position(string key, string value, string message) =>
             Errors_name_their_position(key, value, message);
@@ -122,6 +126,43 @@ namespace Collektive.Headless.Tests.Player
             var options = Options.Parse(new[] { "plan", "scenario.json", "--set", first, "--set", second });
             Assert.That(Text(ReadText(Minimal().ToString(), options.Assignments).Fields), Is.EqualTo(fields));
             Assert.That(string.Join(" ", options.FieldAssignments), Is.EqualTo(left));
+        }
+
+        [Test]
+        public void All_fields_of_a_scene_can_be_read_from_a_manifest()
+        {
+            var root = Minimal();
+            root["fields"] = SceneFields.Get(WithFields(Minimal()));
+            Assert.That(Text(root["fields"]), Is.EqualTo(
+                "{\"count\":3000000000,\"range\":\"Infinity\",\"none\":\"NaN\",\"zone\":{\"radius\":9.0,\"count\":1}}"));
+            root["fields"]["count"] = 4000000000;
+            root["fields"]["zone"]["radius"] = 8;
+            Assert.That(Text(SceneFields.Get(WithFields(root))), Is.EqualTo(Text(root["fields"]).Replace("8,", "8.0,")));
+        }
+
+        [TestCase("zone={\"count\": 3}", "{\"radius\":9.0,\"count\":3}")]
+        [TestCase("zone.count=3", "{\"radius\":8.0,\"count\":3}")]
+        public void Fields_of_an_object_that_are_not_set_keep_the_values_of_the_scene(string assignment, string zone)
+        {
+            var root = Minimal();
+            root["fields"] = JObject.Parse("{\"zone\": {\"radius\": 8}}");
+            var options = Options.Parse(new[] { "plan", "scenario.json", "--set", assignment });
+            Assert.That(Text(SceneFields.Get(WithFields(root, options))["zone"]), Is.EqualTo(zone));
+        }
+
+        [Test]
+        public void Numbers_in_errors_have_a_decimal_point()
+        {
+            var culture = Thread.CurrentThread.CurrentCulture;
+            try
+            {
+                Thread.CurrentThread.CurrentCulture = new CultureInfo("de-DE");
+                Assert.That(Assert.Throws<ScenarioException>(() => Read(Minimal()).Override(null, -0.5)).Message, Is.StringStarting("--seconds -0.5: "));
+            }
+            finally
+            {
+                Thread.CurrentThread.CurrentCulture = culture;
+            }
         }
 
         [TestCase("threads=010", "'threads' is \"010\"; it must be of type whole number")]
@@ -290,6 +331,18 @@ namespace Collektive.Headless.Tests.Player
             return Read(root, trustsJvm);
         }
 
+        /// <summary>Returns a scene whose fields were set by a scenario and the command line.</summary>
+        private SceneBuilder WithFields(JObject root, Options options = null)
+        {
+            var holder = new GameObject("Scene");
+            holder.SetActive(false);
+            var scene = holder.AddComponent<ZoneScene>();
+            var assignments = options?.Assignments ?? new List<Assignment>();
+            SceneFields.Set(scene, ReadText(root.ToString(), assignments), options?.FieldAssignments ?? new List<string>());
+            UnityEngine.Object.DestroyImmediate(holder);
+            return scene;
+        }
+
         private Scenario Read(JObject root, bool trustsJvm)
         {
             var path = Path.Combine(folder, "scenario.json");
@@ -330,5 +383,24 @@ namespace Collektive.Headless.Tests.Player
         }
 
         private static string Text(JToken token) => token.ToString(Newtonsoft.Json.Formatting.None);
+
+        /// <summary>A scene with fields of different types.</summary>
+        public sealed class ZoneScene : SceneBuilder
+        {
+            public long count = 3000000000;
+            public float range = float.PositiveInfinity;
+            public double none = double.NaN;
+            public Zone zone = new Zone { radius = 9 };
+
+            protected override void Build(SimulationManager manager)
+            {
+            }
+        }
+
+        public sealed class Zone
+        {
+            public float radius = 1;
+            public int count = 1;
+        }
     }
 }
