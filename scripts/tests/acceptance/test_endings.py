@@ -107,6 +107,22 @@ class WholeRuns(Project):
                 self.assertIn(f"4 of 10 ticks were completed: a script {cause}; ", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
+    def test_a_disabled_manager_after_the_last_tick_and_two_ticks_in_a_frame_are_errors(self) -> None:
+        self.change("scene/Lamps.cs", "if (loop) ", """manager.Ticked += all =>
+            {
+                all.enabled = loop || all.Tick < 10;
+                if (loop && all.Tick == 4) Time.timeScale = 2;
+            };
+            if (loop) """)
+        for setting, message in [("loop=false", "10 of 10 ticks were completed: a script disabled the Simulation Manager; "),
+                                 ("loop=true", "stopped at tick 6: a frame ran more than one tick; do not set Time.timeScale above 1 or call Step ")]:
+            with self.subTest(setting):
+                result = self.run_it("--set", setting)
+                self.assertEqual(result.returncode, 1)
+                self.assertIn(message, last_error(result))
+                with open(self.path("out", "metrics.csv")) as file:
+                    self.assertEqual([row["second"] for row in csv.DictReader(file)], ["0"])
+
     def test_ticks_can_be_up_to_an_hour_long(self) -> None:
         for schedule, seconds in [("Lockstep", 3600), ("Sequential", 60), ("Asynchronous", 0.34)]:
             with self.subTest(f"{schedule}, {seconds} s"):

@@ -12,24 +12,31 @@ namespace Collektive.Headless
         internal static JObject Of(SimulationManager manager)
         {
             var programs = new JObject();
+            Add(programs, manager, 0);
+            return programs;
+        }
+
+        /// <summary>Adds the values of the nodes whose ids are not below an id to a description.</summary>
+        internal static void Add(JObject programs, SimulationManager manager, int firstId)
+        {
             foreach (var program in manager.Programs)
             {
                 var nodes = new List<Node>();
                 foreach (var node in manager.Nodes)
                 {
-                    if (manager.Settings.ProgramOf(node) == program.Name) nodes.Add(node);
+                    if (node.Id >= firstId && manager.Settings.ProgramOf(node) == program.Name) nodes.Add(node);
                 }
                 if (nodes.Count == 0) continue;
-                var parameters = new JObject();
-                foreach (var parameter in program.Parameters) parameters.Add(parameter.Name, Values(parameter, nodes));
-                programs.Add(program.Name, parameters);
+                if (programs[program.Name] == null) programs.Add(program.Name, new JObject());
+                var parameters = (JObject)programs[program.Name];
+                foreach (var parameter in program.Parameters) parameters[parameter.Name] = Values(parameter, nodes, parameters[parameter.Name]);
             }
-            return programs;
         }
 
-        private static JToken Values(ProgramParameter parameter, List<Node> nodes)
+        private static JToken Values(ProgramParameter parameter, List<Node> nodes, JToken known)
         {
             var values = new SortedSet<string>(StringComparer.Ordinal);
+            if (known != null) values.UnionWith(known is JArray list ? list.Values<string>() : new[] { (string)known });
             foreach (var node in nodes)
             {
                 var set = node.Simulation.Settings.ParametersOf(node);

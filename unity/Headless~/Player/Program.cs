@@ -71,15 +71,14 @@ namespace Collektive.Headless
         /// <returns>The exit code.</returns>
         internal static int Report(Exception error)
         {
-            if (error is IOException || error is UnauthorizedAccessException)
-            {
-                Console.Error.WriteLine("collektive: a file could not be read or written: " + error.Message);
-                return FileError;
-            }
-            if (error is ScenarioException || error is BridgeException) Console.Error.WriteLine("collektive: " + error.Message);
-            else Console.Error.WriteLine("collektive: the run ended with an unhandled exception: " + error);
-            return 1;
+            Console.Error.WriteLine("collektive: " + Describe(error));
+            return error is IOException || error is UnauthorizedAccessException ? FileError : 1;
         }
+
+        /// <summary>Returns a message for users. For an unexpected exception, it contains the stack trace.</summary>
+        internal static string Describe(Exception error) => error is ScenarioException || error is BridgeException ? error.Message
+            : error is IOException || error is UnauthorizedAccessException ? "a file could not be read or written: " + error.Message
+            : "the run ended with an unhandled exception: " + error;
 
         /// <summary>Prints the inputs of the scenario, and the content of its file with the assigned values, as JSON.</summary>
         private static void Plan(Scenario scenario) => Console.WriteLine(new JObject(

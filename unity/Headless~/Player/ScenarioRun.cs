@@ -34,13 +34,13 @@ namespace Collektive.Headless
         private string cause = "";
         private int completedTicks;
 
-        /// <param name="startTime">Start time of the run; null for the start time of the process.</param>
+        /// <param name="startTime">Start time of the run in UTC; null for the start time of the process.</param>
         internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, DateTime? startTime = null)
         {
             this.scenario = scenario;
             this.options = options;
             this.interrupt = interrupt;
-            this.startTime = startTime ?? Process.GetCurrentProcess().StartTime;
+            this.startTime = startTime ?? Process.GetCurrentProcess().StartTime.ToUniversalTime();
             if (scenario.OriginalRun != null
                 && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
             {
@@ -101,9 +101,15 @@ namespace Collektive.Headless
         {
             var run = new ScenarioRun(scenario, options, null);
             run.FindProblem(scenario.Settings);
-            run.AddScene(new GameObject("Scene"));
-            run.runMetrics.Dispose();
-            return run.runMetrics.Names;
+            try
+            {
+                run.AddScene(new GameObject("Scene"));
+                return run.runMetrics.Names;
+            }
+            finally
+            {
+                run.runMetrics?.Dispose();
+            }
         }
 
         private void FindProblem(SimulationSettings settings)
@@ -140,7 +146,7 @@ namespace Collektive.Headless
 
         private void Count(SimulationManager manager)
         {
-            if (++completedTicks == 1) firstTick = DateTime.Now - startTime;
+            if (++completedTicks == 1) firstTick = DateTime.UtcNow - startTime;
             metrics.Add(manager.Times, manager.Network);
             runMetrics.Ticked(manager);
             stepTimes.Add(manager.Times.Step);
@@ -197,6 +203,7 @@ namespace Collektive.Headless
             // The original run may have continued after failures, so a repetition continues too.
             var stopsAtFailures = !options.KeepGoing && scenario.OriginalRun == null;
             JObject parameters = null;
+            var describedIds = 0;
             var hadNodes = manager.Nodes.Count > 0;
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
@@ -223,7 +230,11 @@ namespace Collektive.Headless
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();
                     if (manager.Failure.Length > 0) throw Stopped(manager);
-                    if (completedTicks == before)
+                    if (completedTicks > frame)
+                        throw new ScenarioException("stopped at tick " + completedTicks
+                            + ": a frame ran more than one tick; do not set Time.timeScale above 1 or call Step while the simulation is running");
+                    // Without a simulation, a row would have no nodes.
+                    if (completedTicks == before || !manager.Simulation.IsOpen)
                     {
                         cause = ReasonForMissingTick(manager);
                         ended = Stopwatch.GetTimestamp();
@@ -234,6 +245,9 @@ namespace Collektive.Headless
                         throw new ScenarioException("stopped at tick " + completedTicks
                             + ": all rounds failed; the errors are above. To continue anyway, use --keep-going");
                     parameters = parameters ?? ProgramsWithParameters(manager);
+                    // Later nodes may have other parameters.
+                    if (manager.Simulation.IdCapacity > describedIds) ParameterValues.Add(parameters, manager, describedIds);
+                    describedIds = manager.Simulation.IdCapacity;
                     replay?.Add(manager.SimulatedTime);
                     var now = Stopwatch.GetTimestamp();
                     totalTimes.Add((now - ended) * 1000.0 / Stopwatch.Frequency);
@@ -253,7 +267,11 @@ namespace Collektive.Headless
                     if (progress.Due || frame == ticks || HasConverged) progress.Show(completedTicks, manager.SimulatedTime, Text());
                 }
                 progress.End();
-                metrics.Measure();
+                if (manager.Simulation.IsOpen)
+                {
+                    metrics.Measure();
+                    if (parameters != null) ParameterValues.Add(parameters, manager, 0);
+                }
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 manifest.AddResults(
                     manager, parameters ?? new JObject(), completedTicks, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
@@ -266,11 +284,12 @@ namespace Collektive.Headless
             scenario.OriginalRun?.PrintDifferences(manifest, "versions");
             if (interrupt.Requested)
             {
-                Console.Error.WriteLine("collektive: interrupted after " + manager.SimulatedTime + " s; the outputs end at that time");
+                var seconds = manager.SimulatedTime.ToString(CultureInfo.InvariantCulture);
+                Console.Error.WriteLine("collektive: interrupted after " + seconds + " s; the outputs end at that time");
                 manifest.Outcome = "interrupted";
                 return interrupt.ExitCode;
             }
-            if (completedTicks < ticks && !manager.Finished && !Loop.QuitRequested && !HasConverged)
+            if ((completedTicks < ticks || !manager.Simulation.IsOpen) && !manager.Finished && !Loop.QuitRequested && !HasConverged)
             {
                 var problem = completedTicks + " of " + ticks + " ticks were completed" + cause;
                 Console.Error.WriteLine("collektive: " + problem + "; to end a run early, use Application.Quit or a stop condition");

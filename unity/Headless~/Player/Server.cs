@@ -95,9 +95,9 @@ namespace Collektive.Headless
             {
                 metrics = ScenarioRun.Check(Read(request), options);
             }
-            catch (ScenarioException error)
+            catch (Exception error)
             {
-                problem = error.Message;
+                problem = Program.Describe(error);
             }
             finally
             {
@@ -110,6 +110,7 @@ namespace Collektive.Headless
         {
             var folder = (string)request["out"];
             int code;
+            var (output, errors) = (Console.Out, Console.Error);
             Directory.CreateDirectory(folder);
             using (var log = new StreamWriter(Path.Combine(folder, "log.txt")) { AutoFlush = true })
             {
@@ -118,14 +119,14 @@ namespace Collektive.Headless
                 Console.SetError(writer);
                 try
                 {
-                    code = new ScenarioRun(Read(request), options.For(folder), interrupt, DateTime.Now).Run();
+                    code = new ScenarioRun(Read(request), options.For(folder), interrupt, DateTime.UtcNow).Run();
                 }
                 catch (Exception error)
                 {
                     code = Program.Report(error);
                 }
-                Console.SetOut(TextWriter.Null);
-                Console.SetError(TextWriter.Null);
+                Console.SetOut(output);
+                Console.SetError(errors);
             }
             Loop.Reset();
             return new JObject(new JProperty("code", code), new JProperty("again", code == 0 && Jvm.State == JvmState.Running && state.IsUnchanged));
