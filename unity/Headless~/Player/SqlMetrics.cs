@@ -38,15 +38,23 @@ namespace Collektive.Headless
             if (queries.Count == 0) return;
             columns = new NodeColumns(schema);
             database = new Sqlite(limitMs);
-            database.Execute("PRAGMA journal_mode = OFF; CREATE TABLE " + Sqlite.Table + " (" + columns.Definitions + ")");
-            var read = new SortedSet<string>(StringComparer.OrdinalIgnoreCase);
-            foreach (var property in queries) metrics.Add(Prepare(property, read));
-            columns.Use(read);
-            clear = database.Prepare("DELETE FROM " + Sqlite.Table);
-            insert = Insertion(1);
-            insertMany = Insertion(RowsPerInsert);
-            rows = new double[RowsPerInsert * columns.Width];
-            foreach (var metric in metrics) RequireAggregate(metric);
+            try
+            {
+                database.Execute("PRAGMA journal_mode = OFF; CREATE TABLE " + Sqlite.Table + " (" + columns.Definitions + ")");
+                var read = new SortedSet<string>(StringComparer.OrdinalIgnoreCase);
+                foreach (var property in queries) metrics.Add(Prepare(property, read));
+                columns.Use(read);
+                clear = database.Prepare("DELETE FROM " + Sqlite.Table);
+                insert = Insertion(1);
+                insertMany = Insertion(RowsPerInsert);
+                rows = new double[RowsPerInsert * columns.Width];
+                foreach (var metric in metrics) RequireAggregate(metric);
+            }
+            catch
+            {
+                Dispose();
+                throw;
+            }
         }
 
         internal IReadOnlyList<string> Names => names;

@@ -163,7 +163,7 @@ namespace Collektive.Headless
         private static void AddPoints(DataFile file, JToken part, List<Track> tracks)
         {
             var line = (part as IJsonLineInfo)?.LineNumber ?? 0;
-            switch ((string)(part as JObject)?["type"])
+            switch (((part as JObject)?["type"] as JValue)?.Value as string)
             {
                 case "FeatureCollection":
                     foreach (var feature in Items(file, part, "features")) AddPoints(file, feature, tracks);

@@ -18,7 +18,7 @@ namespace Collektive.Headless
                 var line = (int)row[3];
                 if (double.IsNaN(row[0])) throw file.Error(1, "the column 'value' is missing");
                 var id = double.IsNaN(row[1]) ? AllNodes : (int)row[1];
-                if (id != AllNodes && (id < 0 || id != row[1])) throw file.Error(line, "'id' must be a whole number of at least 0");
+                if (!double.IsNaN(row[1]) && (id < 0 || id != row[1])) throw file.Error(line, "'id' must be a whole number of at least 0");
                 if (!byId.TryGetValue(id, out var rows)) byId[id] = rows = new List<double[]>();
                 if (rows.Count > 0 && !(row[2] > rows[rows.Count - 1][2]))
                     throw file.Error(line, "the time must be after that of line " + rows[rows.Count - 1][3] + ", or the id must differ");

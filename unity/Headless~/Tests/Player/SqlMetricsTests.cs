@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Runtime.InteropServices;
 using Collektive.Bridge;
 using Collektive.Headless.Tests.Simulation;
 using Newtonsoft.Json.Linq;
@@ -62,6 +63,15 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(error.Message, Is.StringContaining(message));
             Assert.That(error.Message, Is.StringContaining("metrics.m"));
             Assert.That(error.Message, Is.StringStarting(path + ":3" + (character < 0 ? ": " : ":" + (FirstColumn + character) + ": ")));
+        }
+
+        [Test]
+        public void A_rejected_metric_releases_its_database()
+        {
+            Make("avg(heard)").Dispose();
+            var before = sqlite3_memory_used();
+            Assert.Throws<ScenarioException>(() => Make("avg(hrd)"));
+            Assert.That(sqlite3_memory_used(), Is.EqualTo(before));
         }
 
         [Test]
@@ -130,6 +140,9 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("count(maybeNumber) + count(maybe_number) + count(MAYBE_NUMBER)")]
         [TestCase("avg(position_x) + count(mode)")]
         public void Columns_accept_schema_and_Kotlin_names(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
+
+        [DllImport("collektive_sqlite")]
+        private static extern long sqlite3_memory_used();
 
         private double Measure(string sql)
         {
