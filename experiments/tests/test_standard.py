@@ -7,6 +7,8 @@ import json
 import math
 import re
 import shutil
+import socket
+import struct
 import subprocess
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +17,8 @@ from typing import Any
 import pytest
 from conftest import COLLEKTIVE, ROOT
 
-from collektive_experiments.worker import Worker
+from collektive_experiments.bundle import programs_jar
+from collektive_experiments.worker import Outcome, Worker, java_home
 
 PROGRAM = """package first
 
@@ -83,6 +86,8 @@ DATA = {
     "bad/point.geojson": '{"type": "Point",\n"coordinates": ["a", 1]}',
     "bad/json.geojson": '{"type": "Point"\n',
     "bad/values.csv": "time,id,value\n1,0,5\n1,0,6\n",
+    "bad/type.geojson": '{"type": []}',
+    "bad/all.csv": "value,id\n5,-1\n",
     "bad/value.csv": "id\n0\n",
     "file.txt": "x,z\n1,2\n",
 }
@@ -151,6 +156,7 @@ REFUSED: list[tuple[str, Any, str]] = [
         ("degrees.csv", ":2: longitude 12 and latitude 144 are out of range"), ("xml.gpx", ":3: not valid XML: "),
         ("line.geojson", ":3: 'type' is 'LineString': only points are supported"),
         ("place.geojson", ":2: the feature has no geometry"), ("point.geojson", ":1: 'coordinates' must be [longitude, latitude]"),
+        ("type.geojson", ":1: 'type' is '[]': only points are supported"),
     )],
     ("fields.deployment", {"kind": "File", "file": "bad/json.geojson"}, "bad/json.geojson:2: not valid JSON"),
     ("fields.movement.kind", "Trace", "'movement.kind' is Trace, which needs a 'deployment' of kind File"),
@@ -166,6 +172,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields.reading", {"expression": "'warm'"}, "its value is not a number"),
     ("fields.reading", {"expression": "x", "file": "values.csv"}, "'reading' needs either 'expression' or 'file'"),
     ("fields.reading", {"file": "bad/values.csv"}, "'reading.file': bad/values.csv:3: the time must be after that of line 2, or the id must differ"),
+    ("fields.reading", {"file": "bad/all.csv"}, "'reading.file': bad/all.csv:2: 'id' must be a whole number of at least 0"),
     ("fields.reading", {"file": "bad/value.csv"}, "'reading.file': bad/value.csv:1: the column 'value' is missing"),
 ]
 
@@ -227,6 +234,53 @@ def test_an_invalid_key_is_rejected_with_its_position_before_a_run(study: Study,
 def test_checking_a_valid_scenario_returns_its_metrics(study: Study) -> None:
     study.write(SCENARIO)
     assert study.worker.check({"fields.deployment.kind": "Poisson"}) == (None, ["reached", "mean", "sources", "degree_mean"])
+
+
+def test_errors_outside_a_run_are_reported(study: Study, tmp_path: Path) -> None:
+    study.write({**SCENARIO, "seconds": 0.1})
+    # Reading this file fails.
+    memory = study.bundle / "inputs" / study.paths["data"] / "memory.csv"
+    memory.symlink_to("/proc/self/mem")
+    problem, _ = study.worker.check({"fields.reading.file": "memory.csv"})
+    memory.unlink()
+    assert problem is not None
+    assert "a file could not be read or written: " in problem
+    worker = Worker(str(study.bundle), str(tmp_path / "worker.txt"))
+    try:
+        assert worker.run({}, "{}", str(tmp_path / "out"), 300, is_repeated=False).status == "complete"
+        assert worker._idle is not None
+        assert isinstance(worker._idle.request({"out": None}, 60), Outcome)
+    finally:
+        worker.stop()
+    assert "unhandled exception" in (tmp_path / "worker.txt").read_text()
+
+
+def test_nodes_can_be_added_to_a_live_run(study: Study, tmp_path: Path) -> None:
+    study.write({**SCENARIO, "fields": {"deployment": {"nodes": 4}}})
+    own_end, player_end = socket.socketpair()
+    with own_end, player_end, own_end.makefile("rb") as messages:
+        process = subprocess.Popen(
+            ["mono-sgen", study.bundle / "csharp/Collektive.Player.exe", "live", study.bundle / "inputs/scenario.json", "--scripts",
+             study.bundle / "Scenario.dll", "--jar", programs_jar(str(study.bundle), ""), "--host-jar", study.bundle / "jars/collektive-host.jar",
+             "--java-home", java_home(), "--out", tmp_path, "--channel", str(player_end.fileno())], pass_fds=[player_end.fileno()])
+        player_end.close()
+        ticks, slots = [], 0
+        while not ticks or ticks[-1] < ticks[0] + 5:
+            (length,) = struct.unpack("<I", messages.read(4))
+            text, _, frame = messages.read(length).partition(b"\0")
+            event = json.loads(text)
+            assert event["event"] in ("header", "frame"), event
+            if event["event"] == "header" or event["tick"] == 0:
+                continue
+            if not ticks:
+                own_end.sendall(b'{"add": 2, "at": [1, 0, 1]}\n')
+            ticks.append(event["tick"])
+            # The first 8 bytes are the range of the answers' values.
+            slots = frame[8]
+            assert event["errors"] == 0, event["error"]
+        own_end.shutdown(socket.SHUT_RDWR)
+    process.wait(60)
+    assert slots == 6
 
 
 def test_a_missing_library_is_reported_with_the_command_that_builds_it(study: Study, tmp_path: Path) -> None:

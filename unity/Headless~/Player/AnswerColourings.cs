@@ -25,7 +25,7 @@ namespace Collektive.Headless
         private static NodeColouring Colouring(AnswerField field, Func<object, double> convert)
         {
             var name = char.ToLowerInvariant(field.Name[0]) + field.Name.Substring(1);
-            var colouring = new NodeColouring(name, node => node.Answer is object answer ? convert(field.Read(answer)) : double.NaN);
+            var colouring = new NodeColouring(name, node => node.Answer is object answer && field.Read(answer) is object value ? convert(value) : double.NaN);
             if (field.Type == typeof(bool)) (colouring.IsCategory, colouring.Categories) = (true, new[] { "false", "true" });
             else if (field.Type.IsEnum) (colouring.IsCategory, colouring.Categories) = (true, Enum.GetNames(field.Type));
             return colouring;

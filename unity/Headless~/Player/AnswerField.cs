@@ -14,12 +14,13 @@ namespace Collektive.Headless
         private AnswerField(MemberInfo member, Type type)
         {
             this.member = member;
-            Type = type;
+            Type = Nullable.GetUnderlyingType(type) ?? type;
         }
 
         /// <summary>Name in generated code. Its capitalisation differs from the name in the schema.</summary>
         internal string Name => member.Name;
 
+        /// <summary>Type of the values. Optional fields may also be null.</summary>
         internal Type Type { get; }
 
         /// <summary>Returns the fields of the answers, in the order of the schema.</summary>

@@ -16,7 +16,8 @@ namespace Collektive.Headless
             for (var digits = 15; digits < 17; digits++)
             {
                 var text = value.ToString("G" + digits, CultureInfo.InvariantCulture);
-                if (double.Parse(text, CultureInfo.InvariantCulture).Equals(value)) return text;
+                // On Mono, a text that rounds beyond the largest number cannot be parsed.
+                if (double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out var read) && read.Equals(value)) return text;
             }
             return value.ToString("G17", CultureInfo.InvariantCulture);
         }

@@ -48,7 +48,6 @@ namespace Collektive.Headless
         private int capacity;
         private int selected = -1;
         private bool hasMetricsFailed;
-        private byte[] lastSegment;
 
         internal LiveRun(
             Scenario scenario, SceneBuilder scene, RunMetrics runMetrics, MetricsTable metrics, SimulationManager manager, LiveChannel channel)
@@ -77,8 +76,10 @@ namespace Collektive.Headless
                 var wait = isRunning || steps > 0 ? nextTickMs - clock.Elapsed.TotalMilliseconds : 100;
                 if (channel.TryTake(Math.Max(0, (int)Math.Min(wait, 100)), out var command)) Execute(command);
                 else if ((isRunning || steps > 0) && nextTickMs <= clock.Elapsed.TotalMilliseconds) Tick(frame);
-                if (manager.Failure.Length == 0) continue;
-                channel.Send(new JObject(new JProperty("event", "stopped"), new JProperty("message", manager.Failure)));
+                // After a failure, the manager is disabled.
+                if (manager && manager.isActiveAndEnabled) continue;
+                var message = manager.Failure.Length > 0 ? manager.Failure : "a script disabled or destroyed the Simulation Manager";
+                channel.Send(new JObject(new JProperty("event", "stopped"), new JProperty("message", message)));
                 break;
             }
             channel.Flush();
@@ -92,7 +93,7 @@ namespace Collektive.Headless
             var tick = manager.Tick;
             runMetrics.Prepare(manager, rows.IsDue(ticks + 1));
             frame();
-            if (manager.Failure.Length > 0 || manager.Tick == tick) return;
+            if (!manager.Simulation.IsOpen || manager.Tick == tick) return;
             ticks++;
             if (rows.IsDue(ticks))
             {
@@ -148,7 +149,8 @@ namespace Collektive.Headless
                 else if (command["parameter"] != null) SetParameter((string)command["program"], (string)command["parameter"], (string)command["value"]);
                 else if (command.Property("select") != null) manager.Simulation.Inspected = selected = (int?)command["select"] ?? -1;
                 else throw new ArgumentException("unknown command");
-                if (!isRunning) Refresh();
+                // The page must show the effect of a command even while the simulation is paused.
+                if (!isRunning) recorder.Record(manager.SimulatedTime);
             }
             catch (Exception error) when (error is ArgumentException || error is InvalidCastException || error is FormatException || error is OverflowException)
             {
@@ -183,13 +185,23 @@ namespace Collektive.Headless
             var template = manager.Nodes[manager.Nodes.Count - 1];
             var centre = new Vector3((float)at[0], template.transform.position.y, (float)at[2]);
             var gap = 2.5f * Mathf.Max(writer.NodeRadius, 0.05f);
-            for (var i = 0; i < count; i++)
+            // Copies must not request the id of the template.
+            var id = template.RequestedId;
+            template.RequestedId = -1;
+            try
             {
-                // With the golden angle, the places are evenly distributed.
-                var angle = i * 2.39996f;
-                var distance = gap * Mathf.Sqrt(i);
-                var place = centre + new Vector3(distance * Mathf.Cos(angle), 0, distance * Mathf.Sin(angle));
-                Object.Instantiate(template.gameObject, place, template.transform.rotation).name = template.name + " copy";
+                for (var i = 0; i < count; i++)
+                {
+                    // With the golden angle, the places are evenly distributed.
+                    var angle = i * 2.39996f;
+                    var distance = gap * Mathf.Sqrt(i);
+                    var place = centre + new Vector3(distance * Mathf.Cos(angle), 0, distance * Mathf.Sin(angle));
+                    Object.Instantiate(template.gameObject, place, template.transform.rotation).name = template.name + " copy";
+                }
+            }
+            finally
+            {
+                template.RequestedId = id;
             }
         }
 
@@ -217,13 +229,6 @@ namespace Collektive.Headless
             if (node != null) Object.DestroyImmediate(node.gameObject);
         }
 
-        /// <summary>Sends the current frame again, so that the page shows the effect of a command while the simulation is paused.</summary>
-        private void Refresh()
-        {
-            recorder.AddNow();
-            if (lastSegment != null) channel.SendFrame(Describe(), lastSegment, lastSegment.Length);
-        }
-
         private void SendFrame(byte[] segment, int length)
         {
             var needed = (writer.Slots + SlotsPerRow - 1) / SlotsPerRow * SlotsPerRow;
@@ -232,8 +237,6 @@ namespace Collektive.Headless
                 capacity = capacity == 0 ? needed : 2 * needed;
                 SendHeader();
             }
-            lastSegment = new byte[length];
-            Buffer.BlockCopy(segment, 0, lastSegment, 0, length);
             channel.SendFrame(Describe(), segment, length);
             newMetrics = null;
         }

@@ -94,7 +94,8 @@ namespace Collektive.Headless
         /// <summary>Returns the poses of each moving shape since the last call.</summary>
         internal JArray TakePoses() => new JArray(movers.ConvertAll(mover => (object)mover.Value.TakePoses()));
 
-        private void Record(double time)
+        /// <summary>Records a frame. Only a live page accepts the time of the last frame again, and replaces that frame.</summary>
+        internal void Record(double time)
         {
             clock.Start();
             last = time;
@@ -142,7 +143,8 @@ namespace Collektive.Headless
             var colliders = new List<Collider>();
             foreach (var root in SceneManager.GetActiveScene().GetRootGameObjects()) colliders.AddRange(root.GetComponentsInChildren<Collider>());
             var floor = FindFloor(colliders);
-            var arena = floor == null ? new Bounds() : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));
+            var first = manager.Nodes.Count == 0 ? Vector3.zero : manager.Nodes[0].transform.position;
+            var arena = floor == null ? new Bounds(first, Vector3.zero) : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));
             foreach (var collider in colliders)
             {
                 if (collider == floor || collider.isTrigger) continue;
@@ -167,8 +169,10 @@ namespace Collektive.Headless
                 else if (collider is TerrainCollider terrain && terrain.terrainData != null) Add(metadata, terrain);
             }
             if (floor == null) foreach (var node in manager.Nodes) arena.Encapsulate(node.transform.position);
-            // The page needs an arena of nonzero width and depth.
-            arena.Expand(new Vector3(arena.size.x > 0 ? 0 : 1, 0, arena.size.z > 0 ? 0 : 1));
+            // The page needs an arena of nonzero width and depth, even if coordinates far from the origin are rounded.
+            var rounding = 1e-6f * Mathf.Max(Mathf.Abs(arena.center.x), Mathf.Abs(arena.center.z));
+            var room = Mathf.Max(1, rounding);
+            arena.Expand(new Vector3(arena.size.x > rounding ? 0 : room, 0, arena.size.z > rounding ? 0 : room));
             metadata.SetArena(arena.min.x, arena.min.y, arena.min.z, arena.max.x, arena.max.y, arena.max.z, grows: floor == null);
             foreach (var landmark in scene.Landmarks)
             {
@@ -196,14 +200,10 @@ namespace Collektive.Headless
         {
             var kind = colouring.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
             fields.Add(new ReplayField(colouring.Name, kind) { Unit = colouring.Unit, Categories = colouring.Categories });
-            readers.Add(node => Storable(colouring.Read(node)));
+            // Values that the page cannot store count as missing, such as an infinite distance, or Int.MAX_VALUE without a leader.
+            double limit = colouring.IsCategory ? ReplayField.MaxInteger - 1 : float.MaxValue;
+            readers.Add(node => colouring.Read(node) is var value && Math.Abs(value) <= limit ? value : double.NaN);
         }
-
-        /// <summary>
-        /// Returns a value that the page can store as a float. Numbers beyond the range of float, and infinity, such as the distance without a source, count
-        /// as missing.
-        /// </summary>
-        private static double Storable(double value) => Math.Abs(value) <= float.MaxValue ? value : double.NaN;
 
         private void AddColours(List<ReplayField> fields)
         {
@@ -220,7 +220,6 @@ namespace Collektive.Headless
 
         private double ColourOf(Node node)
         {
-            if (colours == null) return double.NaN;
             if (!colours.TryGetValue(node.Id, out var part)) colours.Add(node.Id, part = node.GetComponentInChildren<IColours>());
             if (part == null || part.Target == null) return double.NaN;
             part.Target.GetPropertyBlock(block);
@@ -258,6 +257,7 @@ namespace Collektive.Headless
 
         private void AddMover(ReplayMetadata metadata, Collider collider)
         {
+            if (movers.Count == MaxMovers) return;
             var scale = collider.transform.lossyScale;
             ReplayMover mover = null;
             if (collider is BoxCollider box)
@@ -267,7 +267,7 @@ namespace Collektive.Headless
             }
             if (collider is SphereCollider sphere) mover = metadata.AddMovingSphere(sphere.radius * scale.x);
             if (collider is CapsuleCollider capsule) mover = metadata.AddMovingCapsule(Radius(capsule), Height(capsule), capsule.direction);
-            if (mover != null && movers.Count < MaxMovers) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
+            if (mover != null) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
         }
 
         private static void Add(ReplayMetadata metadata, MeshCollider collider)

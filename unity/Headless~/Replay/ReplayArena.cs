@@ -17,7 +17,11 @@ namespace Collektive.Headless
         {
             this.minimum = minimum;
             this.maximum = maximum;
-            for (var axis = 0; axis < 3; axis++) LongestSide = Math.Max(LongestSide, (double)maximum[axis] - minimum[axis]);
+            for (var axis = 0; axis < 3; axis++)
+            {
+                LongestSide = Math.Max(LongestSide, (double)maximum[axis] - minimum[axis]);
+                Farthest = Math.Max(Farthest, Math.Max(Math.Abs((double)minimum[axis]), Math.Abs((double)maximum[axis])));
+            }
             maxGrowth = grows ? (float)LongestSide : 0;
             reachedMin = (float[])minimum.Clone();
             reachedMax = (float[])maximum.Clone();
@@ -25,6 +29,9 @@ namespace Collektive.Headless
 
         /// <summary>Longest side of the arena before it grows, in metres.</summary>
         internal double LongestSide { get; }
+
+        /// <summary>Largest absolute coordinate of the arena before it grows, in metres.</summary>
+        internal double Farthest { get; }
 
         /// <summary>Returns a copy of the arena as it was before it grew.</summary>
         internal ReplayArena Copy() => new ReplayArena(minimum, maximum, maxGrowth > 0);

@@ -21,7 +21,7 @@ namespace Collektive.Headless
     /// <summary>A value that nodes have in each frame, and by which they can be coloured.</summary>
     public sealed class ReplayField
     {
-        private const int MaxInteger = 1 << 30;
+        internal const int MaxInteger = 1 << 30;
 
         // Number of categories whose order of appearance is stored for their colours.
         private const int MaxColouredCategories = 256;

@@ -90,7 +90,7 @@ namespace Collektive.Headless
             movers = metadata.Movers;
             segment = new ReplaySegment(fields);
             arena = metadata.Arena.Copy();
-            positionStep = arena.LongestSide / 65535;
+            positionStep = Math.Max(arena.LongestSide / 65535, arena.Farthest / (1 << 29));
         }
 
         /// <summary>Number of frames written.</summary>
@@ -102,7 +102,7 @@ namespace Collektive.Headless
         /// <summary>Maximum number of slots so far.</summary>
         internal int Slots => maxSlots;
 
-        /// <param name="time">Simulated seconds, greater than in the previous frame.</param>
+        /// <param name="time">Simulated seconds, greater than in the previous frame. Without a page, it may also be equal.</param>
         /// <param name="links">
         /// Number of different links in the frame, each direction counted. If it exceeds <see cref="LinkBudget"/>, only a sample of the links is stored.
         /// The sample consists of the links with the smallest hashes of their nodes' ids, so it changes little from frame to frame.
@@ -111,7 +111,8 @@ namespace Collektive.Headless
         {
             if (inFrame || finished) throw Order(nameof(BeginFrame), inFrame ? "the previous frame has not ended" : "the replay is finished");
             var last = Frames == 0 ? double.NegativeInfinity : times[times.Count - 1];
-            if (!(time > last) || double.IsInfinity(time))
+            // A frame of a live page may replace the last one.
+            if (!(time > last || live != null && time == last) || double.IsInfinity(time))
                 throw new ArgumentException("Frame " + Number(Frames) + " of the replay has time " + Number(time) + ": it must be finite and later than "
                     + Number(last) + ".", nameof(time));
             if (live != null) times.Clear();
@@ -125,7 +126,8 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Adds a node to this frame. Its position is rounded to steps of 1/65535 of the arena's longest side, and limited to 2^30 steps from the origin.
+        /// Adds a node to this frame. Its position is rounded to steps of 1/65535 of the arena's longest side, at least 2^-29 of its farthest coordinate, and
+        /// limited to 2^30 steps from the origin.
         /// </summary>
         /// <param name="id">The node's id, the same in all frames.</param>
         /// <param name="value">The node's value of the first field; NaN if it has none.</param>

@@ -8,6 +8,8 @@ namespace Collektive.Standard
     /// <summary>Writes all sensor data except the velocity.</summary>
     public sealed class StandardSensor : Sensor<SensorData>
     {
+        // Serialized, so that copies of a node keep it.
+        [SerializeField]
         internal StandardScene Scene;
 
         protected override void Sense(ref SensorData data)

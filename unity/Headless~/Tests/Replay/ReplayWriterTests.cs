@@ -221,6 +221,23 @@ namespace Collektive.Headless.Tests
             }
         }
 
+        [Test]
+        public void AnArenaFarFromTheOriginKeepsPositions()
+        {
+            var metadata = new ReplayMetadata();
+            metadata.SetArena(5e6f, 0, 0, 5e6f + 64, 1, 64);
+            var replay = Record(writer =>
+            {
+                writer.BeginFrame(0);
+                writer.Node(1, 5e6f, 0, 0, 0);
+                writer.Node(2, 5e6f + 64, 0, 64, 0);
+                writer.EndFrame();
+            }, metadata);
+            Assert.AreEqual(5e6f, replay.Frames[0].Nodes[1].X, 0.5);
+            Assert.AreEqual(5e6f + 64, replay.Frames[0].Nodes[2].X, 0.5);
+            Assert.AreEqual(64, replay.Frames[0].Nodes[2].Z, 0.01);
+        }
+
         [TestCase(false, "[-1.0,0.0,-2.0]", "[3.0,1.0,2.0]", TestName = "AFixedArenaIsUnchanged")]
         [TestCase(true, "[-1.0,-4.0,-2.5]", "[7.0,1.0,2.0]", TestName = "AGrowingArenaExtendsByAtMostItsLongestSide")]
         public void Arena(bool grows, string least, string greatest)

@@ -1,0 +1,175 @@
+using System;
+using System.Collections.Generic;
+using System.Diagnostics;
+using System.IO;
+using System.Linq;
+using System.Net;
+using System.Net.Sockets;
+using System.Text;
+using Collektive.Headless.Tests.Simulation;
+using Collektive.Unity;
+using Newtonsoft.Json;
+using Newtonsoft.Json.Linq;
+using NUnit.Framework;
+using UnityEngine;
+using UnityEngine.Headless;
+
+namespace Collektive.Headless.Tests.Player
+{
+    /// <summary>Tests live runs, recordings and tables of runs.</summary>
+    [TestFixture]
+    public sealed class OutputTests : SimulationFixture
+    {
+        private const int LimitMs = 20000;
+
+        // A live run ends its process when its connection is closed.
+        private static readonly List<Socket> OpenSockets = new List<Socket>();
+
+        private readonly string folder = Path.Combine(Path.GetTempPath(), "collektive-output-" + Guid.NewGuid());
+
+        [SetUp]
+        public void MakeFolder() => Directory.CreateDirectory(folder);
+
+        [TearDown]
+        public void RemoveFolder() => Directory.Delete(folder, true);
+
+        [Test]
+        public void Nodes_that_are_added_or_removed_during_a_pause_are_shown()
+        {
+            MakeNode(1, default, 7);
+            PlayLive(
+                (null, (message, frame) => (int?)message["tick"] > 0),
+                ("{\"run\": false}", (message, frame) => (bool?)message["running"] == false),
+                ("{\"add\": 2, \"at\": [0, 0, 0]}", (message, frame) => Count(frame) == 3),
+                ("{\"remove\": 7}", (message, frame) => Count(frame) == 2));
+        }
+
+        [Test]
+        public void A_live_run_whose_manager_was_disabled_is_stopped()
+        {
+            MakeNode(1, default, 7);
+            Manager.Ticked += manager => manager.enabled = manager.Tick < 2;
+            PlayLive((null, (message, frame) => ((string)message["message"])?.Contains("disabled or destroyed the Simulation Manager") == true));
+        }
+
+        [Test]
+        public void Recordings_contain_nodes_far_from_the_origin_and_categories_of_any_size()
+        {
+            MakeNode(1, new Vector3(500000, 0, 5000000));
+            MakeNode(1, new Vector3(500050, 0, 5000020));
+            var (scenario, scene, metrics) = Prepare();
+            ReplayWriter writer = null;
+            using (var recorder = new ReplayRecorder(
+                scenario, scene, metrics, Manager, metadata => writer = new ReplayWriter(metadata, (bytes, count) => { })))
+            {
+                recorder.Add(0);
+            }
+            var header = writer.Header();
+            var arena = header["metadata"]["arena"].ToString(Formatting.None);
+            Assert.That(arena, Is.EqualTo("{\"min\":[500000.0,0.0,5000000.0],\"max\":[500050.0,0.0,5000020.0]}"));
+            Assert.That((double)header["positionStep"], Is.LessThan(0.01));
+            Assert.That((bool)header["fields"][0]["someWithout"], Is.True);
+            Assert.That((int)header["fields"][0]["greatest"], Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Optional_answers_are_columns_and_colourings()
+        {
+            Manager.Settings.schema = "test.features.FeaturesSchema";
+            using (var table = new NodesTable(Path.Combine(folder, "nodes.csv"), new[] { "maybe_speed", "maybe_mode" }, Manager))
+                Assert.That(table.Types.ToString(Formatting.None), Is.EqualTo("{\"maybe_speed\":\"float64\",\"maybe_mode\":\"string\"}"));
+            Assert.That(AnswerColourings.Of(Manager).ConvertAll(colouring => colouring.Name), Has.Member("maybeSpeed").And.Member("maybeMode"));
+        }
+
+        [TestCase(double.MaxValue, "1.7976931348623157E+308")]
+        [TestCase(0.1, "0.1")]
+        public void Numbers_are_written_exactly(double number, string text) => Assert.That(CsvText.Number(number), Is.EqualTo(text));
+
+        [Test]
+        public void Parameters_of_later_nodes_are_described()
+        {
+            Configure("scaled");
+            MakeNode(1);
+            Play(1);
+            var parameters = ParameterValues.Of(Manager);
+            MakeNode(1).Node.Parameters.Add(new NodeParameter("factor", "5"));
+            ParameterValues.Add(parameters, Manager, 1);
+            Assert.That(parameters.ToString(Formatting.None), Is.EqualTo("{\"scaled\":{\"factor\":[\"3\",\"5\"]}}"));
+        }
+
+        /// <summary>Plays a live run. Sends each command, and waits for a message that answers it. The first command can be null.</summary>
+        private void PlayLive(params (string Command, Func<JObject, byte[], bool> IsAnswer)[] steps)
+        {
+            var listener = new TcpListener(IPAddress.Loopback, 0);
+            listener.Start();
+            var test = new Socket(AddressFamily.InterNetwork, SocketType.Stream, ProtocolType.Tcp);
+            test.Connect(listener.LocalEndpoint);
+            var player = listener.AcceptSocket();
+            listener.Stop();
+            OpenSockets.AddRange(new[] { test, player });
+            var clock = Stopwatch.StartNew();
+            var step = 0;
+            bool IsEnded()
+            {
+                Assert.That(clock.ElapsedMilliseconds, Is.LessThan(LimitMs), "step " + step);
+                while (test.Available > 0 && step < steps.Length)
+                {
+                    var message = Receive(test, BitConverter.ToInt32(Receive(test, 4), 0));
+                    var end = Array.IndexOf(message, (byte)0);
+                    if (!steps[step].IsAnswer(JObject.Parse(Encoding.UTF8.GetString(message, 0, end)), message.Skip(end + 1).ToArray())) continue;
+                    if (++step < steps.Length) test.Send(Encoding.UTF8.GetBytes(steps[step].Command + "\n"));
+                }
+                return step == steps.Length;
+            }
+            var (scenario, scene, runMetrics) = Prepare();
+            using (var metrics = new MetricsTable(null, runMetrics, Manager))
+            {
+                var run = new LiveRun(scenario, scene, runMetrics, metrics, Manager, new LiveChannel((int)player.Handle));
+                run.Play(() => Loop.Frame(Manager.Settings.deltaTime), IsEnded);
+            }
+            // The run may have ended by itself before the last message was read.
+            while (!IsEnded())
+            {
+            }
+        }
+
+        private (Scenario Scenario, SceneBuilder Scene, RunMetrics Metrics) Prepare()
+        {
+            var path = Path.Combine(folder, "scenario.json");
+            File.WriteAllText(path, "{\"version\": 1, \"scene\": \"Scene\", \"scripts\": \".\", \"schema\": \"scenario.json\", \"programs\": \".\", "
+                + "\"program\": \"double\", \"seconds\": 1}");
+            var scenario = Scenario.Read(path, null, false);
+            var scene = new GameObject("Scene").AddComponent<LeaderScene>();
+            return (scenario, scene, new RunMetrics(scene, scenario.MakeMetrics(), scenario.Functions));
+        }
+
+        private static byte[] Receive(Socket socket, int count)
+        {
+            var bytes = new byte[count];
+            for (var read = 0; read < count;) read += socket.Receive(bytes, read, count - read, SocketFlags.None);
+            return bytes;
+        }
+
+        /// <summary>Returns the number of nodes in a segment with up to eight slots. FORMAT.md describes it.</summary>
+        private static int Count(byte[] segment)
+        {
+            var count = 0;
+            if (segment.Length > 0)
+                for (int present = segment[segment[0] + 2]; present > 0; present >>= 1) count += present & 1;
+            return count;
+        }
+
+        /// <summary>A scene that colours nodes by a category. Node 0 has no leader.</summary>
+        public sealed class LeaderScene : SceneBuilder
+        {
+            public override IReadOnlyList<NodeColouring> Colourings => new[]
+            {
+                new NodeColouring("leader", node => node.Id == 0 ? int.MaxValue : node.Id) { IsCategory = true },
+            };
+
+            protected override void Build(SimulationManager manager)
+            {
+            }
+        }
+    }
+}
