@@ -86,8 +86,6 @@ namespace Collektive.Headless
             NodeFields = file.Optional(nodes, "fields", new string[0]);
             if (NodeFields.GroupBy(field => field).FirstOrDefault(group => group.Count() > 1) is IGrouping<string, string> repeated)
                 throw file.Error(nodes["fields"], "'outputs.nodes.fields' contains '" + repeated.Key + "' twice");
-            if (NodeFields.FirstOrDefault(field => field == "second" || field == "node") is string taken)
-                throw file.Error(nodes["fields"], "'outputs.nodes.fields' contains '" + taken + "', but nodes.csv already has a column of that name");
             NodeInterval = ReadInterval(file, nodes, "outputs.nodes.");
             Replay = file.Optional(outputs, "replay", false);
             Pictures = file.Optional(outputs, "pictures", false);
