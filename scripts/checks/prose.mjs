@@ -1,7 +1,10 @@
 // Prints the grammar errors in pages, and exits with 1 if it finds any: prose.mjs PAGE...
+import { webcrypto } from "node:crypto";
 import fs from "node:fs";
 import { pathToFileURL } from "node:url";
 
+// The linter needs this object, which Node.js 18 lacks.
+globalThis.crypto ??= webcrypto;
 const harper = pathToFileURL(`${process.env.COLLEKTIVE_NODE_MODULES}/harper.js/dist/`);
 const { Dialect, LocalLinter } = await import(`${harper}index.js`);
 const { slimBinaryInlined: binary } = await import(`${harper}slimBinaryInlined.js`);
