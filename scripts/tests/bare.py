@@ -37,6 +37,8 @@ ENTER = """
 set -e
 root=$1
 shift
+# As on any machine, / must be a mount point.
+mount --bind "$root" "$root"
 mount -t proc proc "$root/proc"
 mount -t tmpfs -o mode=755 dev "$root/dev"
 mkdir "$root/dev/shm" "$root/dev/pts"
