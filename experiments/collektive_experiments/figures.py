@@ -110,10 +110,10 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     requests = [options] if options else _requests(folder, experiment)
     for request in requests:
         check(results, request)
-    if experiment:
-        check_labels(experiment, metrics_at_end(results))
-    shown = [] if options else list(metrics or [*results.metrics, *results.convergence_times])
     known = metrics_at_end(results)
+    if experiment:
+        check_labels(experiment, known)
+    shown = [] if options else list(metrics or [*results.metrics, *results.convergence_times])
     # Names that differ only in case are the same file on some systems.
     reserved = {f"{file_name(metric, known)}-{kind}".lower() for metric in shown for kind in ("time", "end")}
     drawn: dict[str, Drawing] = {}

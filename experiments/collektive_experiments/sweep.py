@@ -39,7 +39,7 @@ Task = tuple[Run, bool]
 Ended = tuple[Run, Outcome]
 
 
-class Stopped(ExperimentError):
+class SweepStopError(ExperimentError):
     """The results of the finished runs are a reason to stop the sweep."""
 
 
@@ -99,11 +99,10 @@ class LocalPool:
                     self._running.remove(worker)
                     if self._stopped:
                         break
+                # At most one run waits until it is written.
                 if written is not None:
                     written.result()
                 written = writer.submit(self._finish, run, outcome, time.monotonic() - began, ended)
-            if written is not None:
-                written.result()
         except BaseException as error:
             ended.put(error)
         finally:
@@ -145,7 +144,7 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
     """
     try:
         code = drive(store, experiment.count, todo, pool, jobs, math.inf if keep_going else MAX_EQUAL_FAILURES)
-    except Stopped:
+    except SweepStopError:
         tables.write(experiment, store, with_csv)
         raise
     written = tables.write(experiment, store, with_csv)
@@ -209,10 +208,10 @@ def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, max
                 _require_room(store)
             progress.ended(outcome)
             if failed >= max_equal_failures and progress.done == total - len(todo) and len(messages) == 1:
-                raise Stopped(f"the sweep stopped: its first {failed} runs all failed in the same way; correct the cause and continue with "
+                raise SweepStopError(f"the sweep stopped: its first {failed} runs all failed in the same way; correct the cause and continue with "
                               "--resume, or run all with --keep-going")
             if outcome.status == "differs":
-                raise Stopped(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
+                raise SweepStopError(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
                               "inputs, such as a clock, a file or a random number without the scenario's seed")
     except (OSError, WorkerError) as error:
         progress.end()

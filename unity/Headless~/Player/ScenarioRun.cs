@@ -244,9 +244,9 @@ namespace Collektive.Headless
                     if (stopsAtFailures && manager.Simulation.AllRoundsFailed)
                         throw new ScenarioException("stopped at tick " + completedTicks
                             + ": all rounds failed; the errors are above. To continue anyway, use --keep-going");
-                    parameters = parameters ?? ProgramsWithParameters(manager);
                     // Later nodes may have other parameters.
-                    if (manager.Simulation.IdCapacity > describedIds) ParameterValues.Add(parameters, manager, describedIds);
+                    if (parameters == null) parameters = ProgramsWithParameters(manager);
+                    else if (manager.Simulation.IdCapacity > describedIds) ParameterValues.Add(parameters, manager, describedIds);
                     describedIds = manager.Simulation.IdCapacity;
                     replay?.Add(manager.SimulatedTime);
                     var now = Stopwatch.GetTimestamp();
