@@ -509,7 +509,7 @@ def _table(results: Results, metric: str) -> str:
     effects = compare(results, metric, results.configuration[0])
     if effects.empty:
         return ""
-    table = effects.to_html(index=False, float_format=lambda number: f"{number:.3g}", border=0)
+    table = effects.to_html(index=False, float_format=lambda number: f"{number:.3g}", na_rep="too few runs", border=0)
     return f"<details><summary>{html.escape(_text(results, metric))}: effect sizes</summary>{table}</details>"
 
 

@@ -95,6 +95,7 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
       is between -1 and 1, and 0 means no effect. It compares pairs, or all runs if no seeds are equal (Cliff's delta);
     - `p`, the p-value of a permutation test of the difference, and `p_holm`, the same value corrected for all rows of the table;
     - `n_a` and `n_b`, the numbers of runs with a value, and `pairs`, the number of their pairs.
+    With only one pair, or without pairs if one of the values has only one run, the statistics are NaN.
     """
     rows = []
     # Other keys of a `zip` with `by` have the same value in all runs with a value of `by`.

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from collektive_experiments import Results, compare, holm, interval, kaplan_meier
-from collektive_experiments.figures import at_end, over_time
+from collektive_experiments.figures import _table, at_end, over_time
 from collektive_experiments.statistics import paired_effect, unpaired_effect
 
 
@@ -46,6 +46,14 @@ def test_the_same_values_give_the_same_interval() -> None:
 def test_a_single_value_has_no_interval_and_no_effect() -> None:
     assert np.isnan(interval(np.ones(1))).all()
     assert np.isnan(compare(results(2, size=1), "error", "program").iloc[0]["difference"])
+
+
+def test_a_table_marks_effects_of_one_pair() -> None:
+    assert _table(results(2), "error").count("too few runs") == 0
+    some = results(2)
+    some.runs.loc[20:, "seed"] += 19
+    assert compare(some, "error", "program").iloc[0]["pairs"] == 1
+    assert _table(some, "error").count("too few runs") == 10
 
 
 def test_incomplete_runs_are_ignored() -> None:

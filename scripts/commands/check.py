@@ -55,8 +55,11 @@ def _kind(file: Path) -> str | None:
         text = file.read_text(encoding="utf-8", errors="replace")
     except OSError:
         return None
-    # Keys may have single quotes or none.
-    return next((key for key in (EXPERIMENT, SCENARIO) if re.search(rf"""(?m)("|(^|[{{,])\s*'?){key}["']?\s*:""", text)), None)
+    top, nested = text.partition("{")[2], 1
+    while nested:
+        top, nested = re.subn(r"\{[^{}]*\}", "", top)
+    # Nested objects may contain the same keys. If their brackets do not match, the whole file is searched. Keys may have single quotes or none.
+    return next((key for part in (top, text) for key in (EXPERIMENT, SCENARIO) if re.search(rf"""(?m)("|(^|[{{,])\s*'?){key}["']?\s*:""", part)), None)
 
 
 def _check_scenario(file: Path, trust: list[str]) -> bool:

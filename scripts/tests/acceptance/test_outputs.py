@@ -76,7 +76,8 @@ class Outputs(Project):
     def test_a_run_that_cannot_start_keeps_earlier_results(self) -> None:
         self.assertEqual(self.run_it().returncode, 0)
         before = self.contents()
-        for arguments in [("--seed", "1.5"), ("--seconds", "-1"), ("--set", "lamps=many"), ("--set", "candles=3"), ("--set", "scene=Lamps.Nonesuch")]:
+        for arguments in [("--seed", "1.5"), ("--seconds", "-1"), ("--set", "lamps=many"), ("--set", "candles=3"), ("--set", "scene=Lamps.Nonesuch"),
+                          ("--set", "outputs.nodes.fields=[\"nonesuch\"]")]:
             self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
             self.assertEqual(self.contents(), before, arguments)
 

@@ -14,7 +14,7 @@ namespace Collektive.Headless
         internal static List<NodeColouring> Of(SimulationManager manager)
         {
             var colourings = new List<NodeColouring>();
-            foreach (var field in AnswerField.Of(manager))
+            foreach (var field in AnswerField.Of(Schemas.Find(manager.Settings.schema)))
             {
                 if (colourings.Count == MaxColourings) break;
                 if (Converter(field.Type) is Func<object, double> convert) colourings.Add(Colouring(field, convert));

@@ -24,9 +24,9 @@ namespace Collektive.Headless
         internal Type Type { get; }
 
         /// <summary>Returns the fields of the answers, in the order of the schema.</summary>
-        internal static List<AnswerField> Of(SimulationManager manager)
+        internal static List<AnswerField> Of(DataSchema schema)
         {
-            var buffer = Schemas.Find(manager.Settings.schema).CreateActuators().GetType();
+            var buffer = schema.CreateActuators().GetType();
             while (!buffer.IsGenericType || buffer.GetGenericTypeDefinition() != typeof(ActuatorBuffer<>)) buffer = buffer.BaseType;
             var fields = new List<AnswerField>();
             foreach (var member in buffer.GetGenericArguments()[0].GetMembers(BindingFlags.Public | BindingFlags.Instance))

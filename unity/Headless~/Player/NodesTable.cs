@@ -4,6 +4,7 @@ using System.Globalization;
 using System.IO;
 using System.Linq;
 using System.Reflection;
+using Collektive.Bridge;
 using Collektive.Unity;
 using Newtonsoft.Json.Linq;
 using UnityEngine;
@@ -21,17 +22,19 @@ namespace Collektive.Headless
 
         private readonly TextWriter writer;
         private readonly SimulationManager manager;
-        private readonly List<Column> columns = new List<Column>();
+        private readonly List<Column> columns;
 
         /// <param name="fields">Names of fields of the answers, or <c>position</c>.</param>
         internal NodesTable(string path, IEnumerable<string> fields, SimulationManager manager)
         {
             this.manager = manager;
-            var answers = AnswerField.Of(manager);
-            foreach (var field in fields) columns.Add(field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field));
+            columns = ColumnsOf(Schemas.Find(manager.Settings.schema), fields);
             writer = ResultFile.Create(path);
             writer.Write("second,node," + string.Join(",", columns.SelectMany(column => column.Names)) + "\n");
         }
+
+        /// <summary>Throws a <see cref="ScenarioException"/> if a table of these fields cannot be written.</summary>
+        internal static void Check(DataSchema schema, IEnumerable<string> fields) => ColumnsOf(schema, fields);
 
         /// <summary>Type of each column. Tables of several runs are merged with these types.</summary>
         internal JObject Types => new JObject(columns.SelectMany(column => column.Names.Select(name => new JProperty(name, column.Type))));
@@ -52,6 +55,12 @@ namespace Collektive.Headless
         }
 
         public void Dispose() => writer.Dispose();
+
+        private static List<Column> ColumnsOf(DataSchema schema, IEnumerable<string> fields)
+        {
+            var answers = AnswerField.Of(schema);
+            return fields.Select(field => field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field)).ToList();
+        }
 
         private static Column Find(List<AnswerField> answers, string wanted)
         {

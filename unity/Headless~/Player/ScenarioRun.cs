@@ -180,6 +180,7 @@ namespace Collektive.Headless
             SceneFields.Set(scene, scenario, options.FieldAssignments);
             DataFile.Folder = scenario.Data;
             if (scene.FindProblem() is string problem) throw SceneFields.Error(scenario, problem);
+            if (scenario.NodeFields.Length > 0) NodesTable.Check(Schemas.Find(""), scenario.NodeFields);
             runMetrics = new RunMetrics(scene, scenario.MakeMetrics(), scenario.Functions);
             if (MetricsTable.FindDuplicate(runMetrics) is string metric) throw DuplicateError(scene, metric);
             scenario.Convergence.Bind(runMetrics.Names);

@@ -6,8 +6,10 @@ import org.collektive.host.programs.JarBytes
 import org.collektive.host.shim.HostException
 import java.io.IOException
 import java.io.PrintStream
+import java.nio.file.Files
 import java.nio.file.InvalidPathException
 import java.nio.file.Path
+import java.nio.file.StandardCopyOption.REPLACE_EXISTING
 import kotlin.system.exitProcess
 
 private const val EQUAL = 0
@@ -90,7 +92,21 @@ private fun replay(arguments: List<String>, report: Report): Int {
         request.record = last["--out"].orEmpty()
         // With other programs, a recorded reload loads these again.
         val reloaded: (RecordedStep) -> List<JarBytes> = { step -> jars.ifEmpty { step.jars.also(check) } }
-        return code(Replay(record, request, programs, reloaded, last["--out"], report).run())
+        val run = { out: Path? -> Replay(record, request, programs, reloaded, out?.toString(), report).run() }
+        return code(last["--out"]?.let { replaceWhenComplete(path(it), run) } ?: run(null))
+    }
+}
+
+/** Calls [write] with a temporary file, which becomes [file] unless [write] fails. Devices and pipes are written directly. */
+private fun replaceWhenComplete(file: Path, write: (Path) -> Boolean): Boolean {
+    val target = if (Files.exists(file)) file.toRealPath() else file
+    if (Files.exists(target) && !Files.isRegularFile(target)) return write(target)
+    val part = target.resolveSibling("${target.fileName}.part")
+    try {
+        Files.deleteIfExists(part)
+        return write(part).also { Files.move(part, target, REPLACE_EXISTING) }
+    } finally {
+        Files.deleteIfExists(part)
     }
 }
 

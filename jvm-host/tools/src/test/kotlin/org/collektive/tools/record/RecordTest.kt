@@ -26,10 +26,13 @@ import kotlin.io.path.appendText
 import kotlin.io.path.deleteExisting
 import kotlin.io.path.deleteIfExists
 import kotlin.io.path.exists
+import kotlin.io.path.listDirectoryEntries
+import kotlin.io.path.name
 import kotlin.io.path.readBytes
 import kotlin.io.path.writeBytes
 import kotlin.random.Random
 import kotlin.test.assertContains
+import kotlin.test.assertContentEquals
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertFalse
@@ -383,6 +386,16 @@ class RecordTest {
                 if (index >= firstStep) assertContains(result.results, "$ticks ticks replayed, all digests equal the record")
             }
         }
+    }
+
+    @Test
+    fun `a replay of a damaged record keeps an earlier file`() {
+        val earlier = record("earlier").readBytes()
+        val cut = folder.resolve("cut").also { it.writeBytes(earlier.copyOf(earlier.size - 1)) }
+        assertEquals(2, run("replay", cut, "--out", folder.resolve("earlier.clkrec")).code)
+        assertContentEquals(earlier, folder.resolve("earlier.clkrec").readBytes())
+        assertEquals(2, run("replay", cut, "--out", folder.resolve("new.clkrec")).code)
+        assertEquals(setOf("earlier.clkrec", "cut"), folder.listDirectoryEntries().map { it.name }.toSet())
     }
 
     @Test
