@@ -1,6 +1,8 @@
 """Runs the case study, environment-aware gradient ascent: 500 bodies move around obstacles to a source in 60 simulated seconds. Writes
 manifest.json, metrics.csv, replay.html (open it in a browser) and three pictures to --out."""
 import argparse
+import json
+from pathlib import Path
 
 from build.places import ROOT
 from commands.run import run_scenario
@@ -23,6 +25,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    out = arguments.out or f"out/demo-seed{arguments.seed}"
     values = [] if arguments.nodes is None else [f"nodes={arguments.nodes}"]
-    return run_scenario(str(SCENARIO), out=arguments.out or f"out/demo-seed{arguments.seed}", overwrite=arguments.overwrite or not arguments.out,
+    return run_scenario(str(SCENARIO), out=out, overwrite=arguments.overwrite or not arguments.out and _is_demo(Path(out, "manifest.json")),
                         seed=arguments.seed, seconds=arguments.seconds, values=values)
+
+
+def _is_demo(manifest: Path) -> bool:
+    """Returns whether a manifest is from a demo. Another scenario named demo.json has the same default folder."""
+    return manifest.is_file() and json.dumps(str(SCENARIO.parent), ensure_ascii=False).encode() in manifest.read_bytes()

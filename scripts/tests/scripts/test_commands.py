@@ -7,7 +7,7 @@ import pytest
 from checkout import Checkout
 
 from build import graph, lock, processes
-from commands import check, profile
+from commands import check, demo, profile
 from commands import run as run_command
 
 
@@ -61,6 +61,15 @@ def test_a_failed_report_is_the_exit_code_of_profile(tmp_path: Path, monkeypatch
     monkeypatch.setattr(profile, "find_jdk", lambda: tmp_path)
     monkeypatch.setattr(processes, "call", lambda *_: 3)
     assert profile.run(argparse.Namespace(scenario="", out=str(tmp_path), overwrite=False)) == 3
+
+
+@pytest.mark.parametrize(("folder", "is_replaced"), [(demo.SCENARIO.parent, True), (Path("/home/me"), False)])
+def test_a_demo_does_not_replace_the_run_of_another_scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: Path, is_replaced: bool) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(demo, "run_scenario", lambda _, overwrite, **__: overwrite)
+    Path("out/demo-seed1").mkdir(parents=True)
+    Path("out/demo-seed1/manifest.json").write_text(f'{{"outcome": "complete", "file": "demo.json", "folder": "{folder}"}}')
+    assert demo.run(argparse.Namespace(nodes=None, seconds=None, seed="1", out=None, overwrite=False)) == is_replaced
 
 
 def test_clean_does_not_follow_links(checkout: Checkout, tmp_path: Path) -> None:

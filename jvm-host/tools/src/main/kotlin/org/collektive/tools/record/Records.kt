@@ -97,14 +97,13 @@ private fun replay(arguments: List<String>, report: Report): Int {
     }
 }
 
-/** Calls [write] with a temporary file, which becomes [file] unless [write] fails. Devices and pipes are written directly. */
+/** Calls [write] with a temporary file, which replaces [file], or a link of that name, unless [write] fails. Writes devices and pipes directly. */
 private fun replaceWhenComplete(file: Path, write: (Path) -> Boolean): Boolean {
-    val target = if (Files.exists(file)) file.toRealPath() else file
-    if (Files.exists(target) && !Files.isRegularFile(target)) return write(target)
-    val part = target.resolveSibling("${target.fileName}.part")
+    if (Files.exists(file) && !Files.isRegularFile(file)) return write(file)
+    val part = file.resolveSibling("${file.fileName}.part")
     try {
         Files.deleteIfExists(part)
-        return write(part).also { Files.move(part, target, REPLACE_EXISTING) }
+        return write(part).also { Files.move(part, file, REPLACE_EXISTING) }
     } finally {
         Files.deleteIfExists(part)
     }

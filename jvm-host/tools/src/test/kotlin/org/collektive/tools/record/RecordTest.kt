@@ -396,6 +396,10 @@ class RecordTest {
         assertContentEquals(earlier, folder.resolve("earlier.clkrec").readBytes())
         assertEquals(2, run("replay", cut, "--out", folder.resolve("new.clkrec")).code)
         assertEquals(setOf("earlier.clkrec", "cut"), folder.listDirectoryEntries().map { it.name }.toSet())
+        val link = Files.createSymbolicLink(folder.resolve("link"), Path.of("cut"))
+        assertEquals(0, run("replay", folder.resolve("earlier.clkrec"), "--out", link).code)
+        assertEquals(earlier.size - 1L, Files.size(folder.resolve("cut")))
+        assertFalse(Files.isSymbolicLink(link))
     }
 
     @Test
