@@ -148,8 +148,12 @@ def read(path: str) -> Experiment:
     scenario = os.path.join(os.path.dirname(path), root["scenario"])
     if not os.path.isfile(scenario):
         raise located.error(f"the scenario file '{scenario}' does not exist", "scenario")
-    if not isinstance(Located(scenario).root, dict):
+    settings = Located(scenario).root
+    if not isinstance(settings, dict):
         raise ExperimentError(f"{scenario}: the file must contain one JSON object")
+    if "scenario" in settings:
+        # The player would repeat the run of a manifest and ignore the values of keys.
+        raise located.error(f"'{scenario}' is the manifest of a run or an experiment; name a scenario file", "scenario")
     experiment = Experiment(path, scenario, _read_vary(located, "vary"), _read_vary(located, "zip"), _read_set(located), _read_measure(located),
                             read_figures(located), _read_labels(located), located)
     _check(experiment)

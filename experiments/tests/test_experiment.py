@@ -21,6 +21,7 @@ def write(folder: Path, text: str) -> str:
     (3, '{"version": 1,\n"scenario": "scenario.json",\n"varry": {}}', "unknown key 'varry'; known here: version, scenario, vary"),
     (2, '{"version": 1,\n"scenario": 3}', "'scenario' is 3; it must be a string"),
     (2, '{"version": 1,\n"scenario": "other.json"}', "other.json' does not exist"),
+    (2, '{"version": 1,\n"scenario": "experiment.json"}', "experiment.json' is the manifest of a run or an experiment"),
     (1, '{"version": 2, "scenario": "scenario.json"}', "version 2 is not supported"),
     (1, '{"version": true, "scenario": "scenario.json"}', "'version' is true; it must be a whole number"),
     (3, '{"version": 1, "scenario": "scenario.json",\n"vary": {\n"seed": []}}', "'vary.seed' is an empty list"),
