@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     out = arguments.out or f"out/demo-seed{arguments.seed}"
     values = [] if arguments.nodes is None else [f"nodes={arguments.nodes}"]
-    return run_scenario(str(SCENARIO), out=out, overwrite=arguments.overwrite or not arguments.out and _is_demo(Path(out, "manifest.json")),
+    return run_scenario(str(SCENARIO), out=out, overwrite=arguments.overwrite or (not arguments.out and _is_demo(Path(out, "manifest.json"))),
                         seed=arguments.seed, seconds=arguments.seconds, values=values)
 
 

@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 
 from build import graph, outputs, player, projects
-from build.console import print_progress, run_logged
+from build.console import Failure, print_progress, run_logged
 from build.jdk import find_jdk
 from build.places import BUILD, NODE_MODULES, ROOT
 
@@ -51,6 +51,9 @@ def run_scenario(scenario: str, **options: object) -> int:
 def run(arguments: argparse.Namespace) -> int:
     if arguments.recording is not None:
         outputs.require_replaceable(arguments.recording, b"FLR\0", "--recording")
+        # Otherwise, the recording could replace a result such as metrics.csv.
+        if not arguments.recording.endswith(".jfr"):
+            raise Failure(f"--recording '{arguments.recording}': the name must end in .jfr")
     graph.build("runtime")
     scenario_options = [word for value in arguments.values for word in ("--set", value)]
     if arguments.folder is not None:

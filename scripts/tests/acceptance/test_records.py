@@ -71,6 +71,8 @@ class Records(Project):
         result = collektive("run", scenario, "--out", self.path("other"), "--recording", scenario)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("exists and was not written by --recording", last_error(result))
+        result = collektive("run", scenario, "--out", self.path("other"), "--recording", self.path("other", "metrics.csv"))
+        self.assertIn("the name must end in .jfr", last_error(result))
         with open(self.a, "rb") as file:
             self.assertEqual(file.read(), before)
         with open(scenario, "rb") as file:
