@@ -169,7 +169,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields.reading", {"expression": "x + random()"}, "not authorized to use function: random"),
     ("fields.reading", {"expression": "x, z"}, "row value misused"),
     ("fields.reading", {"expression": "(select count(*) from nodes)"}, "no such table: nodes"),
-    ("fields.reading", {"expression": "'warm'"}, "its value is not a number"),
+    ("fields.reading", {"expression": "'warm'"}, "it must not contain texts"),
     ("fields.reading", {"expression": "x", "file": "values.csv"}, "'reading' needs either 'expression' or 'file'"),
     ("fields.reading", {"file": "bad/values.csv"}, "'reading.file': bad/values.csv:3: the time must be after that of line 2, or the id must differ"),
     ("fields.reading", {"file": "bad/all.csv"}, "'reading.file': bad/all.csv:2: 'id' must be a whole number of at least 0"),

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.Runtime.InteropServices;
 using System.Text;
+using System.Text.RegularExpressions;
 
 namespace Collektive.Headless
 {
@@ -30,6 +31,8 @@ namespace Collektive.Headless
 
         /// <summary>Maximum memory of all databases in the process, in bytes.</summary>
         private const long MaxMemory = 1L << 30;
+
+        private static readonly Regex Comments = new Regex(@"--[^\n]*|/\*.*?(\*/|$)", RegexOptions.Singleline);
 
         /// <summary>The functions that queries can call. They are numeric and depend only on their arguments.</summary>
         private static readonly HashSet<string> Allowed = new HashSet<string>(
@@ -97,8 +100,11 @@ namespace Collektive.Headless
                 var rest = CharacterAt(bytes, end);
                 var hasRest = sql.Substring(rest).Trim().Length > 0;
                 var hasParameters = sqlite3_bind_parameter_count(statement) != parameters;
-                if (!hasRest && !hasParameters && sqlite3_column_count(statement) == 1) return query;
+                // SQLite would read a column's name in single quotes as a text with the value 0.
+                var text = Comments.Replace(sql, comment => new string(' ', comment.Length)).IndexOf('\'');
+                if (!hasRest && !hasParameters && text < 0 && sqlite3_column_count(statement) == 1) return query;
                 query.Dispose();
+                if (!hasRest && text >= 0) throw new SqlException("it must not contain texts; write columns without single quotes", text);
                 throw new SqlException(hasParameters ? "it must not have parameters" : "it must be one expression", hasRest ? rest : -1);
             }
             finally
