@@ -19,6 +19,15 @@ add_subdirectory("unity/Headless~/NativePhysics" physics EXCLUDE_FROM_ALL)
 # Mono looks for native libraries beside the assembly that calls them.
 set_target_properties(collektive_physics PROPERTIES LIBRARY_OUTPUT_DIRECTORY "${COLLEKTIVE_BUILD}/csharp")
 
+# The case study without the player, for `./collektive bench scene`.
+find_package(Threads REQUIRED)
+add_executable(case_study EXCLUDE_FROM_ALL "unity/Headless~/NativePhysics/bench/case_study.c" $<TARGET_OBJECTS:collektive_neighbours>
+  $<TARGET_OBJECTS:collektive_prim>)
+target_include_directories(case_study PRIVATE native-shim/include native-shim/src)
+target_compile_options(case_study PRIVATE -O3)
+target_link_libraries(case_study PRIVATE collektive_flags collektive_physics Threads::Threads ${CMAKE_DL_LIBS} m)
+set_target_properties(case_study PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${COLLEKTIVE_BUILD}/bench")
+
 # Metrics are SQL, possibly untrusted, so extensions, other databases and files are disabled.
 add_library(collektive_sqlite SHARED EXCLUDE_FROM_ALL "unity/Headless~/NativeSqlite/insert.c" "${COLLEKTIVE_BUILD}/sqlite/sqlite3.c")
 target_include_directories(collektive_sqlite SYSTEM PRIVATE "${COLLEKTIVE_BUILD}/sqlite")

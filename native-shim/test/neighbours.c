@@ -1,12 +1,10 @@
-/* Compares the results of collektive_neighbours with those of brute force. `neighbours_test CASE` runs a case, and `neighbours_test bench POINTS THREADS`
- * measures times. */
+/* Compares the results of collektive_neighbours with those of brute force. `neighbours_test CASE` runs a case. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include "collektive_neighbours.h"
-#include "prim.h"
 
 #define CHECK(condition)                                                             \
     do {                                                                             \
@@ -505,40 +503,6 @@ static void an_update_stops_at_the_limit_of_links(void) {
     }
 }
 
-static double now_ms(void) { return 1e-6 * (double)prim_now(); }
-
-static int ascending(const void *a, const void *b) {
-    return (*(const double *)a > *(const double *)b) - (*(const double *)a < *(const double *)b);
-}
-
-/* Prints median times. The points are two metres apart and move at 2 m/s, in ticks of 0.05 s. Each has about seven others within 3 m. */
-static void bench(int32_t count, int32_t threads) {
-    struct swarm_of swarm = make_swarm(count, 2, 3);
-    clk_changes changes;
-    enum { TICKS = 101, PHASES = 4 };
-    double times[PHASES][TICKS];
-    int64_t sent = 0;
-    for (int32_t tick = 0; tick < TICKS; tick++) {
-        move_swarm(&swarm);
-        double start = now_ms();
-        CHECK(clk_neighbours_place(swarm.neighbours, swarm.points, count, 0) == 0);
-        double placed = now_ms();
-        CHECK(clk_neighbours_update(swarm.neighbours, swarm.searches, count, threads, 1 << 24) == count);
-        double updated = now_ms();
-        CHECK(clk_neighbours_flush(swarm.neighbours, &changes) == 0);
-        double end = now_ms();
-        double phases[PHASES] = {placed - start, updated - placed, end - updated, end - start};
-        for (int32_t i = 0; i < PHASES; i++) times[i][tick] = phases[i];
-        if (tick > 0) sent += changes.set_count + changes.removed_count;
-    }
-    for (int32_t i = 0; i < PHASES; i++) qsort(times[i], TICKS, sizeof(double), ascending);
-    clk_pairs pairs;
-    clk_neighbours_pairs(swarm.neighbours, &pairs);
-    printf("%d points, %d links, %lld changes, %d threads: place %.3f, update %.3f, flush %.3f, total %.3f ms\n", count, pairs.links,
-           (long long)(sent / (TICKS - 1)), threads, times[0][TICKS / 2], times[1][TICKS / 2], times[2][TICKS / 2], times[3][TICKS / 2]);
-    free_swarm(&swarm);
-}
-
 int main(int count, char **words) {
     static const struct {
         const char *name;
@@ -555,16 +519,12 @@ int main(int count, char **words) {
         CASE(any_number_of_threads_has_equal_results),
         CASE(an_update_stops_at_the_limit_of_links),
     };
-    if (count == 4 && strcmp(words[1], "bench") == 0) {
-        bench((int32_t)strtol(words[2], NULL, 10), (int32_t)strtol(words[3], NULL, 10));
-        return 0;
-    }
     for (size_t i = 0; count == 2 && i < sizeof cases / sizeof *cases; i++) {
         if (strcmp(words[1], cases[i].name) != 0) continue;
         state = 1;
         cases[i].run();
         return 0;
     }
-    fprintf(stderr, "usage: neighbours_test CASE, or neighbours_test bench POINTS THREADS\n");
+    fprintf(stderr, "usage: neighbours_test CASE\n");
     return 2;
 }

@@ -13,10 +13,14 @@ from typing import Any
 
 from build import graph, inputs, lock, projects
 from build.console import Failure
-from build.places import COLLEKTIVE, ROOT, SHIM
+from build.places import BUILD, COLLEKTIVE, ROOT
 
 SAMPLE = ROOT / "unity/Samples~/GradientAscent"
+CASE_STUDY = BUILD / "bench/case_study"
 PHASES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms")
+# The phases with the same work as a bare loop in C.
+BARE_PHASES = {"sense_ms": ("queries_ms", "sense_ms"), "rules_ms": ("rules_ms",), "rounds_ms": ("step_ms",), "act_ms": ("act_ms",),
+               "physics_ms": ("physics_ms",)}
 NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
 # The number of nodes in the sample. The field is scaled for other numbers.
 NODES_OF_FIELD = 500
@@ -39,8 +43,8 @@ def scenario(nodes: int, seconds: int) -> dict[str, Any]:
 def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
     """Measures one size.
 
-    Returns the mean and the 99th percentile of the ticks after the warm-up, the times of the phases, and the time that a bare loop in C takes for the
-    work of the rules.
+    Returns the mean and the 99th percentile of the ticks after the warm-up, the mean times of the phases, and the times of the same ticks as bare loops
+    in C.
     """
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder, "scene.json"), Path(folder, "out")
@@ -54,7 +58,8 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
         with (out / "metrics.csv").open() as file:
             rows = [row for row in csv.DictReader(file) if int(row["second"]) > settled]
 
-    bare = subprocess.run([SHIM / "test/neighbours_test", "bench", str(nodes), str(settings["threads"])], check=True, stdout=subprocess.PIPE, text=True)
+    ticks = [str(round(second / settings["deltaTime"])) for second in (seconds, settled)]
+    bare = subprocess.run([CASE_STUDY, str(nodes), str(settings["threads"]), *ticks], check=True, stdout=subprocess.PIPE, text=True)
 
     def mean(column: str) -> float:
         return sum(float(row[column]) for row in rows) / len(rows)
@@ -62,8 +67,8 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
     return {"nodes": nodes, "threads": settings["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
             # A row covers at most 100 ticks, so the 99th percentile of a row is its slowest tick.
             "tick_ms_p99": max(float(row["tick_ms_p99"]) for row in rows),
-            **{phase: round(mean(phase), 3) for phase in PHASES}, "rules_in_c_ms": float(bare.stdout.split()[-2]),
-            "rss_mb": round(usage.ru_maxrss / 1024, 1)}
+            **{phase: round(mean(phase), 3) for phase in PHASES}, "rss_mb": round(usage.ru_maxrss / 1024, 1),
+            "mean_distance": float(rows[-1]["mean_distance"]), "in_c": json.loads(bare.stdout)}
 
 
 def micros_per_node(row: dict[str, Any]) -> float:
@@ -71,17 +76,24 @@ def micros_per_node(row: dict[str, Any]) -> float:
 
 
 def table(rows: list[dict[str, Any]]) -> str:
-    """Formats the rows as a table.
+    """Formats the rows as two tables.
 
-    Adds the time of the rules relative to the time in C, and the time per node and tick in microseconds and relative to the first row.
+    The first contains the phases, and the time per node and tick in microseconds, also relative to the first row. The second contains the phases and the
+    whole tick, the same work as bare loops in C, and the ratio.
     """
-    columns = ["nodes", "ticks/s", "p99 ms", "p99/mean", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "rules in C", "ratio", "RSS MB",
-               "us a node", "growth"]
+    columns = ["nodes", "ticks/s", "p99 ms", "p99/mean", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "RSS MB", "us a node", "growth"]
     cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", f"{row['tick_ms_p99']:.2f}",
-              f"{row['tick_ms_p99'] * row['ticks_per_second'] / 1000:.2f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rules_in_c_ms']:.2f}",
-              f"{row['rules_ms'] / row['rules_in_c_ms']:.2f}", f"{row['rss_mb']:.0f}",
+              f"{row['tick_ms_p99'] * row['ticks_per_second'] / 1000:.2f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rss_mb']:.0f}",
               f"{micros_per_node(row):.2f}", f"{micros_per_node(row) / micros_per_node(rows[0]):.2f}"] for row in rows]
-    return "\n".join("".join(text.rjust(11) for text in line) for line in [columns, *cells])
+    bare_columns = ["ms : in C", *(phase.removesuffix("_ms") for phase in BARE_PHASES), "tick"]
+    bare_cells = [[f"{row['nodes']}", *(_ratio(sum(row[phase] for phase in phases), row["in_c"][bare]) for bare, phases in BARE_PHASES.items()),
+                   _ratio(1000 / row["ticks_per_second"], sum(row["in_c"][bare] for bare in BARE_PHASES))] for row in rows]
+    return "\n".join(["".join(text.rjust(10) for text in line) for line in [columns, *cells]] + [""]
+                     + ["".join(text.rjust(22) for text in line) for line in [bare_columns, *bare_cells]])
+
+
+def _ratio(ms: float, bare_ms: float) -> str:
+    return f"{ms:.2f} : {bare_ms:.2f} = {ms / bare_ms:.2f}"
 
 
 def machine() -> str:
@@ -98,7 +110,7 @@ def sizes_of(text: str) -> list[int]:
 
 def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     """Runs all sizes, writes their rows to a file, and prints the table."""
-    graph.build("runtime", "neighbours_test")
+    graph.build("runtime", "case_study")
     # Compile before the runs, because the memory of a run includes the memory of processes that it starts.
     projects.scripts_dll(inputs.schema(SAMPLE / "gradient_ascent.fbs"), inputs.scripts(SAMPLE))
     lock.release()

@@ -57,7 +57,7 @@ def test_javascript_is_clean_under_eslint() -> None:
 
 def test_c_and_cpp_are_formatted_by_clang_format() -> None:
     assert_clean(os.path.join(BUILD, "python/bin/clang-format"), "--dry-run", "--Werror",
-                 *sources("native-shim/*.c", "native-shim/*.h", "unity/*.cpp", "unity/*.hpp", "unity/*.h"))
+                 *sources("native-shim/*.c", "native-shim/*.h", "unity/*.c", "unity/*.cpp", "unity/*.hpp", "unity/*.h"))
 
 
 def test_kotlin_is_clean_under_ktlint() -> None:
