@@ -14,5 +14,6 @@ def command(runtime: str, program: Path, *words: str | Path) -> list[str | Path]
 def environment(runtime: str) -> Mapping[str, str]:
     """Returns the environment variables for a program that loads the shim."""
     paths = [str(SHIM), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
-    return {**os.environ, "LD_LIBRARY_PATH": ":".join(paths), "COLLEKTIVE_RUNTIME": runtime,
+    # By default, Mono inlines methods of up to 20 bytes. With 60, acting takes a fifth less time.
+    return {"MONO_INLINELIMIT": "60", **os.environ, "LD_LIBRARY_PATH": ":".join(paths), "COLLEKTIVE_RUNTIME": runtime,
             "PATH": f"{ROOT / 'tools/coreclr'}:{os.environ.get('PATH', os.defpath)}"}
