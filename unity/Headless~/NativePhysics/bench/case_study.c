@@ -23,7 +23,7 @@ enum { IGNORE_RAYCAST_LAYER = 2, NODES_OF_FIELD = 500, MAX_HITS = 16, STEPS = 3 
 static const float DELTA_TIME = 0.05f, RANGE = 3, REACH = 1, RADIUS = 0.25f, MAX_SPEED = 5, REACH_TIME = 0.5f, TOO_SMALL = 1e-6f;
 
 typedef struct {
-    float x, z, intensity; /* what a node sends to its neighbours */
+    float x, z, intensity; /* the message of a node to its neighbours */
 } sample;
 
 static void require(int condition, const char *what) {
