@@ -10,6 +10,7 @@ import java.nio.file.Files
 import java.nio.file.InvalidPathException
 import java.nio.file.Path
 import java.nio.file.StandardCopyOption.REPLACE_EXISTING
+import java.util.UUID
 import kotlin.system.exitProcess
 
 private const val EQUAL = 0
@@ -100,9 +101,8 @@ private fun replay(arguments: List<String>, report: Report): Int {
 /** Calls [write] with a temporary file, which replaces [file], or a link of that name, unless [write] fails. Writes devices and pipes directly. */
 private fun replaceWhenComplete(file: Path, write: (Path) -> Boolean): Boolean {
     if (Files.exists(file) && !Files.isRegularFile(file)) return write(file)
-    val part = file.resolveSibling("${file.fileName}.part")
+    val part = file.resolveSibling("${file.fileName}.${UUID.randomUUID()}.part")
     try {
-        Files.deleteIfExists(part)
         return write(part).also { Files.move(part, file, REPLACE_EXISTING) }
     } finally {
         Files.deleteIfExists(part)
