@@ -202,7 +202,7 @@ def metrics_at_end(results: Results) -> list[str]:
 def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure, str]]:
     """Draws the requested figure for each metric and each combination of values of the keys that it does not show. Yields name, figure and caption."""
     data = results.series if options.x == TIME else results.complete
-    others = _other_keys(data, results.configuration, [key for key in (options.x, options.by) if key and key != TIME])
+    others = _other_keys(results, [key for key in (options.x, options.by) if key and key != TIME])
     combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
     if len(combinations) > MAX_PANELS:
         raise options.fail("by", f"leaves {len(combinations)} combinations of {', '.join(others)}, each with its own figure; the maximum is {MAX_PANELS}")
@@ -218,9 +218,10 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
             yield file_name(metric + ending, names), figure, caption + (f" {label(values, others)}." if others else "")
 
 
-def _other_keys(data: pd.DataFrame, keys: list[str], shown: list[str]) -> list[str]:
+def _other_keys(results: Results, shown: list[str]) -> list[str]:
     """Returns the keys that a figure does not show, except those that the shown keys determine, such as keys of the same `zip`."""
-    return [key for key in keys if key not in shown and (data.groupby(shown)[key].nunique().max() if shown else data[key].nunique()) > 1]
+    runs, keys = results.runs, results.configuration
+    return [key for key in keys if key not in shown and (runs.groupby(shown)[key].nunique().max() if shown else runs[key].nunique()) > 1]
 
 
 def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, options: FigureOptions) -> str:
@@ -253,13 +254,15 @@ def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, opt
         axes.xaxis.set_minor_formatter(NullFormatter())
     (axes.set_xlim if options.kind == "ecdf" else axes.set_ylim)(*options.range)
     if options.by:
-        _add_legend(figure, axes, results, options.by)
+        _add_legend(figure, results, options.by)
     return _caption(results, data, metric, options.kind, options.x, counts)
 
 
-def _add_legend(figure: Figure, axes: Axes, results: Results, by: str) -> None:
+def _add_legend(figure: Figure, results: Results, by: str) -> None:
     """Adds a legend above the axes, with as many columns as fit."""
-    handles, labels = axes.get_legend_handles_labels()
+    known = {name: handle for axes in figure.axes for handle, name in zip(*axes.get_legend_handles_labels())}
+    labels = [name for name in _names(results, by) if name in known]
+    handles = [known[name] for name in labels]
     # Numbers need a title that explains them, and names do not.
     title = None if pd.api.types.is_string_dtype(results.runs[by]) else _axis(results, by)
     for columns in range(len(labels), 0, -1):
@@ -273,10 +276,11 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
     counts = set()
     parts = _split(results, data, by)
     for index, name, runs in parts:
-        table = runs.pivot_table(index="run", columns="second", values=metric)
+        # Times at which no run has a value interrupt the line.
+        table = runs.pivot_table(index="run", columns="second", values=metric, dropna=False)
         # Runs that end earlier have no values at later times, so the number of runs differs between times.
-        counts.update(table.notna().sum())
-        if table.empty:
+        counts.update(count for count in table.notna().sum() if count)
+        if table.isna().all(axis=None):
             continue
         bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
         line_style = _line_style(index)
@@ -310,14 +314,15 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
     counts: set[int] = set()
     labelled: set[int] = set()
     values, censored = results.values(metric), results.censored(metric)
-    groups = _split(results, data, x)
+    # Every value has a place, even if its runs failed, because panels share their axes.
+    labels = _names(results, x) if x else ["all runs"]
     boxes = 1 if by is None else results.runs[by].nunique()
     width = 0.8 / boxes
-    for place, (_, _, group) in enumerate(groups):
+    for place, _, group in _split(results, data, x):
         for index, name, part in _split(results, group, by):
             # The values are sorted, so that points of similar values are spread to different positions.
             sample = values[part.index].dropna().sort_values(kind="stable")
-            counts.add(len(part))
+            counts.add(len(sample))
             colour = COLOURS[(index if by else place) % len(COLOURS)]
             at = place + (index - (boxes - 1) / 2) * width
             is_few = len(sample) <= MAX_POINTS
@@ -332,13 +337,12 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
                 ended = censored[sample.index].to_numpy(bool)
                 axes.plot(spots[~ended], sample[~ended], "o", color="black", markersize=2.2, markeredgewidth=0, alpha=0.7, zorder=3)
                 axes.plot(spots[ended], sample[ended], "^", color=colour, markersize=4, markeredgewidth=0.6, markerfacecolor="white", zorder=3)
-    labels = [name for _, name, _ in groups]
-    axes.set_xticks(range(len(groups)), labels)
+    axes.set_xticks(range(len(labels)), labels)
     if sum(map(len, labels)) > 30:
         axes.tick_params("x", rotation=30)
         for tick in axes.get_xticklabels():
             tick.set_horizontalalignment("right")
-    axes.set_xlim(-0.6, len(groups) - 0.4)
+    axes.set_xlim(-0.6, len(labels) - 0.4)
     axes.grid(False, axis="x")
     return counts
 
@@ -352,6 +356,8 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
         sample = values[runs.index].dropna()
         is_censored = censored[sample.index].to_numpy(bool)
         counts.add(len(sample))
+        if sample.empty:
+            continue
         times, *curves = kaplan_meier(sample.to_numpy(float), ~is_censored)
         places = np.array([start, *times, end])
         shares, low, high = (np.array([0, *curve, curve[-1] if len(curve) else 0]) for curve in curves)
@@ -438,7 +444,7 @@ def at_end(results: Results, metric: str) -> tuple[Figure, str]:
 
 def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame]]:
     keys = results.configuration
-    colour, others = (keys[0], keys[1:]) if keys else (None, [])
+    colour, others = (keys[0], _other_keys(results, keys[:1])) if keys else (None, [])
     parts = list(data.groupby(others, sort=False)) if others else [((), data)]
     parts = parts[:MAX_PANELS]
     columns = min(COLUMNS, len(parts))
@@ -460,6 +466,11 @@ def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[
     return [part for part in parts if len(part[2])]
 
 
+def _names(results: Results, key: str) -> list[str]:
+    """Returns the labels of all values of a key."""
+    return [_value(results, value) for value in _order(results.runs[key])]
+
+
 def _order(values: "pd.Series[Any]") -> list[Any]:
     """Returns the distinct values. Numbers are sorted, and other values are in the order of the experiment."""
     found = values.dropna().unique().tolist()
@@ -472,14 +483,14 @@ def _finish(figure: Figure, panels: list[Axes], results: Results, metric: str, l
         if index % COLUMNS == 0:
             axes.set_ylabel(_axis(results, metric))
     if lines:
-        _add_legend(figure, panels[0], results, lines)
+        _add_legend(figure, results, lines)
 
 
 def _axis(results: Results, name: str) -> str:
     """Returns the label of a metric or key, with its unit."""
     if name in results.labels:
         return results.labels[name]
-    unit = "s" if name.startswith(CONVERGED) else results.units.get(name, "")
+    unit = "s" if name in results.convergence_times else results.units.get(name, "")
     return _text(results, name) + (f" [{unit}]" if unit else "")
 
 
@@ -487,7 +498,7 @@ def _text(results: Results, name: str) -> str:
     """Returns the label of a metric or key, without its unit."""
     if name in results.labels:
         return re.sub(r" *\[[^\]]*\]$", "", results.labels[name])
-    if name.startswith(CONVERGED):
+    if name in results.convergence_times:
         return f"time to convergence of {_text(results, name.removeprefix(CONVERGED))}"
     return re.sub(r"[\x00-\x1f\x7f_]", " ", name)
 
@@ -509,6 +520,9 @@ def _table(results: Results, metric: str) -> str:
     effects = compare(results, metric, results.configuration[0])
     if effects.empty:
         return ""
+    # Values of keys must not be rounded, because rounded values could be equal.
+    keys = list(effects.columns[:effects.columns.get_loc("n_a")])
+    effects[keys] = effects[keys].map(lambda value: _value(results, value)).astype(str)
     table = effects.to_html(index=False, float_format=lambda number: f"{number:.3g}", na_rep="too few runs", border=0)
     return f"<details><summary>{html.escape(_text(results, metric))}: effect sizes</summary>{table}</details>"
 

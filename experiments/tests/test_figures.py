@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from collektive_experiments import ExperimentError, draw, load, plot, read, read_options
+from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options
 from collektive_experiments.__main__ import main
 
 LOSSES = (0.0, 0.1, 0.2, 0.4)
@@ -219,6 +219,58 @@ def test_a_key_that_depends_on_x_does_not_divide_figures(tmp_path: Path) -> None
     (tmp_path / "out/sweep.json").write_text(json.dumps({**settings, "keys": ["program", "network.loss", "label", "seed"]}))
     options = read_options({"metric": "nodes", "x": "network.loss", "by": "program"})
     assert len(list(draw(load(folder), options))) == 1
+
+
+def test_panels_without_runs_of_a_value_have_the_same_labels_as_the_others(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (0.0, 0.4))
+    for name in ("runs", "series"):
+        table = pd.read_parquet(f"{folder}/{name}.parquet")
+        is_failed = (table["program"] == "path-vector") & (table["network.loss"] == 0)
+        table = table[~is_failed] if name == "series" else table.assign(status=np.where(is_failed, "failed", "complete"))
+        table.to_parquet(f"{folder}/{name}.parquet")
+    (figure, _), (lines, _) = (draw_panels(load(folder), "error") for draw_panels in (at_end, over_time))
+    assert [[tick.get_text() for tick in axes.get_xticklabels()] for axes in figure.axes] == [["path-vector", "bellman-ford"]] * 2
+    boxes = [{round(float(np.mean(curve.get_xdata()))) for curve in axes.get_lines() if curve.get_marker() == "o"} for axes in figure.axes]
+    assert boxes == [{0, 1}, {1}]
+    assert [entry.get_text() for entry in lines.legends[0].get_texts()] == ["path-vector", "bellman-ford"]
+
+
+def test_keys_of_one_zip_share_a_panel(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (0.0, 0.4))
+    for name in ("runs", "series"):
+        table = pd.read_parquet(f"{folder}/{name}.parquet")
+        table[(table["program"] == "path-vector") == (table["network.loss"] == 0)].to_parquet(f"{folder}/{name}.parquet")
+    assert len(at_end(load(folder), "error")[0].axes) == 1
+
+
+def test_effect_sizes_show_exact_values_of_keys(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (1000.5, 1001.5), keys=["network.loss", "program", "seed"])
+    plot(folder)
+    assert {"<td>1000.5</td>", "<td>1001.5</td>"} <= set(re.findall("<td>.*?</td>", (tmp_path / "out/figures.html").read_text()))
+
+
+def test_a_band_as_key_is_not_labelled_as_a_time(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (0.0, 0.4), keys=["converged.error.to", "program", "seed"])
+    for name in ("runs", "series"):
+        pd.read_parquet(f"{folder}/{name}.parquet").rename(columns={"network.loss": "converged.error.to"}).to_parquet(f"{folder}/{name}.parquet")
+    (_, figure, caption), *_ = draw(load(folder), read_options({"metric": "error", "x": "converged.error.to", "by": "program"}))
+    assert figure.axes[0].get_xlabel() == "converged.error.to"
+    assert caption.startswith("error against converged.error.to: ")
+
+
+def test_missing_values_are_not_drawn(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 3, (0.0,))
+    series = pd.read_parquet(f"{folder}/series.parquet")
+    series.loc[series["second"] == 5, "error"] = None
+    series.to_parquet(f"{folder}/series.parquet")
+    runs = pd.read_parquet(f"{folder}/runs.parquet")
+    runs.loc[runs["program"] == "bellman-ford", "error"] = None
+    runs.to_parquet(f"{folder}/runs.parquet")
+    (_, figure, caption), = draw(load(folder), read_options({"metric": "error", "by": "program"}))
+    assert [np.isnan(line.get_ydata()).sum() for line in figure.axes[0].get_lines()] == [1, 1]
+    assert "interval of 3 runs per configuration." in caption
+    (_, figure, caption), = draw(load(folder), read_options({"metric": "error", "by": "program", "kind": "ecdf"}))
+    assert [entry.get_text() for entry in figure.legends[0].get_texts()] == ["path-vector"]
 
 
 def test_axes_support_scales_limits_and_points(sweep: str) -> None:
