@@ -25,7 +25,8 @@ namespace Collektive.Headless
         private readonly Reader answers;
         private readonly Reader sensors;
         private readonly List<Column> used = new List<Column>();
-        private double[][] kept = Array.Empty<double[]>();
+        // By column and id. With the tick, nodes do not get the values of an earlier node that had the same id.
+        private (double Value, ulong Tick)[][] kept = Array.Empty<(double, ulong)[]>();
         private int[] degrees = Array.Empty<int>();
 
         internal NodeColumns(DataSchema schema)
@@ -79,8 +80,8 @@ namespace Collektive.Headless
         {
             foreach (var name in names)
                 if (byName.TryGetValue(name, out var column) && !used.Contains(column)) used.Add(column);
-            kept = new double[used.Count][];
-            for (var i = 0; i < used.Count; i++) kept[i] = Array.Empty<double>();
+            kept = new (double, ulong)[used.Count][];
+            for (var i = 0; i < used.Count; i++) kept[i] = Array.Empty<(double, ulong)>();
         }
 
         /// <summary>Whether metrics use the sizes of messages.</summary>
@@ -93,7 +94,7 @@ namespace Collektive.Headless
             for (var i = 0; i < used.Count; i++)
             {
                 if (!used[i].IsKept) continue;
-                Grow(ref kept[i], simulation.IdCapacity, double.NaN);
+                Grow(ref kept[i], simulation.IdCapacity);
                 if (used[i].Kind == Kind.Sensor)
                 {
                     sensors.ReadDue(simulation, used[i].Index, kept[i]);
@@ -102,7 +103,7 @@ namespace Collektive.Headless
                 var areBytes = used[i].Name == "message_bytes";
                 var nodes = simulation.Answer.Nodes;
                 var messages = simulation.Answer.Messages;
-                for (var k = 0; k < messages.Length; k++) kept[i][nodes[k]] = areBytes ? messages[k].Bytes : messages[k].Values;
+                for (var k = 0; k < messages.Length; k++) kept[i][nodes[k]] = (areBytes ? messages[k].Bytes : messages[k].Values, simulation.Tick);
             }
         }
 
@@ -111,9 +112,9 @@ namespace Collektive.Headless
         {
             var capacity = manager.Simulation.IdCapacity;
             for (var i = 0; i < used.Count; i++)
-                if (used[i].IsKept) Grow(ref kept[i], capacity, double.NaN);
+                if (used[i].IsKept) Grow(ref kept[i], capacity);
             if (!used.Exists(column => column.Name == "degree")) return;
-            Grow(ref degrees, capacity, 0);
+            Grow(ref degrees, capacity);
             Array.Clear(degrees, 0, degrees.Length);
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
             {
@@ -131,7 +132,8 @@ namespace Collektive.Headless
             {
                 var column = used[i];
                 values[first + i] = column.Kind == Kind.Node ? Value(manager, node, position, column.Index)
-                    : column.Kind == Kind.Answer ? hasAnswer ? answers.Value(column.Index) : double.NaN : kept[i][node.Id];
+                    : column.Kind == Kind.Answer ? hasAnswer ? answers.Value(column.Index) : double.NaN
+                    : kept[i][node.Id].Tick > node.JoinTick ? kept[i][node.Id].Value : double.NaN;
             }
         }
 
@@ -166,12 +168,9 @@ namespace Collektive.Headless
             if (generated != null && !byName.ContainsKey(generated)) byName.Add(generated, column);
         }
 
-        private static void Grow<T>(ref T[] array, int count, T value)
+        private static void Grow<T>(ref T[] array, int count)
         {
-            var old = array.Length;
-            if (count <= old) return;
-            Array.Resize(ref array, Math.Max(count, 2 * old));
-            for (var i = old; i < array.Length; i++) array[i] = value;
+            if (count > array.Length) Array.Resize(ref array, Math.Max(count, 2 * array.Length));
         }
 
         /// <summary>Returns the schema's name of a field of generated code.</summary>
@@ -220,7 +219,7 @@ namespace Collektive.Headless
 
             internal virtual double Value(int field) => double.NaN;
 
-            internal virtual void ReadDue(Simulation simulation, int field, double[] byId)
+            internal virtual void ReadDue(Simulation simulation, int field, (double Value, ulong Tick)[] byId)
             {
             }
         }
@@ -293,11 +292,11 @@ namespace Collektive.Headless
 
         private sealed class SensorReader<T> : Reader<T>
         {
-            internal override void ReadDue(Simulation simulation, int field, double[] byId)
+            internal override void ReadDue(Simulation simulation, int field, (double Value, ulong Tick)[] byId)
             {
                 var get = Getters[field];
                 var items = ((SensorBuffer<T>)simulation.SensorData).Items;
-                for (var i = 0; i < simulation.DueCount; i++) byId[simulation.DueId(i)] = get(items[i]);
+                for (var i = 0; i < simulation.DueCount; i++) byId[simulation.DueId(i)] = (get(items[i]), simulation.Tick);
             }
         }
     }

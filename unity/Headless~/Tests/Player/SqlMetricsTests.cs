@@ -137,6 +137,26 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Measure("sum(degree)"), Is.EqualTo(2));
         }
 
+        [TestCase("count(sensor_value)")]
+        [TestCase("count(message_bytes)")]
+        public void A_node_has_no_data_of_an_earlier_node_with_its_id(string sql)
+        {
+            using (var metrics = Make(sql))
+            {
+                metrics.Begin(Manager);
+                Manager.Ticked += metrics.Ticked;
+                var nodes = new[] { MakeNode(1), MakeNode(2) };
+                Play(1);
+                Assert.That(Measure(metrics), Is.EqualTo(2));
+                nodes[1].Node.enabled = false;
+                nodes[1].Node.RequestedId = 1;
+                nodes[1].Node.enabled = true;
+                Assert.That(Measure(metrics), Is.EqualTo(1));
+                Play(1);
+                Assert.That(Measure(metrics), Is.EqualTo(2));
+            }
+        }
+
         [TestCase("count(maybeNumber) + count(maybe_number) + count(MAYBE_NUMBER)")]
         [TestCase("avg(position_x) + count(mode)")]
         public void Columns_accept_schema_and_Kotlin_names(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
@@ -146,12 +166,14 @@ namespace Collektive.Headless.Tests.Player
 
         private double Measure(string sql)
         {
-            using (var metrics = Make(sql))
-            {
-                var values = new double[1];
-                metrics.Measure(Manager, values, 0);
-                return values[0];
-            }
+            using (var metrics = Make(sql)) return Measure(metrics);
+        }
+
+        private double Measure(SqlMetrics metrics)
+        {
+            var values = new double[1];
+            metrics.Measure(Manager, values, 0);
+            return values[0];
         }
 
         private SqlMetrics Make(string sql, DataSchema schema = null)

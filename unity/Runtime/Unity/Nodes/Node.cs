@@ -111,6 +111,9 @@ namespace Collektive.Unity
             random ?? throw new InvalidOperationException("node '" + name
                 + "' has random numbers only while it is in a simulation: use Node.Random in Sense, Act or FindNeighbours");
 
+        /// <summary>The tick in or after which the node joined.</summary>
+        internal ulong JoinTick { get; private set; }
+
         /// <summary>
         /// The tick of the last answer; 0 before the first answer. <c>SimulationManager.Current.Tick - node.AnswerTick</c> is the age of the answer in ticks.
         /// </summary>
@@ -212,6 +215,7 @@ namespace Collektive.Unity
         {
             Simulation = simulation;
             Id = newId;
+            JoinTick = simulation.TickInProgress;
             Position = Body.position;
             random = new RandomStream(simulation.Settings.seed, newId, RandomPurpose.Node);
             LastError = "";
