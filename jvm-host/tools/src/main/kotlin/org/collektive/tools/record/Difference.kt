@@ -28,6 +28,9 @@ internal class Difference(private val owner: String, private val field: String, 
         /** Fields that are not compared: measured times, the message of a reload, and the digest, which differs only if another field differs. */
         private val MEASURED = setOf("digest", "hostMicros", "roundMicros", "reload")
 
+        /** Reloaded programs, which are compared by content. */
+        private val RELOADED = setOf("reload")
+
         /** Returns the first difference that can change the results of a session, or `null`. */
         fun ofOpen(left: OpenRequest, right: OpenRequest): Difference? =
             ObjectDifference.first(left.unpack(), right.unpack(), except = WITHOUT_EFFECT)
@@ -38,7 +41,7 @@ internal class Difference(private val owner: String, private val field: String, 
             val a = Request.read(types, left)
             val b = Request.read(types, right)
             if (a == null || b == null) return Difference("", "the request", kind(a), kind(b))
-            return ObjectDifference.first(a.frame, b.frame)
+            return ObjectDifference.first(a.frame, b.frame, except = RELOADED)
                 ?: ofNodes("sensors", a.sensors, b.sensors)
                 ?: ObjectDifference.first(a.globals, b.globals, field = "globals")
         }

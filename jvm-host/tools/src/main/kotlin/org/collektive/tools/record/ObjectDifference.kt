@@ -41,7 +41,8 @@ internal object ObjectDifference {
 
     /** Returns the node or link to which an element of a list belongs, or `null`. Lists of such elements are compared regardless of their order. */
     private fun ownerOf(element: Any): Owner? {
-        if (isLeaf(element) || element is List<*> || element.javaClass.isArray) return null
+        // Maps are user data, in which the order of a list matters and ids may repeat.
+        if (isLeaf(element) || element is List<*> || element is Map<*, *> || element.javaClass.isArray) return null
         val values = fields(element).toMap()
         val from = values["from"]
         val to = values["to"]

@@ -62,6 +62,7 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
 
     private fun ofSteps(types: RecordedTypes, a: RecordedStep, b: RecordedStep): String? {
         Difference.ofRequests(types, a.request, b.request)?.let { return "input of ${it.line(names)}" }
+        ofPrograms(a.jars, b.jars)?.let { return "input of $it" }
         val x = a.answer
         val y = b.answer
         return when {
@@ -78,11 +79,15 @@ internal class RecordDiff(private val left: Record, private val right: Record, p
 
     private fun ofOpen(): String? {
         Difference.ofOpen(left.settings, right.settings)?.let { return it.line(names) }
+        return ofPrograms(left.jars, right.jars)
+    }
+
+    private fun ofPrograms(left: List<JarBytes>, right: List<JarBytes>): String? {
         // The runtimes have different compiler plugins, so their jars always differ.
         if (runtimes.first != runtimes.second) return null
-        val a = left.jars.map(::sha256)
-        val b = right.jars.map(::sha256)
-        return if (a == b) null else "programs: SHA-256 ${a.joinToString()} in A, ${b.joinToString()} in B"
+        val a = left.joinToString(transform = ::sha256).ifEmpty { "absent" }
+        val b = right.joinToString(transform = ::sha256).ifEmpty { "absent" }
+        return if (a == b) null else "programs: SHA-256 $a in A, $b in B"
     }
 }
 

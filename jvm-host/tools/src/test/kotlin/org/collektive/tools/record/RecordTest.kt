@@ -21,6 +21,7 @@ import java.nio.ByteOrder
 import java.nio.file.FileSystems
 import java.nio.file.Files
 import java.nio.file.Path
+import java.nio.file.StandardCopyOption.REPLACE_EXISTING
 import java.util.zip.CRC32
 import kotlin.io.path.appendText
 import kotlin.io.path.deleteExisting
@@ -125,6 +126,29 @@ class RecordTest {
         val refused = run("replay", file, "--own", own)
         assertEquals(2, refused.code)
         assertContains(refused.messages, "programs that have never run here")
+    }
+
+    @Test
+    fun `reloaded programs are compared by content`() {
+        val jars = listOf("sensors.value()", "sensors.value() + 0").map(::summing)
+        val path = folder.resolve("reloaded.jar")
+        val records = listOf(jars[0] to path, jars[1] to path, jars[0] to folder.resolve("moved.jar")).mapIndexed { index, (jar, target) ->
+            Files.copy(jar, target, REPLACE_EXISTING)
+            record("$index") { reload = if (tick == 3L) target else null }
+        }
+        val result = run("diff", records[0], records[1])
+        assertEquals(1, result.code)
+        assertContains(result.results, "tick 3: input of programs: SHA-256 ${sha256(JarBytes.read(jars[0].toString()))} in A, ")
+        assertEquals(0, run("diff", records[0], records[2]).code)
+    }
+
+    @Test
+    fun `lists of user data with ids are compared in order`() {
+        fun list(vararg values: Float) = values.map { mapOf("id" to 1, "x" to it) }
+        assertEquals(
+            "globals.targets[0].x: 1.0 in A, 2.0 in B",
+            ObjectDifference.first(list(1f, 3f), list(2f, 3f), field = "globals.targets")?.line("A" to "B"),
+        )
     }
 
     @Test
