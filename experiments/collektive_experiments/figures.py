@@ -55,6 +55,8 @@ GOLDEN_RATIO = 0.618034
 """The multiplier that spreads the points of a box plot sideways."""
 TOLERANCE, MIN_AXES = 0.02, 0.5
 """The inches by which labels may extend beyond a figure, and the minimum width and height of its axes in inches."""
+MAX_VALUE = 1e300
+"""The largest value that figures can show. With larger ones, Matplotlib's calculations overflow."""
 MAX_CELLS = 64
 """The maximum number of cells for which a heat map contains numbers."""
 
@@ -114,6 +116,10 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     if experiment:
         check_labels(experiment, known)
     shown = [] if options else list(metrics or [*results.metrics, *results.convergence_times])
+    for metric in [name for name in results.metrics if name in shown]:
+        if max(values.abs().max() for values in (results.series[metric], results.complete[metric])) > MAX_VALUE:
+            print(f"collektive: the metric '{metric}' is not drawn: it has values beyond {MAX_VALUE:g}, the limit of figures", file=sys.stderr)
+            shown.remove(metric)
     # Names that differ only in case are the same file on some systems.
     reserved = {f"{file_name(metric, known)}-{kind}".lower() for metric in shown for kind in ("time", "end")}
     drawn: dict[str, Drawing] = {}
@@ -188,6 +194,8 @@ def check(results: Results, options: FigureOptions) -> None:
         values = results.series[metric] if options.x == TIME else results.values(metric)
         if values.isna().all():
             raise options.fail("metric", f"is '{metric}', which has no value in any run")
+        if values.abs().max() > MAX_VALUE:
+            raise options.fail("metric", f"is '{metric}', which has values beyond {MAX_VALUE:g}, the limit of figures")
         if ("x" if options.kind == "ecdf" else "y") in options.log and values.min() <= 0:
             raise options.fail("log", f"is '{options.log}', but '{metric}' has the value {values.min():g}, and a logarithmic axis needs values above 0")
 

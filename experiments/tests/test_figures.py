@@ -2,6 +2,7 @@
 import json
 import re
 import shutil
+import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -271,6 +272,16 @@ def test_missing_values_are_not_drawn(tmp_path: Path) -> None:
     assert "interval of 3 runs per configuration." in caption
     (_, figure, caption), = draw(load(folder), read_options({"metric": "error", "by": "program", "kind": "ecdf"}))
     assert [entry.get_text() for entry in figure.legends[0].get_texts()] == ["path-vector"]
+
+
+def test_metrics_beyond_the_limit_of_figures_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (0.0,))
+    pd.read_parquet(f"{folder}/runs.parquet").assign(error=sys.float_info.max).to_parquet(f"{folder}/runs.parquet")
+    names = {Path(path).name for path in plot(folder)}
+    assert "converged.error-end.svg" in names and "error-end.svg" not in names
+    assert "the metric 'error' is not drawn: it has values beyond 1e+300" in capsys.readouterr().err
+    assert main(["plot", folder, "--metric", "error", "--kind", "ecdf"]) == 1
+    assert "--metric is 'error', which has values beyond 1e+300" in capsys.readouterr().err
 
 
 def test_axes_support_scales_limits_and_points(sweep: str) -> None:
