@@ -452,7 +452,9 @@ def at_end(results: Results, metric: str) -> tuple[Figure, str]:
 
 def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame]]:
     keys = results.configuration
-    colour, others = (keys[0], _other_keys(results, keys[:1])) if keys else (None, [])
+    colour = keys[0] if keys else None
+    # Titles also contain keys with one value.
+    others = [key for key in keys[1:] if results.runs[key].nunique() == 1 or key in _other_keys(results, keys[:1])]
     parts = list(data.groupby(others, sort=False)) if others else [((), data)]
     parts = parts[:MAX_PANELS]
     columns = min(COLUMNS, len(parts))
