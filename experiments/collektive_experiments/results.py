@@ -116,5 +116,7 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
 
 
 def label(values: tuple[Any, ...], keys: list[str]) -> str:
-    """Formats a configuration for titles, with the last part of each key and its value."""
-    return ", ".join(f"{key.split('.')[-1]} {text(value.item() if hasattr(value, 'item') else value)}" for key, value in zip(keys, values))
+    """Formats a configuration for titles, with the last part of each key, or the whole key if several have this part, and its value."""
+    ends = [key.split(".")[-1] for key in keys]
+    names = [key if ends.count(end) > 1 else end for key, end in zip(keys, ends)]
+    return ", ".join(f"{name} {text(value.item() if hasattr(value, 'item') else value)}" for name, value in zip(names, values))

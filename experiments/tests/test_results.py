@@ -7,6 +7,7 @@ import pytest
 
 from collektive_experiments import Results, compare, holm, interval, kaplan_meier
 from collektive_experiments.figures import _table, at_end, over_time
+from collektive_experiments.results import label
 from collektive_experiments.statistics import paired_effect, unpaired_effect
 
 
@@ -70,6 +71,10 @@ def test_axes_have_units_and_captions_the_number_of_runs() -> None:
     assert axes.get_title() == "loss 0.1"
     assert "95 % bootstrap interval of 20 runs per configuration" in caption
     assert "of 20 runs per configuration" in at_end(results(2), "error")[1]
+
+
+def test_titles_distinguish_keys_with_the_same_last_part() -> None:
+    assert label((1.0, 2, 3), ["converged.a.to", "converged.b.to", "network.loss"]) == "converged.a.to 1, converged.b.to 2, loss 3"
 
 
 def test_a_caption_counts_the_runs_of_each_time() -> None:
