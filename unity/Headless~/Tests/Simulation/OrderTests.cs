@@ -38,6 +38,35 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void Parts_and_touches_have_one_digest_in_any_order() => AssertOne(40, PlayTouches);
 
+        [TestCase("2: 0 1", "0 1 2 3 4", "2 3 4")]
+        [TestCase("1: 1 0", "0 1 2 3 4", "2 3 4")]
+        [TestCase("1: 3 0", "0 1 2 4", "1 2 4")]
+        public void A_part_that_disables_others_does_not_hide_later_parts(string disabling, string first, string second)
+        {
+            var node = new GameObject("Node");
+            node.SetActive(false);
+            node.AddComponent<Node>();
+            var parts = new List<Named>();
+            var names = new List<string>();
+            for (var i = 0; i < 5; i++)
+            {
+                var name = i.ToString();
+                parts.Add(node.AddComponent<Named>());
+                parts[i].Sensed = () =>
+                {
+                    names.Add(name);
+                    if (!disabling.StartsWith(name, StringComparison.Ordinal)) return;
+                    foreach (var other in disabling.Substring(3).Split(' ')) parts[int.Parse(other)].enabled = false;
+                };
+            }
+            node.SetActive(true);
+            Play(1);
+            Assert.That(string.Join(" ", names), Is.EqualTo(first));
+            names.Clear();
+            Play(1);
+            Assert.That(string.Join(" ", names), Is.EqualTo(second));
+        }
+
         [Test]
         public void Parts_run_in_the_order_of_their_components()
         {

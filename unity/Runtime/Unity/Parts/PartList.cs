@@ -11,6 +11,9 @@ namespace Collektive.Unity
     {
         private NodePart[] parts;
         private bool isUnsorted;
+        // During a run: the index of the next part, and the end of the parts that run. Both change if a part removes itself or others.
+        private int next;
+        private int end;
 
         internal int Count { get; private set; }
 
@@ -31,6 +34,8 @@ namespace Collektive.Unity
             while (index >= 0 && !ReferenceEquals(parts[index], part)) index--;
             if (index < 0) return;
             Count--;
+            if (index < next) next--;
+            if (index < end) end--;
             Array.Copy(parts, index + 1, parts, index, Count - index);
             parts[Count] = null;
         }
@@ -41,11 +46,12 @@ namespace Collektive.Unity
         internal bool Run(Simulation simulation, Node node, int index)
         {
             if (isUnsorted) Sort();
-            var i = 0;
             var failed = false;
-            for (var left = Count; left > 0 && i < Count && simulation.IsOpen; left--)
+            next = 0;
+            end = Count;
+            while (next < end && simulation.IsOpen)
             {
-                var part = parts[i];
+                var part = parts[next++];
                 try
                 {
                     part.Run(simulation.Context, index);
@@ -56,21 +62,17 @@ namespace Collektive.Unity
                     simulation.Errors.AddPart(node, part, simulation.TickInProgress, error);
                     failed = true;
                 }
-                if (Has(i, part)) i++;
             }
             return !failed;
         }
 
-        /// <summary>Returns whether a part is at the same index as before its call. The call may have disabled, destroyed or re-enabled it.</summary>
-        private bool Has(int position, NodePart part) => position < Count && ReferenceEquals(parts[position], part);
-
         private void Sort()
         {
             isUnsorted = false;
-            for (var next = 1; next < Count; next++)
+            for (var i = 1; i < Count; i++)
             {
-                var part = parts[next];
-                var position = next;
+                var part = parts[i];
+                var position = i;
                 for (; position > 0 && IsBefore(part, parts[position - 1]); position--) parts[position] = parts[position - 1];
                 parts[position] = part;
             }
