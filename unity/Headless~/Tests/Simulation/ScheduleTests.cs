@@ -111,6 +111,23 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Times.Queries, Is.GreaterThan(0));
         }
 
+        [TestCase(true)]
+        [TestCase(false)]
+        public void Sleep_begins_at_the_next_tick_in_rules_and_in_actuators(bool isRule)
+        {
+            Configure("count");
+            var node = MakeNode(0);
+            var sleeper = isRule ? (Action<double>)(seconds => node.Node.gameObject.AddComponent<SleepingRule>().Seconds = seconds)
+                : seconds => node.Node.gameObject.AddComponent<SleepingActuator>().Seconds = seconds;
+            sleeper(0.1);
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(1));
+            Play(2);
+            Assert.That(node.Answer, Is.EqualTo(1));
+            Play(1);
+            Assert.That(node.Answer, Is.EqualTo(2));
+        }
+
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]
@@ -395,7 +412,25 @@ namespace Collektive.Headless.Tests.Simulation
 
         private sealed class SleepingRule : NeighbourhoodRule
         {
-            protected override void FindNeighbours(NeighbourCollector neighbours) => Node.Sleep(10);
+            internal double Seconds = 10;
+
+            protected override void FindNeighbours(NeighbourCollector neighbours)
+            {
+                // Rules also run while the node sleeps.
+                if (Seconds > 0) Node.Sleep(Seconds);
+                Seconds = 0;
+            }
+        }
+
+        private sealed class SleepingActuator : Actuator<ActuatorData>
+        {
+            internal double Seconds;
+
+            protected override void Act(ActuatorData data)
+            {
+                Node.Sleep(Seconds);
+                Seconds = 0;
+            }
         }
     }
 }

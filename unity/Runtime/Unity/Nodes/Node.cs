@@ -189,7 +189,7 @@ namespace Collektive.Unity
         {
             if (!(seconds >= 0)) throw new ArgumentOutOfRangeException(nameof(seconds), seconds, "the duration of sleep must be 0 or greater");
             if (Id < 0) throw new InvalidOperationException("node '" + name + "' can sleep only while it is in a simulation: call Sleep after it joined");
-            asleepUntil = Simulation.Time + seconds;
+            asleepUntil = Simulation.NextTickTime + seconds;
         }
 
         /// <summary>Starts the node's timer if the schedule is asynchronous. Returns the error of the timing, or null.</summary>

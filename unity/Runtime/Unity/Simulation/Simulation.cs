@@ -84,6 +84,9 @@ namespace Collektive.Unity
         /// <summary>Simulated seconds.</summary>
         internal double Time => IsOpen ? session.Time : 0;
 
+        /// <summary>Simulated seconds at the next tick. Until the rounds of a tick have run, this is the tick after it.</summary>
+        internal double NextTickTime => TickInProgress > Tick ? Time + SimulatedSeconds.Exact(Settings.deltaTime) : Time;
+
         /// <summary>First 8 bytes of the digest over all rounds so far.</summary>
         internal ulong Digest { get; private set; }
 
