@@ -128,6 +128,19 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.Answer, Is.EqualTo(2));
         }
 
+        [Test]
+        public void A_changed_delta_time_reaches_programs_once_it_has_passed()
+        {
+            Configure("clock", settings => settings.deltaTime = 0.1f);
+            var node = MakeNode(0);
+            Play(2);
+            Manager.Settings.deltaTime = 0.2f;
+            Manager.Step();
+            Assert.That(node.Actuator.Last.Heard, Is.EqualTo(100));
+            Manager.Step();
+            Assert.That(node.Actuator.Last.Heard, Is.EqualTo(200));
+        }
+
         [TestCase(Schedule.Lockstep)]
         [TestCase(Schedule.Sequential)]
         [TestCase(Schedule.Asynchronous)]

@@ -24,6 +24,7 @@ namespace Collektive.Bridge
         private readonly ByteBuffer answerBuffer;
         private readonly int closeLimitMs;
         private double pendingDelta;
+        private double lastDelta;
         private bool isPending;
         private ulong handle;
 
@@ -92,7 +93,7 @@ namespace Collektive.Bridge
         {
             if (handle == 0) throw new ObjectDisposedException(nameof(Session));
             builder.Clear();
-            Request.Write(builder, Tick + 1, Time, deltaTime);
+            Request.Write(builder, Tick + 1, Time, Tick == 0 ? deltaTime : lastDelta);
             var offset = builder.DataBuffer.Position;
             var length = builder.DataBuffer.Length - offset;
             var answer = new Shim.Answer { Size = (uint)sizeof(Shim.Answer) };
@@ -135,6 +136,7 @@ namespace Collektive.Bridge
             if (isPending) return false;
             Shim.Check(code);
             Tick++;
+            lastDelta = pendingDelta;
             // Without rounding, errors of the sum would accumulate.
             Time = Math.Round(Time + pendingDelta, TimeDecimals);
             Request.Clear();
