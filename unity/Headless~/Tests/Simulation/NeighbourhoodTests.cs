@@ -256,6 +256,27 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
         }
 
+        [Test]
+        public void A_disabled_trigger_has_no_neighbours()
+        {
+            var zone = MakeNode(1);
+            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var visitor = MakeNode(2, new Vector3(1, 0, 0));
+            visitor.Node.gameObject.AddComponent<SphereCollider>().radius = 0.1f;
+            visitor.Node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            trigger.enabled = false;
+            Play(1);
+            Assert.That(Links(), Is.Empty);
+            trigger.enabled = true;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+        }
+
         private static ProbeNode[] MakeLine(params float[] places)
         {
             var line = new ProbeNode[places.Length];

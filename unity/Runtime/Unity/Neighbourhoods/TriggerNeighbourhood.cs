@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -6,12 +7,18 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Selects the nodes whose bodies are inside this GameObject's trigger collider as neighbours. A node's trigger colliders are not part of its body. As
-    /// for all triggers in Unity, this GameObject or the other node needs a Rigidbody.
+    /// for all triggers in Unity, this GameObject or the other node needs a Rigidbody. Use one trigger collider: with several, a body that leaves one of
+    /// them no longer counts as inside.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Trigger Neighbourhood")]
     public sealed class TriggerNeighbourhood : NeighbourhoodRule
     {
+        private static readonly List<Collider> Found = new List<Collider>();
+
         private readonly GrowingArray<Visitor> visitors = new GrowingArray<Visitor>();
+
+        // A trigger collider that was enabled in the last tick.
+        private Collider trigger;
 
         private struct Visitor
         {
@@ -30,6 +37,8 @@ namespace Collektive.Unity
         /// <inheritdoc/>
         protected override void FindNeighbours(NeighbourCollector neighbours)
         {
+            // Unity sends no message when this object's own trigger is disabled.
+            if (visitors.Count > 0 && !HasTrigger()) visitors.Clear();
             var all = visitors.Items;
             var here = Node.Position;
             var remaining = 0;
@@ -63,6 +72,15 @@ namespace Collektive.Unity
             if (index == visitors.Count) return;
             Array.Copy(visitors.Items, index + 1, visitors.Items, index, visitors.Count - index - 1);
             visitors.Truncate(visitors.Count - 1);
+        }
+
+        private bool HasTrigger()
+        {
+            if (!trigger.IsGone() && trigger.isTrigger) return true;
+            GetComponentsInChildren(Found);
+            trigger = Found.Find(collider => collider.isTrigger && !collider.IsGone());
+            Found.Clear();
+            return trigger != null;
         }
 
         private int Find(Collider collider)
