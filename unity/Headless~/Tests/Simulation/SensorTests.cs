@@ -229,6 +229,55 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_zone_that_was_left_and_entered_between_two_rounds_is_entered()
+        {
+            MakeBox(Vector3.zero).GetComponent<Collider>().isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            var sensor = ball.gameObject.AddComponent<Zones>();
+            Play(2);
+            ball.GetComponent<Node>().Sleep(0.1);
+            ball.transform.position = new Vector3(5, 0, 0);
+            Play(1);
+            ball.transform.position = Vector3.zero;
+            Play(3);
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "entered", "in" }));
+        }
+
+        [Test]
+        public void The_velocity_of_a_node_begins_at_zero_when_the_node_is_enabled_again()
+        {
+            var node = MakeNode(0).Node;
+            var sensor = node.gameObject.AddComponent<MeanVelocity>();
+            Play(1);
+            node.transform.position = new Vector3(1, 0, 0);
+            Play(1);
+            Assert.That(sensor.Value.x, Is.EqualTo(20).Within(1e-3));
+            node.enabled = false;
+            Play(1);
+            node.transform.position = new Vector3(9, 0, 0);
+            node.enabled = true;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
+        public void A_range_that_another_sensor_sets_applies_to_the_same_round()
+        {
+            MakeBox(new Vector3(0, 0, 4)).transform.localScale = new Vector3(1, 1, 2);
+            var node = MakeNode(0).Node;
+            var setter = node.gameObject.AddComponent<Setter>();
+            var sensor = node.gameObject.AddComponent<Rays>();
+            sensor.Rays = 1;
+            sensor.Range = 1;
+            Play(2);
+            Assert.That(Distances(sensor), Is.EqualTo("1"));
+            setter.Sensing = () => sensor.Range = 10;
+            Play(1);
+            Assert.That(Distances(sensor), Is.EqualTo("3"));
+        }
+
+        [Test]
         public void A_disabled_zone_is_left_and_triggers_of_nodes_are_not_zones()
         {
             var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
@@ -369,6 +418,20 @@ namespace Collektive.Headless.Tests.Simulation
                     Events.Add(zone.Left ? "left" : zone.Entered ? "entered" : "in");
                 }
             }
+        }
+
+        public sealed class MeanVelocity : VelocitySensor<SensorData>
+        {
+            public Vector3 Value { get; private set; }
+
+            protected override void Write(ref SensorData data, Vector3 velocity) => Value = velocity;
+        }
+
+        public sealed class Setter : Sensor<SensorData>
+        {
+            public Action Sensing { get; set; } = () => { };
+
+            protected override void Sense(ref SensorData data) => Sensing();
         }
 
         public sealed class Intensity : IntensitySensor<SensorData>

@@ -39,8 +39,9 @@ namespace Collektive.Unity
         private Vector3[] worldDirections = Array.Empty<Vector3>();
         private float angleOfDirections;
 
-        // The index of this sensor's first ray in the batch.
+        // The index of this sensor's first ray in the batch, and the length of its rays.
         private int query;
+        private float batchedRange;
 
         /// <summary>Number of rays, 1 or more.</summary>
         public int Rays
@@ -83,7 +84,7 @@ namespace Collektive.Unity
         {
             var queries = tick.Queries;
             // The batch is not used if another sensor changed the fan after the batch began.
-            var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections;
+            var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections && batchedRange == range;
             if (!isBatched) UpdateDirections();
             var centre = Node.Position;
             for (var i = 0; i < worldDirections.Length; i++)
@@ -98,6 +99,7 @@ namespace Collektive.Unity
             UpdateDirections();
             var fans = tick.Queries.Rays;
             query = fans.Count;
+            batchedRange = range;
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
             // A command requires a unit vector, but rotation changes the length slightly.
             for (var i = 0; i < worldDirections.Length; i++) fans.Add(new RaycastCommand(Node.Position, worldDirections[i].normalized, parameters, range));

@@ -13,6 +13,7 @@ namespace Collektive.Unity
         private Vector3 lastPosition;
         private double time = -1;
         private Vector3 meanVelocity;
+        private ulong joinTick;
 
         /// <inheritdoc/>
         protected override void OnEnable()
@@ -28,6 +29,9 @@ namespace Collektive.Unity
 
         internal sealed override void Prepare(TickContext tick)
         {
+            // A node that was disabled begins again.
+            if (joinTick != Node.JoinTick) time = -1;
+            joinTick = Node.JoinTick;
             var now = tick.Time;
             var here = Node.Position;
             meanVelocity = time >= 0 && now > time ? (here - lastPosition) / (float)(now - time) : Vector3.zero;

@@ -68,6 +68,13 @@ namespace Collektive.Unity
         {
             if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
             var index = Find(other);
+            // A zone that was left since the last round is entered again.
+            if (index < visits.Count && visits.Items[index].Entries == 0)
+            {
+                Array.Copy(visits.Items, index + 1, visits.Items, index, visits.Count - index - 1);
+                visits.Truncate(visits.Count - 1);
+                index = visits.Count;
+            }
             if (index == visits.Count) visits.Add(new Visit { Zone = other, IsNew = true });
             visits.Items[index].Entries++;
         }
