@@ -6,7 +6,8 @@ namespace Collektive.Unity
     /// <summary>
     /// Selects the nodes within a radius as neighbours. Each collider on the straight line between the two centres increases the link's
     /// attenuation, or prevents the link. Triggers and the colliders of the two nodes do not obstruct the line, but bodies of other nodes do, unless their
-    /// layer is excluded. The rule casts one ray per pair of nodes and tick.
+    /// layer is excluded. The rule casts one ray per pair of nodes and tick, from the node with the lower id. A collider that contains the centre of this
+    /// node is not counted.
     /// </summary>
     [AddComponentMenu("Collektive/Neighbourhoods/Line Of Sight Neighbourhood")]
     public sealed class LineOfSightNeighbourhood : NeighbourhoodRule
