@@ -27,8 +27,8 @@ class ReloadTest {
     @AfterEach
     fun close() = session.close()
 
-    private fun open(java: String, threads: Int = 2, network: List<Double>? = null) {
-        check(session.open(listOf(jar(java).toString()), threads = threads, network = network) >= 0) { shim.error }
+    private fun open(java: String, members: String = "", threads: Int = 2, network: List<Double>? = null) {
+        check(session.open(listOf(jar(java, members).toString()), threads = threads, network = network) >= 0) { shim.error }
     }
 
     /** Returns a jar with a program "sum" whose Java code is [body], which returns the text of the answer. */
@@ -133,6 +133,20 @@ class ReloadTest {
         val plain = step(jar(evolve, counter("")))
         assertReloaded(plain.reload(), stored = 4, kept = 0)
         assertReloaded(step(jar(evolve, counter(""))).reload(), stored = 4, kept = 0)
+    }
+
+    @Test
+    fun `a Kotlin object in kept state is still the only instance`() {
+        val body = """
+            Object state = aggregate.alignedOn("state", () -> aggregate.<Object>evolve(Idle.INSTANCE, s -> s));
+            return "" + (state == Idle.INSTANCE);"""
+        val idle = """
+            static final class Idle implements java.io.Serializable { public static final Idle INSTANCE = new Idle(); private Idle() { } }"""
+        open(body, idle)
+        step()
+        val answer = step(jar(body, idle))
+        assertReloaded(answer.reload(), stored = 2, kept = 2)
+        assertEquals("true", text(answer))
     }
 
     @Test

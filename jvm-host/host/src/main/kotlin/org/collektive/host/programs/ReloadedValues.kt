@@ -9,6 +9,7 @@ import java.io.ObjectInputStream
 import java.io.ObjectOutputStream
 import java.io.ObjectStreamClass
 import java.io.OutputStream
+import java.lang.reflect.Field
 import java.lang.reflect.Modifier
 import java.util.Collections
 import java.util.IdentityHashMap
@@ -88,6 +89,13 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
     }
 
     private inner class Input(bytes: ByteArray) : ObjectInputStream(ByteArrayInputStream(bytes)) {
+        init {
+            enableResolveObject(true)
+        }
+
+        /** Replaces the second instance of a Kotlin `object` that serialization creates. */
+        override fun resolveObject(value: Any?): Any? = value?.let { singleton(it.javaClass) } ?: value
+
         override fun resolveClass(description: ObjectStreamClass): Class<*> = try {
             Class.forName(description.name, false, new)
         } catch (_: ClassNotFoundException) {
@@ -114,6 +122,14 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
 
         fun isSimple(value: Any?) = value == null || value is String || value is Boolean || value is Char || value is Unit ||
             value is Number && value.javaClass.classLoader == null
+
+        /** Returns the only instance of a Kotlin `object`, or null for other classes. */
+        fun singleton(type: Class<*>): Any? {
+            val constructor = type.declaredConstructors.singleOrNull() ?: return null
+            if (!Modifier.isPrivate(constructor.modifiers) || constructor.parameterCount > 0) return null
+            val field = type.declaredFields.find { it.name == "INSTANCE" && Modifier.isStatic(it.modifiers) && it.type == type }
+            return field?.takeIf(Field::trySetAccessible)?.get(null)
+        }
 
         tailrec fun elementOf(type: Class<*>): Class<*> = if (type.isArray) elementOf(type.componentType) else type
     }
