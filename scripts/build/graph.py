@@ -9,6 +9,9 @@ from build.console import Failure, run_logged
 from build.places import GRAPH, ROOT
 from build.system import NUNIT, setup_system
 
+# The arguments with which CMake has configured the build tree.
+STAMP = GRAPH / "arguments"
+
 
 def build(*targets: str) -> None:
     """Brings targets up to date, and keeps a shared lock on the outputs.
@@ -50,8 +53,7 @@ def _arguments() -> list[str]:
 
 
 def _is_configured() -> bool:
-    stamp = GRAPH / "arguments"
-    return stamp.exists() and stamp.read_text() == "\n".join(_arguments())
+    return STAMP.exists() and STAMP.read_text() == "\n".join(_arguments())
 
 
 def _configure() -> None:
@@ -59,5 +61,7 @@ def _configure() -> None:
     if not cache.exists() or f"CMAKE_HOME_DIRECTORY:INTERNAL={ROOT}\n" not in cache.read_text():
         # CMake refuses a build tree whose checkout was moved.
         shutil.rmtree(GRAPH, ignore_errors=True)
+    # CMake stores its arguments even if it fails or is interrupted.
+    STAMP.unlink(missing_ok=True)
     run_logged("configure", ["cmake", *_arguments()])
-    (GRAPH / "arguments").write_text("\n".join(_arguments()))
+    STAMP.write_text("\n".join(_arguments()))

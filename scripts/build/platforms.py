@@ -64,6 +64,7 @@ def _build(name: str) -> None:
     caches = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": str(BUILD / "zig-cache"), "ZIG_LOCAL_CACHE_DIR": str(BUILD / "zig-cache")}
     log = f"shim-{name}"
     if not _is_configured(name):
+        _stamp(name).unlink(missing_ok=True)
         shutil.rmtree(tree, ignore_errors=True)
         run_logged(log, ["cmake", *_arguments(name)], env=caches)
         _stamp(name).write_text(_key(name))

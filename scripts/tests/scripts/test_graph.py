@@ -69,6 +69,16 @@ def test_an_error_is_shown_and_ends_the_command(project: Checkout) -> None:
     assert result.stderr.endswith("collektive: the build failed; the messages are above\n")
 
 
+def test_a_failed_configuration_has_no_effect_on_later_builds(project: Checkout) -> None:
+    recording = 'file(WRITE "${CMAKE_BINARY_DIR}/seen" "${COLLEKTIVE_NUNIT}")\nif(COLLEKTIVE_NUNIT MATCHES other)\n  message(FATAL_ERROR no)\nendif()\n'
+    (project.root / "CMakeLists.txt").write_text(CMAKE + recording)
+    (project.root / "other").touch()
+    assert project.run(MODULE).returncode == 0
+    assert project.run(f"graph.NUNIT = root / 'other'\n{MODULE}").returncode == 1
+    assert project.run(MODULE).returncode == 0
+    assert "other" not in (project.root / "build/cmake/seen").read_text()
+
+
 def test_a_moved_checkout_is_configured_again(project: Checkout) -> None:
     assert project.run(MODULE).returncode == 0
     project.root = project.root.rename(project.root.with_name("moved"))
