@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from build.places import BUILD, ROOT
+from build.csharp import SYMBOLS
+from build.places import BUILD, GRAPH, ROOT
 
 PROJECTS = {path.stem: ElementTree.parse(path) for path in (BUILD / "ide").glob("*.csproj")}
 DEFINITIONS = [path for path in ROOT.glob("unity/**/*.asmdef") if "Samples~" not in path.parts]
@@ -24,6 +25,11 @@ def test_each_source_belongs_to_a_project() -> None:
     places = [place for name in PROJECTS for place in items(name, "Compile")]
     compiled = {file for place in places for file in (place.parents[1].rglob("*.cs") if place.name == "*.cs" else [place])}
     assert [path for path in listed if path and (ROOT / path).exists() and ROOT / path not in compiled] == []
+
+
+def test_an_assembly_is_compiled_again_if_the_options_of_the_bridge_change() -> None:
+    inputs = subprocess.run(["ninja", "-t", "inputs", "Collektive.FlatBuffers.dll"], cwd=GRAPH, capture_output=True, text=True, check=True).stdout
+    assert str(SYMBOLS) in inputs.splitlines()
 
 
 @pytest.mark.parametrize("definition", DEFINITIONS, ids=lambda path: path.stem)
