@@ -11,7 +11,7 @@ from commands.check import SCENARIO, find_files
 def run(project: Path, results: Path) -> int:
     """Runs the tests beside the programs of each scenario of a project, and writes JUnit XML files. Returns JUnit's exit code.
 
-    Scenarios with identical project files share one run of the tests.
+    Scenarios with the same folder of programs and identical project files share one run of the tests.
     """
     done = set()
     code = 0
@@ -19,7 +19,7 @@ def run(project: Path, results: Path) -> int:
         if kind != SCENARIO:
             continue
         plan = player.plan(str(file), [])
-        parts = tuple(sorted(plan.hashes().items()))
+        parts = (plan.parts["programs"].path, *sorted(plan.hashes().items()))
         if parts not in done:
             done.add(parts)
             code = _run(file, plan, results / file.stem) or code

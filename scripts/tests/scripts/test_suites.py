@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 from checkout import Checkout
 
-from build import graph, project_tests
+from build import graph, inputs, player, project_tests
 from build.console import Failure
 from build.places import COLLEKTIVE, ROOT
 from commands import test as command
+from commands.check import SCENARIO
 from commands.test import Suite
 from tests import junit, results
 
@@ -136,6 +137,23 @@ def test_projects_whose_scenarios_have_the_same_name_have_separate_results(
     monkeypatch.setattr(command, "RESULTS", tmp_path / "results")
     assert command.test_projects([tmp_path / "a/scenario.json", tmp_path / "b/scenario.json"]) == 1
     assert capsys.readouterr().out == "3 passed, 1 failed\n"
+
+
+def test_folders_of_programs_with_the_same_content_have_separate_tests(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+    plans = {f"{name}.json": player.Plan({}, {"programs": inputs.programs(tmp_path / name[0])}) for name in ("a", "a-too", "b")}
+    tested = []
+
+    def run(scenario: Path, *_: object) -> int:
+        tested.append(scenario.name)
+        return 0
+
+    monkeypatch.setattr(project_tests, "find_files", lambda _: [(Path(name), SCENARIO) for name in plans])
+    monkeypatch.setattr(player, "plan", lambda scenario, _: plans[scenario])
+    monkeypatch.setattr(project_tests, "_run", run)
+    assert project_tests.run(tmp_path, tmp_path / "results") == 0
+    assert tested == ["a.json", "b.json"]
 
 
 @pytest.fixture
