@@ -26,7 +26,7 @@ internal class Difference(private val owner: String, private val field: String, 
         private val WITHOUT_EFFECT = setOf("threads", "record", "jars", "runtime", "runtimeJars")
 
         /** Fields that are not compared: measured times, the message of a reload, and the digest, which differs only if another field differs. */
-        private val MEASURED = setOf("digest", "hostMicros", "roundMicros", "reload")
+        private val MEASURED = setOf("digest", "hostMicros", "roundMicros", "inspection.roundNanos", "reload")
 
         /** Reloaded programs, which are compared by content. */
         private val RELOADED = setOf("reload")

@@ -209,7 +209,7 @@ class RecordTest {
 
     @Test
     fun `records of the same run do not differ`() {
-        val result = run("diff", record("a"), record("b"))
+        val result = run("diff", record("a") { inspected = 1 }, record("b") { inspected = 1 })
         assertEquals(0, result.code, result.results)
         assertContains(result.results, "$TICKS ticks without a difference")
     }
