@@ -54,6 +54,13 @@ class Records(Project):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertRegex(result.stdout, r"tick \d+ is the first difference.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
 
+    def test_a_replay_has_the_same_maths_as_its_run(self) -> None:
+        maths = "(0..3000).fold(0L) { sum, i -> 31 * sum + kotlin.math.tanh(i * 0.037).toRawBits() + kotlin.math.sin(i * 0.037).toRawBits() } % 1000"
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()", f"val mine = sensors.brightness() + {maths}")
+        self.change("lamps.json", '"maximumHeapMb": 128', '"repeatableMaths": true')
+        result = collektive("replay", self.record("b"))
+        self.assertEqual(result.returncode, 0, result.stdout)
+
     def test_a_replay_overwrites_neither_its_record_nor_other_files(self) -> None:
         with open(self.a, "rb") as file:
             before = file.read()
