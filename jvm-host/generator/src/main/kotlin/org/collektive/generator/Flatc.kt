@@ -38,8 +38,7 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         }
         val process = ProcessBuilder(command).redirectErrorStream(true).start()
         process.outputStream.close()
-        // Warnings about the style of names are removed, because schemas may use the names of Alchemist's molecules for fields.
-        val messages = process.inputStream.bufferedReader().readLines().filterNot { STYLE in it }.joinToString("\n").trim()
+        val messages = withoutStyle(process.inputStream.bufferedReader().readText())
         val code = process.waitFor()
         if (code > SIGNAL) {
             throw GeneratorException(
@@ -54,10 +53,13 @@ internal class Flatc(private val executable: Path, private val includes: List<Pa
         /** A process that a signal ended exits with this code plus the number of the signal. */
         private const val SIGNAL = 128
 
-        /** Part of flatc's warning about naming style. */
-        private const val STYLE = "should be lowercase snake_case"
+        /** flatc's warning about naming style, which consists of a heading and a line. */
+        private val STYLE = Regex("""(?:warning:\s*)?\R.*should be lowercase snake_case.*""")
 
         private val ERROR = Regex("""(?m)^(?:error:)?\s*(\S.*?):(\d+): (\d+): (error|warning): (.*?)(?:, originally at: (.+):(\d+))?$""")
+
+        /** Returns [messages] without warnings about naming style, because schemas may use the names of Alchemist's molecules for fields. */
+        fun withoutStyle(messages: String): String = STYLE.replace(messages, "").trim()
 
         /** Returns [messages] with the position of each error first, in the format that terminals and editors recognise. */
         fun withPositionsFirst(messages: String): String = ERROR.replace(messages) {

@@ -18,7 +18,8 @@ import kotlin.io.path.readBytes
  * because Git adds them to files on Windows.
  */
 internal object SourceHash {
-    private val INCLUDE = Regex("""^\s*include\s+"([^"]+)"\s*;""", RegexOption.MULTILINE)
+    /** Also matches in comments, which only adds files to the hash. */
+    private val INCLUDE = Regex("""\binclude\s+["']([^"']+)["']""")
 
     fun of(schema: Path, sources: List<Path>): String {
         val digest = MessageDigest.getInstance("SHA-256")

@@ -12,6 +12,13 @@ import kotlin.test.assertTrue
 /** Tests the messages about errors in schemas. */
 internal class RefusalTest {
     @Test
+    fun `warnings about the style of names are removed with their heading`() {
+        val style = "  /a.fbs:1: 37: warning: field names should be lowercase snake_case, got: fooBar\n"
+        assertEquals("", Flatc.withoutStyle("\nwarning:\n$style\n"))
+        assertEquals("error:\n/a.fbs:1: 96: error: why", Flatc.withoutStyle("\nerror:\n$style/a.fbs:1: 96: error: why\n"))
+    }
+
+    @Test
     fun `a schema without one of the two types is refused, and the message lists its types`() {
         assertEquals(
             "user.fbs:1: SensorData is missing; add `table SensorData { ... }` or `struct SensorData { ... }` (it defines ActuatorData, Sensors)",
