@@ -70,17 +70,26 @@ class Module:
     @cached_property
     def build_key(self) -> str:
         """Returns a hash of all inputs of the module's outputs."""
-        return _hash([self.folder / "src/main", *self._named], [module.build_key for module in self.upstream])
+        return _hash([], [self._main_files, *(module.build_key for module in self.upstream)])
 
     def main_key(self) -> str:
         """Returns a hash of all inputs of the module's classes."""
-        return _hash([self.folder / "src/main", *self._named], self._seen(self.upstream))
+        return _hash([], [self._main_files, *self._seen(self.upstream)])
 
     def tests_key(self) -> str:
         """Returns a hash of all inputs of the module's test classes."""
+        return _hash([], [self._test_files, *self._seen(self.upstream_of_tests)])
+
+    # Files are hashed once, before Maven reads them, so that the next build compiles files that changed during this build.
+    @cached_property
+    def _main_files(self) -> str:
+        return _hash([self.folder / "src/main", *self._named], [])
+
+    @cached_property
+    def _test_files(self) -> str:
         sources = [path for path in sorted((self.folder / "src").glob("*")) if path.name != "main"]
         fixtures = [(self.folder / path).resolve() for path in re.findall(r">(\.\./[\w-]+/src/[^<]+)<", self._pom)]
-        return _hash([*sources, *fixtures, *self._named], self._seen(self.upstream_of_tests))
+        return _hash([*sources, *fixtures, *self._named], [])
 
     def stored(self, name: str) -> str:
         """Returns the text that the last build stored as target/NAME, or an empty string."""
@@ -146,7 +155,7 @@ def run(modules: Sequence[Module], changed: set[Module], words: Sequence[str], t
     """
     packaged = [module for module in modules if changed.intersection([module, *module.upstream]) or module.stored("build.key") != module.build_key]
     tested = [module for module in modules if tests and (
-        changed.intersection(module.upstream_of_tests) or module.stored("tests.key") != module.tests_key())]
+        module.stored("tests.key") != module.tests_key() or changed.intersection(module.upstream_of_tests))]
     if not packaged and not tested and "package" in words:
         return 0
     # A build that was killed may have left marks.

@@ -1,8 +1,12 @@
 """Tests that the build graph builds only changed targets, and that it recovers from interruptions."""
+import subprocess
 import time
+from pathlib import Path
 
 import pytest
 from checkout import Checkout
+
+from build import maven
 
 CMAKE = """
 cmake_minimum_required(VERSION 3.25)
@@ -85,3 +89,27 @@ def test_a_moved_checkout_is_configured_again(project: Checkout) -> None:
     result = project.run(MODULE)
     assert result.returncode == 0, result.stderr
     assert project.log_lines() == ["made", "made"]
+
+
+def test_a_file_that_changes_during_a_build_is_compiled_by_the_next_build(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in {"ROOT": "", "JVM": "jvm-host", "PARENT": "jvm-host/pom.xml", "BUILD": "build", "STARTED": "build/maven-started"}.items():
+        monkeypatch.setattr(maven, name, tmp_path / value)
+    sources = [tmp_path / "jvm-host/a/src" / name for name in ("main/A.kt", "test/ATest.kt")]
+    for file in [*sources, tmp_path / "build/stamp/flatbuffers"]:
+        file.parent.mkdir(parents=True)
+        file.touch()
+    (tmp_path / "jvm-host/pom.xml").write_text('<project xmlns="http://maven.apache.org/POM/4.0.0"><modules><module>a</module></modules></project>')
+    (tmp_path / "jvm-host/a/pom.xml").write_text("<project/>")
+    edited: list[Path] = []
+
+    def run(*_: object, **__: object) -> subprocess.CompletedProcess[bytes]:
+        for file in edited:
+            file.write_text("// changed")
+        return subprocess.CompletedProcess([], 0)
+
+    monkeypatch.setattr(subprocess, "run", run)
+    for edited in [[source] for source in sources] + [[]]:
+        assert maven.package(["a"], tests=True) == 0
+        module = maven.read_modules()["a"]
+        assert [module.stored(f"{name}.key") != key for name, key in (("main", module.main_key()), ("tests", module.tests_key()))] == [
+            source in edited for source in sources]
