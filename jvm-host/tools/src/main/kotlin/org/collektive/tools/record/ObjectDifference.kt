@@ -4,7 +4,7 @@ import java.lang.reflect.Modifier
 
 /** Compares objects of flatc's object API, and user data as maps, field by field in the order of the schema. */
 internal object ObjectDifference {
-    /** Returns the first difference of [left] and [right], or `null`. Ignores their fields in [except]. */
+    /** Returns the first difference of [left] and [right], or `null`. Ignores the fields [except], such as `inspection.roundNanos`. */
     fun first(left: Any?, right: Any?, owner: String = "", field: String = "", except: Set<String> = emptySet()): Difference? = when {
         left == null && right == null -> null
 
@@ -18,8 +18,9 @@ internal object ObjectDifference {
 
         isLeaf(left) -> if (left == right) null else Difference(owner, field, text(left), text(right))
 
-        else -> fields(left).zip(fields(right)).filter { (a, _) -> a.first !in except }.firstNotNullOfOrNull { (a, b) ->
-            first(a.second, b.second, owner, if (field.isEmpty()) a.first else "$field.${a.first}")
+        else -> fields(left).zip(fields(right)).firstNotNullOfOrNull { (a, b) ->
+            val name = if (field.isEmpty()) a.first else "$field.${a.first}"
+            if (name in except) null else first(a.second, b.second, owner, name, except)
         }
     }
 
