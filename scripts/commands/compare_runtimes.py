@@ -115,6 +115,9 @@ def run(arguments: argparse.Namespace) -> int:
             if unknown or not functions:
                 raise Failure(f"compare-runtimes: '{programs}' has no public function `fun Aggregate<Int>.{unknown[0] if unknown else 'NAME'}()`, with or "
                               f"without a parameter of type Device{'; it has ' + ', '.join(functions) if functions else ''}")
+            repeated = next((name for name in functions if functions.count(name) > 1), None)
+            if repeated:
+                raise Failure(f"compare-runtimes: '{programs}' has several functions '{repeated}'; give each a different name")
             for function in arguments.function or functions:
                 code |= _compare(function, processes, _runs(arguments.seed, arguments.runs))
     return code

@@ -68,6 +68,9 @@ class Compared(Folder):
         self.assertEqual(unknown.returncode, 2)
         self.assertIn("Aggregate<Int>.eahc()`", unknown.stderr)
         self.assertIn("it has each, fails, passedOn, reached", unknown.stderr)
+        repeated = self.compare(PORTABLE + "fun Aggregate<Int>.each(): Int = localId\n")
+        self.assertEqual(repeated.returncode, 2)
+        self.assertIn("has several functions 'each'", repeated.stderr)
         with mock.patch.dict(os.environ, COLLEKTIVE_JARS=self.path("nowhere")):
             jars = self.compare(PORTABLE)
         self.assertEqual(jars.returncode, 2)

@@ -21,8 +21,9 @@ internal fun main(arguments: Array<String>) {
     // Programs may write to standard output.
     System.setOut(System.err)
     val (jar, runtime) = arguments
-    val functions = functions(File(jar)).associateBy { it.name }
-    functions.keys.sorted().forEach(output::println)
+    val functions = functions(File(jar)).groupBy { it.name }
+    // The caller refuses names that are printed several times.
+    functions.values.flatten().sortedBy { it.name }.forEach { output.println(it.name) }
     output.println()
     output.flush()
     while (true) {
@@ -30,7 +31,7 @@ internal fun main(arguments: Array<String>) {
         val ticks = generateSequence(::readlnOrNull).takeWhile { it.isNotEmpty() }.toList()
         TestNetwork(seed.toLong(), runtime = runtime, loss = loss.toDouble()).use { network ->
             ticks.forEachIndexed { index, tick ->
-                for ((id, result) in network.run(tick, functions.getValue(function))) output.println("${index + 1} $id ${text(result)}")
+                for ((id, result) in network.run(tick, functions.getValue(function).single())) output.println("${index + 1} $id ${text(result)}")
             }
         }
         output.println()
