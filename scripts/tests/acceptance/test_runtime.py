@@ -160,6 +160,7 @@ class Runtimes(Project):
         self.change("lamps.json", ", " + SETTINGS, "")
         self.refused("programs.jar was compiled for the Collektive runtime, and this session runs on the built-in runtime")
 
+    @pytest.mark.slow
     def test_missing_or_incompatible_jars_are_reported(self) -> None:
         self.switch()
         self.completed()
