@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
@@ -50,6 +51,16 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.AddLink(2, 1, directed: true);
             Play(1);
             Assert.That(Bars().FindAll(bar => bar.Color == Color.green).Count, Is.EqualTo(4));
+        }
+
+        [Test]
+        public void A_scale_can_have_the_range_of_all_floats()
+        {
+            var scale = new ColourScale();
+            scale.Begin();
+            scale.Include(float.MinValue);
+            scale.Include(float.MaxValue);
+            Assert.That(new[] { float.MinValue, 0, float.MaxValue }.Select(scale.StepOf), Is.EqualTo(new[] { 0, 8, 15 }));
         }
 
         [TestCase(LinkColouring.Length)]

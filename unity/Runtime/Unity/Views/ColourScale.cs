@@ -38,7 +38,8 @@ namespace Collektive.Unity
         /// <summary>Returns the step of a value, clamped to the scale. NaN is also mapped to a step.</summary>
         internal int StepOf(float value)
         {
-            var fraction = (value - lowest) / (highest - lowest);
+            // In double precision, because the difference of two floats may overflow.
+            var fraction = ((double)value - lowest) / ((double)highest - lowest);
             return fraction > 0 ? (int)Math.Min(fraction * Steps, Steps - 1) : 0;
         }
 
