@@ -30,9 +30,9 @@ namespace Collektive.Headless
         // Functions that return a node's values, one for each field of the replay.
         private readonly List<Func<Node, double>> readers = new List<Func<Node, double>>();
         private readonly ReplayMetrics metrics;
-        private readonly List<KeyValuePair<Transform, ReplayMover>> movers = new List<KeyValuePair<Transform, ReplayMover>>();
-        // Components that colour nodes, by node id; null if no node has one.
-        private readonly Dictionary<int, IColours> colours;
+        private readonly List<KeyValuePair<Collider, ReplayMover>> movers = new List<KeyValuePair<Collider, ReplayMover>>();
+        // Components that colour nodes, by node id; null if no node has one. Another node may have the id of one that left.
+        private readonly Dictionary<int, (Node Node, IColours Part)> colours;
         // Number of neighbours by node id; null unless it is a field of the replay.
         private int[] neighbours;
         private readonly MaterialPropertyBlock block = new MaterialPropertyBlock();
@@ -45,7 +45,7 @@ namespace Collektive.Headless
         {
             this.scene = scene;
             this.manager = manager;
-            if (IsColoured(manager)) colours = new Dictionary<int, IColours>();
+            if (IsColoured(manager)) colours = new Dictionary<int, (Node, IColours)>();
             metrics = new ReplayMetrics(MetricsTable.NamesOf(runMetrics));
             var metadata = new ReplayMetadata
             {
@@ -113,8 +113,14 @@ namespace Collektive.Headless
             }
             foreach (var mover in movers)
             {
-                var place = mover.Key.position;
-                var rotation = mover.Key.rotation;
+                var collider = mover.Key;
+                if (!collider || !collider.enabled || !collider.gameObject.activeInHierarchy)
+                {
+                    mover.Value.AddMissing();
+                    continue;
+                }
+                var place = Centre(collider);
+                var rotation = collider.transform.rotation;
                 mover.Value.Add(place.x, place.y, place.z, rotation.x, rotation.y, rotation.z, rotation.w);
             }
             foreach (ref var pair in manager.Simulation.PresentLinks.Pairs)
@@ -147,12 +153,12 @@ namespace Collektive.Headless
             var arena = floor == null ? new Bounds(first, Vector3.zero) : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));
             foreach (var collider in colliders)
             {
-                if (collider == floor || collider.isTrigger) continue;
+                if (collider == floor || collider.isTrigger || !collider.enabled) continue;
                 if (arena.size == Vector3.zero) arena = collider.bounds;
                 else arena.Encapsulate(collider.bounds);
                 if (collider.GetComponentInParent<Node>() != null)
                 {
-                    if (collider is SphereCollider body) metadata.NodeRadius = body.radius * body.transform.lossyScale.x;
+                    if (collider is SphereCollider body) metadata.NodeRadius = Radius(body);
                     if (collider is CapsuleCollider upright)
                     {
                         metadata.NodeRadius = Radius(upright);
@@ -220,7 +226,9 @@ namespace Collektive.Headless
 
         private double ColourOf(Node node)
         {
-            if (!colours.TryGetValue(node.Id, out var part)) colours.Add(node.Id, part = node.GetComponentInChildren<IColours>());
+            if (!colours.TryGetValue(node.Id, out var known) || !ReferenceEquals(known.Node, node))
+                colours[node.Id] = known = (node, node.GetComponentInChildren<IColours>());
+            var part = known.Part;
             if (part == null || part.Target == null) return double.NaN;
             part.Target.GetPropertyBlock(block);
             if (block.isEmpty) return double.NaN;
@@ -230,19 +238,25 @@ namespace Collektive.Headless
 
         private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
-        /// <summary>Returns the static box with the largest top, if all nodes are above it, or null. The page draws its own floor instead.</summary>
+        /// <summary>
+        /// Returns the static box with the largest top if it is level and all nodes are above it, or null. The page draws its own floor instead.
+        /// </summary>
         private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;
             foreach (var collider in colliders)
             {
-                if (!(collider is BoxCollider) || collider.attachedRigidbody != null || collider.isTrigger) continue;
+                if (!(collider is BoxCollider) || collider.attachedRigidbody != null || collider.isTrigger || !collider.enabled) continue;
                 if (floor == null || Footprint(collider) > Footprint(floor)) floor = collider;
             }
-            if (floor == null) return null;
+            if (floor == null || floor.transform.up.y < 0.9999f) return null;
+            var bounds = floor.bounds;
             foreach (var node in manager.Nodes)
             {
-                if (node.transform.position.y < Top(floor).y) return null;
+                var place = node.transform.position;
+                if (place.y < bounds.max.y) return null;
+                // For example, the largest of several houses below drones is not the floor.
+                if (!bounds.Contains(new Vector3(place.x, bounds.center.y, place.z))) return null;
             }
             return floor;
         }
@@ -258,23 +272,23 @@ namespace Collektive.Headless
         private void AddMover(ReplayMetadata metadata, Collider collider)
         {
             if (movers.Count == MaxMovers) return;
-            var scale = collider.transform.lossyScale;
             ReplayMover mover = null;
             if (collider is BoxCollider box)
             {
-                var size = Vector3.Scale(box.size, scale);
+                var size = Size(box);
                 mover = metadata.AddMovingBox(size.x, size.y, size.z);
             }
-            if (collider is SphereCollider sphere) mover = metadata.AddMovingSphere(sphere.radius * scale.x);
+            if (collider is SphereCollider sphere) mover = metadata.AddMovingSphere(Radius(sphere));
             if (collider is CapsuleCollider capsule) mover = metadata.AddMovingCapsule(Radius(capsule), Height(capsule), capsule.direction);
-            if (mover != null) movers.Add(new KeyValuePair<Transform, ReplayMover>(collider.transform, mover));
+            if (collider is MeshCollider mesh && mesh.sharedMesh != null) mover = metadata.AddMovingMesh(Vertices(mesh), mesh.sharedMesh.triangles);
+            if (mover != null) movers.Add(new KeyValuePair<Collider, ReplayMover>(collider, mover));
         }
 
         private static void Add(ReplayMetadata metadata, MeshCollider collider)
         {
-            var corners = collider.sharedMesh.vertices;
-            for (var i = 0; i < corners.Length; i++) corners[i] = Vector3.Scale(corners[i], collider.transform.lossyScale);
-            Add(metadata, corners, collider.sharedMesh.triangles, collider.transform.position, collider.transform.rotation);
+            var place = collider.transform.position;
+            var turn = collider.transform.rotation;
+            metadata.AddMesh(Vertices(collider), collider.sharedMesh.triangles, place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
         }
 
         /// <summary>Adds a terrain. Uses only a part of its samples, so that the page stays small.</summary>
@@ -283,46 +297,78 @@ namespace Collektive.Headless
             var data = collider.terrainData;
             var step = Math.Max(1, (data.heightmapResolution - 1) / MaxTerrainSquares);
             var triangles = TerrainMesh.Triangles((data.heightmapResolution - 1) / step + 1);
-            Add(metadata, TerrainMesh.Points(data, step), triangles, collider.transform.position, Quaternion.identity);
+            var place = collider.transform.position;
+            metadata.AddMesh(Coordinates(TerrainMesh.Points(data, step)), triangles, place.x, place.y, place.z, 0, 0, 0, 1);
         }
 
-        private static void Add(ReplayMetadata metadata, Vector3[] corners, int[] triangles, Vector3 place, Quaternion turn)
+        private static float[] Vertices(MeshCollider collider)
         {
-            var vertices = new float[3 * corners.Length];
-            for (var i = 0; i < corners.Length; i++)
+            var corners = collider.sharedMesh.vertices;
+            for (var i = 0; i < corners.Length; i++) corners[i] = Vector3.Scale(corners[i], collider.transform.lossyScale);
+            return Coordinates(corners);
+        }
+
+        private static float[] Coordinates(Vector3[] points)
+        {
+            var coordinates = new float[3 * points.Length];
+            for (var i = 0; i < points.Length; i++)
             {
-                for (var axis = 0; axis < 3; axis++) vertices[3 * i + axis] = corners[i][axis];
+                for (var axis = 0; axis < 3; axis++) coordinates[3 * i + axis] = points[i][axis];
             }
-            metadata.AddMesh(vertices, triangles, place.x, place.y, place.z, turn.x, turn.y, turn.z, turn.w);
+            return coordinates;
         }
 
         private static void Add(ReplayMetadata metadata, BoxCollider box)
         {
-            var centre = box.transform.TransformPoint(box.center);
-            var size = Vector3.Scale(box.size, box.transform.lossyScale);
+            var centre = Centre(box);
+            var size = Size(box);
             var turn = box.transform.rotation;
             metadata.AddBox(centre.x, centre.y, centre.z, size.x, size.y, size.z, turn.x, turn.y, turn.z, turn.w);
         }
 
         private static void Add(ReplayMetadata metadata, CapsuleCollider capsule)
         {
-            var centre = capsule.transform.TransformPoint(capsule.center);
+            var centre = Centre(capsule);
             var turn = capsule.transform.rotation;
             metadata.AddCapsule(centre.x, centre.y, centre.z, Radius(capsule), Height(capsule), capsule.direction, turn.x, turn.y, turn.z, turn.w);
         }
 
+        private static void Add(ReplayMetadata metadata, SphereCollider sphere)
+        {
+            var centre = Centre(sphere);
+            metadata.AddSphere(centre.x, centre.y, centre.z, Radius(sphere));
+        }
+
+        // Sizes follow Unity's rules for scaled colliders.
+        private static Vector3 Scale(Collider collider)
+        {
+            var scale = collider.transform.lossyScale;
+            return new Vector3(Mathf.Abs(scale.x), Mathf.Abs(scale.y), Mathf.Abs(scale.z));
+        }
+
+        private static Vector3 Size(BoxCollider box) => Vector3.Scale(box.size, Scale(box));
+
+        private static float Radius(SphereCollider sphere)
+        {
+            var scale = Scale(sphere);
+            return sphere.radius * Mathf.Max(scale.x, Mathf.Max(scale.y, scale.z));
+        }
+
         private static float Radius(CapsuleCollider capsule)
         {
-            var scale = capsule.transform.lossyScale;
+            var scale = Scale(capsule);
             return capsule.radius * Mathf.Max(scale[(capsule.direction + 1) % 3], scale[(capsule.direction + 2) % 3]);
         }
 
-        private static float Height(CapsuleCollider capsule) => capsule.height * capsule.transform.lossyScale[capsule.direction];
+        private static float Height(CapsuleCollider capsule) => capsule.height * Scale(capsule)[capsule.direction];
 
-        private static void Add(ReplayMetadata metadata, SphereCollider sphere)
+        /// <summary>Returns the centre of a shape, which need not be the position of its object.</summary>
+        private static Vector3 Centre(Collider collider)
         {
-            var centre = sphere.transform.TransformPoint(sphere.center);
-            metadata.AddSphere(centre.x, centre.y, centre.z, sphere.radius * sphere.transform.lossyScale.x);
+            var offset = collider is BoxCollider box ? box.center
+                : collider is SphereCollider sphere ? sphere.center
+                : collider is CapsuleCollider capsule ? capsule.center : Vector3.zero;
+            return collider.transform.TransformPoint(offset);
         }
     }
 }

@@ -58,8 +58,7 @@ namespace Collektive.Headless
         public void AddMesh(
             float[] vertices, int[] triangles, float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)
         {
-            var mesh = new JObject { ["kind"] = "mesh", ["vertices"] = Numbers(vertices), ["triangles"] = new JArray(triangles) };
-            shapes.Add(ShapeAt(mesh, x, y, z, rotationX, rotationY, rotationZ, rotationW));
+            shapes.Add(ShapeAt(Mesh(vertices, triangles), x, y, z, rotationX, rotationY, rotationZ, rotationW));
         }
 
         /// <summary>Adds a moving box. Its pose must be added in each frame.</summary>
@@ -91,6 +90,9 @@ namespace Collektive.Headless
         {
             markers.Add(new JObject { ["name"] = Text(name), ["position"] = Numbers(x, y, z) });
         }
+
+        /// <summary>Adds a moving triangle mesh with the parameters of <see cref="AddMesh"/>. Its pose must be added in each frame.</summary>
+        public ReplayMover AddMovingMesh(float[] vertices, int[] triangles) => AddMover(Mesh(vertices, triangles));
 
         internal ReplayArena Arena { get; private set; } = new ReplayArena(new[] { -10f, 0, -10 }, new[] { 10f, 5, 10 }, false);
 
@@ -125,6 +127,9 @@ namespace Collektive.Headless
 
         private static JObject Capsule(float radius, float height, int axis) =>
             new JObject { ["kind"] = "capsule", ["radius"] = Number(radius), ["height"] = Number(height), ["axis"] = axis };
+
+        private static JObject Mesh(float[] vertices, int[] triangles) =>
+            new JObject { ["kind"] = "mesh", ["vertices"] = Numbers(vertices), ["triangles"] = new JArray(triangles) };
 
         private static JObject ShapeAt(
             JObject shape, float x, float y, float z, float rotationX, float rotationY, float rotationZ, float rotationW)

@@ -18,6 +18,9 @@ namespace Collektive.Headless
             foreach (var number in new[] { x, y, z, rotationX, rotationY, rotationZ, rotationW }) poses.Add(Math.Round(ReplayMetadata.Number(number), 3));
         }
 
+        /// <summary>Adds a frame in which the shape does not exist.</summary>
+        public void AddMissing() => Add(0, 0, 0, 0, 0, 0, 0);
+
         /// <summary>Returns the poses added so far, and removes them.</summary>
         internal JArray TakePoses()
         {

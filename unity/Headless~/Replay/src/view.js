@@ -143,7 +143,10 @@ export class View {
   /** Moves the moving shapes to poses between two frames. */
   move(here, next, share) {
     for (const { object, poses } of this.movers) {
-      const [from, to] = [here, next].map((index) => poses.slice(7 * index, 7 * index + 7));
+      const [from, after] = [here, next].map((index) => poses.slice(7 * index, 7 * index + 7));
+      const exists = (pose) => pose.slice(3).some((number) => number !== 0);
+      object.visible = exists(from);
+      const to = exists(after) ? after : from;
       this.place(object, from, from.slice(3));
       const turn = object.quaternion.clone();
       const start = object.position.clone();

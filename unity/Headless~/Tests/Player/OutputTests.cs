@@ -57,19 +57,95 @@ namespace Collektive.Headless.Tests.Player
         {
             MakeNode(1, new Vector3(500000, 0, 5000000));
             MakeNode(1, new Vector3(500050, 0, 5000020));
-            var (scenario, scene, metrics) = Prepare();
-            ReplayWriter writer = null;
-            using (var recorder = new ReplayRecorder(
-                scenario, scene, metrics, Manager, metadata => writer = new ReplayWriter(metadata, (bytes, count) => { })))
-            {
-                recorder.Add(0);
-            }
-            var header = writer.Header();
+            var header = Record(recorder => recorder.Add(0));
             var arena = header["metadata"]["arena"].ToString(Formatting.None);
             Assert.That(arena, Is.EqualTo("{\"min\":[500000.0,0.0,5000000.0],\"max\":[500050.0,0.0,5000020.0]}"));
             Assert.That((double)header["positionStep"], Is.LessThan(0.01));
             Assert.That((bool)header["fields"][0]["someWithout"], Is.True);
             Assert.That((int)header["fields"][0]["greatest"], Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Recordings_contain_colliders_as_physics_uses_them()
+        {
+            MakeNode(1);
+            var post = new GameObject("Post").AddComponent<SphereCollider>();
+            post.transform.localScale = new Vector3(1, -6, 2);
+            new GameObject("Off").AddComponent<BoxCollider>().enabled = false;
+            var door = new GameObject("Door").AddComponent<BoxCollider>();
+            door.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            door.center = new Vector3(0.5f, 0, 0);
+            door.size = new Vector3(1, 2, 0.1f);
+            door.transform.localScale = new Vector3(-4, 1, 1);
+            var header = Record(recorder =>
+            {
+                recorder.Record(0);
+                door.transform.rotation = Quaternion.Euler(0, 90, 0);
+                recorder.Record(1);
+                door.enabled = false;
+                recorder.Record(2);
+                UnityEngine.Object.DestroyImmediate(door.gameObject);
+                recorder.Record(3);
+            });
+            var shapes = header["metadata"]["shapes"].ToString(Formatting.None);
+            Assert.That(shapes, Is.EqualTo("[{\"kind\":\"sphere\",\"centre\":[0.0,0.0,0.0],\"radius\":3.0}]"));
+            Assert.That(header["movers"][0]["shape"].ToString(Formatting.None), Is.EqualTo("{\"kind\":\"box\",\"size\":[4.0,2.0,0.1]}"));
+            var poses = header["movers"][0]["poses"].Values<double>().ToArray();
+            Assert.That(poses.Take(7), Is.EqualTo(new[] { -2, 0, 0, 0, 0, 0, 1.0 }).Within(0.001));
+            Assert.That(poses.Skip(7).Take(7), Is.EqualTo(new[] { 0, 0, 2, 0, 0.707, 0, 0.707 }).Within(0.001));
+            Assert.That(poses.Skip(14), Is.EqualTo(new double[14]));
+        }
+
+        [TestCase(0, 0, 0)]
+        [TestCase(0, 20, 1)]
+        [TestCase(9, 0, 1)]
+        public void Only_a_level_box_below_all_nodes_is_the_floor(float tilt, float x, int shapes)
+        {
+            MakeNode(1, new Vector3(0, 6, 0));
+            MakeNode(1, new Vector3(x, 6, 0));
+            var house = new GameObject("House").AddComponent<BoxCollider>();
+            house.size = new Vector3(10, 5, 8);
+            house.transform.rotation = Quaternion.Euler(0, 0, tilt);
+            Assert.That(Record(recorder => recorder.Record(0))["metadata"]["shapes"].Count(), Is.EqualTo(shapes));
+        }
+
+        [Test]
+        public void Recordings_contain_moving_meshes()
+        {
+            MakeNode(1);
+            var rock = new GameObject("Rock").AddComponent<MeshCollider>();
+            rock.convex = true;
+            var corners = new[] { Vector3.zero, Vector3.right, Vector3.up, Vector3.forward };
+            rock.sharedMesh = new Mesh { vertices = corners, triangles = new[] { 0, 1, 2, 0, 2, 3 } };
+            rock.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            rock.transform.localScale = new Vector3(2, 1, 1);
+            var shape = Record(recorder => recorder.Record(0))["movers"][0]["shape"];
+            Assert.That((string)shape["kind"], Is.EqualTo("mesh"));
+            Assert.That((float)shape["vertices"][3], Is.EqualTo(2));
+        }
+
+        [Test]
+        public void Recordings_contain_the_colour_of_a_node_with_the_id_of_one_that_left()
+        {
+            void MakeRed()
+            {
+                var node = MakeNode(1, default, 7).Node;
+                var renderer = node.gameObject.AddComponent<MeshRenderer>();
+                node.gameObject.AddComponent<ColourOf>().Target = renderer;
+                var block = new MaterialPropertyBlock();
+                block.SetColor("_Color", Color.red);
+                renderer.SetPropertyBlock(block);
+            }
+            MakeRed();
+            var header = Record(recorder =>
+            {
+                recorder.Record(0);
+                UnityEngine.Object.DestroyImmediate(Manager.Find(7).gameObject);
+                MakeRed();
+                recorder.Record(1);
+            });
+            Assert.That((string)header["fields"][1]["kind"], Is.EqualTo("colour"));
+            Assert.That((bool)header["fields"][1]["someWithout"], Is.False);
         }
 
         [Test]
@@ -133,6 +209,19 @@ namespace Collektive.Headless.Tests.Player
             }
         }
 
+        /// <summary>Returns the header of a recording of these frames.</summary>
+        private JObject Record(Action<ReplayRecorder> addFrames)
+        {
+            var (scenario, scene, metrics) = Prepare();
+            ReplayWriter writer = null;
+            using (var recorder = new ReplayRecorder(
+                scenario, scene, metrics, Manager, metadata => writer = new ReplayWriter(metadata, (bytes, count) => { })))
+            {
+                addFrames(recorder);
+            }
+            return writer.Header();
+        }
+
         private (Scenario Scenario, SceneBuilder Scene, RunMetrics Metrics) Prepare()
         {
             var path = Path.Combine(folder, "scenario.json");
@@ -157,6 +246,11 @@ namespace Collektive.Headless.Tests.Player
             if (segment.Length > 0)
                 for (int present = segment[segment[0] + 2]; present > 0; present >>= 1) count += present & 1;
             return count;
+        }
+
+        private sealed class ColourOf : MonoBehaviour, IColours
+        {
+            public Renderer Target { get; set; }
         }
 
         /// <summary>A scene that colours nodes by a category. Node 0 has no leader.</summary>
