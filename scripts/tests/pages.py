@@ -20,10 +20,11 @@ def run_node(test: Path, results: Path, *words: Path) -> int:
 def page(results: Path) -> int:
     """Tests the replay page of a demo, and pages of synthetic runs with known content."""
     test = ROOT / "unity/Headless~/Replay/test.mjs"
+    code = run_node(test.with_name("unit-test.mjs"), results / "units.xml")
     demo, sample = BUILD / "page-demo", BUILD / "page-sample"
     subprocess.run([COLLEKTIVE, "demo", "--nodes", "60", "--seconds", "10", "--out", demo, "--overwrite"], check=True)
     sample.mkdir(exist_ok=True)
-    code = run_node(test, results / "demo.xml", demo / "replay.html")
+    code = run_node(test, results / "demo.xml", demo / "replay.html") or code
     for name, nodes, ticks in (("replay", "60", "200"), ("large", "10000", "60")):
         file = sample / f"{name}.html"
         subprocess.run(managed.command("mono-sgen", CSHARP / "SampleReplay.exe", BUILD / "replay.html", file, nodes, ticks), check=True)

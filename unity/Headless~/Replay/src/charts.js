@@ -2,7 +2,7 @@
 import './language.js';
 import uPlot from 'uplot';
 import { part } from './dom.js';
-import { extent, lastAt, nameOf, short, textOf } from './fields.js';
+import { drawable, extent, isolated, lastAt, nameOf, short, textOf } from './fields.js';
 
 const HEIGHT = 80;
 
@@ -23,7 +23,7 @@ export class Charts {
       const canvas = part('div', '');
       figure.append(caption, canvas);
       holder.append(figure);
-      const plot = new uPlot(this.options(figure, field, lines), uPlot.join(lines.map(({ times, values }) => [times, values])), canvas);
+      const plot = new uPlot(this.options(figure, field, lines), uPlot.join(lines.map(({ times, values }) => [times, values.map(drawable)])), canvas);
       plot.root.setAttribute('role', 'img');
       plot.root.setAttribute('aria-label', `${caption.firstChild.data} ${lines.map((line) => describe(field, line)).join('; other run ')}`);
       const line = part('div', '');
@@ -39,6 +39,8 @@ export class Charts {
     const axis = {
       stroke: style('--quiet'), font: '10px system-ui, "Open Sans", sans-serif', grid: { stroke: style('--line'), width: 1 }, ticks: { show: false },
     };
+    // A value without neighbours has no line, so it is drawn as a point.
+    const points = { show: false, size: 4, filter: (plot, i) => isolated(plot.data[i]) };
     const paths = field.kind === 'number' ? undefined : uPlot.paths.stepped({ align: 1 });
     return {
       width: this.widthOf(figure), hooks: { draw: [() => this.show(this.time)] }, height: HEIGHT, legend: { show: false }, padding: [6, 6, 0, 0],
@@ -50,7 +52,7 @@ export class Charts {
           ...axis, size: (plot, words) => this.widen(plot, words ?? []), gap: 3, space: 22, values: (_, splits) => splits.map((value) => plain(field, value)),
         },
       ],
-      series: [{}, ...lines.map((_, i) => ({ stroke: style(i ? '--accent' : '--strong'), width: 1.5, dash: i ? [5, 3] : [], points: { show: false }, paths }))],
+      series: [{}, ...lines.map((_, i) => ({ stroke: style(i ? '--accent' : '--strong'), width: 1.5, dash: i ? [5, 3] : [], points, paths }))],
     };
   }
 

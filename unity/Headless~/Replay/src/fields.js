@@ -1,5 +1,6 @@
 // The fields by which nodes can be coloured. Some are recorded, and others are derived from positions and links.
 
+const MAX_DRAWN = 1e300;
 const SAME_TIME = 1e-6; // seconds: 0.3 is the time of the frame at 0.30000000000000004
 
 /** Each field has `name`, `kind`, `unit`, `words`, a range `least` to `greatest` (undefined: unknown), and `valuesOf(frame)`, which returns values by slot. */
@@ -72,8 +73,35 @@ export function textOf({ kind, unit, words }, value) {
   return short(value) + (unit ? ` ${unit}` : '');
 }
 
+/** Formats a time in seconds with the decimal places of `deltaTime`, from one to three. */
+export function clock(time, deltaTime) {
+  const places = String(Number(deltaTime.toPrecision(6))).split('.')[1]?.length ?? 1;
+  return time.toFixed(Math.min(places, 3));
+}
+
+/** Returns a value that an axis can show, or null. The margins of an axis to Double.MAX_VALUE would be infinite. */
+export function drawable(value) {
+  return Math.abs(value) > MAX_DRAWN ? null : value;
+}
+
+/** Returns the indices of values that have no line to a neighbour, because null is on both sides. Times of another run are undefined and ignored. */
+export function isolated(values) {
+  const found = [];
+  let [last, before] = [null, null]; // index of the last value, and the entry before it
+  let entry = null;
+  for (let i = 0; i <= values.length; i++) {
+    if (values[i] === undefined && i < values.length) continue;
+    const next = values[i] ?? null;
+    if (next === null && entry !== null && before === null) found.push(last);
+    [last, before, entry] = [i, entry, next];
+  }
+  return found;
+}
+
 /** Formats a number with four digits, but integers with all digits. */
 export function short(value) {
+  const size = Math.abs(value);
+  if (size >= 1e12 || (size > 0 && size < 1e-6)) return value.toExponential(3).replace(/\.?0*e\+?/, 'e');
   if (Number.isInteger(value) && Math.abs(value) < 1e9) return value.toLocaleString('en');
   return Number(value.toPrecision(4)).toLocaleString('en', { maximumSignificantDigits: 4 });
 }
@@ -86,8 +114,10 @@ function once(compute) {
   };
 }
 
+/** Returns the nodes' numbers of neighbours, which are unknown if the frame has only a part of the links. */
 function degrees(frame) {
   const counts = new Float32Array(frame.present.length);
+  if (frame.linksInAll > frame.links) return counts.fill(NaN);
   for (const slot of frame.pairs) counts[slot]++;
   return counts;
 }
@@ -101,7 +131,7 @@ function speeds(recording, frame) {
   const other = frame.segment.frame(at + 1 < count ? at + 1 : at - 1);
   const seconds = Math.abs(recording.times[other.index] - recording.times[frame.index]);
   for (const slot of frame.slots) {
-    if (!other.present[slot]) continue;
+    if (!other.present[slot] || other.ids[slot] !== frame.ids[slot]) continue;
     const moved = [0, 1, 2].map((axis) => other.places[4 * slot + axis] - frame.places[4 * slot + axis]);
     result[slot] = Math.hypot(...moved) / seconds;
   }

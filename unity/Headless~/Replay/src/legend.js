@@ -53,7 +53,7 @@ export class Legend {
     const same = this.otherFields.filter((each) => each.name === name && each.kind === kind);
     const all = [{ least, greatest, order }, ...same];
     return {
-      least: least === undefined ? undefined : Math.min(...all.map((each) => each.least)),
+      least: all.some((each) => each.least === undefined) ? undefined : Math.min(...all.map((each) => each.least)),
       greatest: Math.max(...all.map((each) => each.greatest)),
       order: order && [...new Set(all.flatMap((each) => each.order))],
     };

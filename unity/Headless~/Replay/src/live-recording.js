@@ -4,6 +4,7 @@ import { Segment } from './recording.js';
 
 const KEPT_FRAMES = 300;
 const KEPT_ROWS = 600; // of metrics
+const COLOURED_CATEGORIES = 256; // as in a replay
 
 export class LiveRecording {
   /** `header` is the header of FORMAT.md without frames. Its metrics are only names. */
@@ -42,14 +43,15 @@ export class LiveRecording {
     return frame.slots.some((slot) => frame.ids[slot] === id);
   }
 
-  /** Adds a frame. Returns whether a value is beyond the range of its field. */
+  /** Adds a frame. Returns whether a field has got a wider range or more categories. */
   add(event, bytes) {
     const { time, metrics, poses } = event;
     this.latest = event;
     const index = this.count;
     const frame = new Segment(bytes, this, index, 1).frame(0);
-    frame.segment = { first: this.oldest, count: index + 1 - this.oldest, frame: (i) => this.frames[this.oldest + i] };
     this.times.push(time);
+    const first = this.oldest;
+    frame.segment = { first, count: index + 1 - first, frame: (i) => this.frames[first + i] };
     this.frames.push(frame);
     this.poses.push(poses.some((pose) => pose.length > 0) ? poses : this.poses.at(-1) ?? []);
     for (const old of [this.frames, this.poses]) delete old[index - KEPT_FRAMES];
@@ -76,8 +78,13 @@ export class LiveRecording {
   widen(frame) {
     let widened = false;
     this.fields.forEach((field, i) => {
-      if (field.kind !== 'number') return;
       const present = Array.from(frame.slots, (slot) => frame.values[i][slot]).filter((value) => !Number.isNaN(value));
+      if (field.kind === 'category') {
+        const more = [...new Set(present)].filter((value) => !field.order.includes(value)).slice(0, COLOURED_CATEGORIES - field.order.length);
+        field.order.push(...more);
+        widened ||= more.length > 0;
+      }
+      if (field.kind !== 'number') return;
       if (present.length === 0) return;
       const { least, greatest } = extent(present);
       const isFirst = !field.known;

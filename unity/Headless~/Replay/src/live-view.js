@@ -1,4 +1,5 @@
 // The view of the live page, which shows a running simulation. The page that contains it passes the events on to it.
+import { palettesOf } from './colours.js';
 import { element, part } from './dom.js';
 import { LiveRecording } from './live-recording.js';
 import { Player, plural, requireGraphics, showMessage } from './player.js';
@@ -68,10 +69,13 @@ class LivePlayer extends Player {
     if (!this.resting) this.showNow(now);
   }
 
-  /** Extends the scale of the colours to all values so far. */
+  /** Extends the colours to all values so far. */
   widen() {
     this.recording.fields.forEach(({ least, greatest }, i) => Object.assign(this.fields[i], { least, greatest }));
-    if (!this.hasOwnRange) this.legend.setRange(...this.legend.wholeRange());
+    const { legend } = this;
+    if (palettesOf(legend.field)[0] !== element('palette').options[0]?.value) legend.choose(this.fields.indexOf(legend.field));
+    else if (legend.field.kind === 'category') legend.colour();
+    else if (!this.hasOwnRange) legend.setRange(...legend.wholeRange());
   }
 
   redrawCharts(now) {

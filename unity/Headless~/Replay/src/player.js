@@ -2,7 +2,7 @@
 import { Charts } from './charts.js';
 import { element, part } from './dom.js';
 import { canRecord, compose, save, Video } from './exports.js';
-import { historyOf, slotOf } from './fields.js';
+import { clock, historyOf, slotOf } from './fields.js';
 import { bindKeys } from './keys.js';
 import { Legend } from './legend.js';
 import { open, ReplayError } from './recording.js';
@@ -70,6 +70,14 @@ export class Player {
     return this.clock.times.at(-1);
   }
 
+  get clockText() {
+    return this.timeText(this.time);
+  }
+
+  timeText(time) {
+    return clock(time, this.recording.metadata.deltaTime);
+  }
+
   /**
    * Shows a time. Positions of nodes are interpolated between two frames; all other data belongs to the earlier frame. The returned
    * promise resolves when this request or a later one is shown.
@@ -106,7 +114,7 @@ export class Player {
     this.charts.show(this.time);
     this.history?.show(this.time);
     this.describeTime();
-    element('clock').textContent = `t = ${this.time.toFixed(1)} s`;
+    element('clock').textContent = `t = ${this.clockText} s`;
     element('node-count').textContent = plural(here.slots.length, 'node');
     element('link-count').textContent = linksOf(here);
     if (this.other) element('other-counts').textContent = `${plural(this.other.here.slots.length, 'node')} · ${linksOf(this.other.here)}`;
@@ -116,12 +124,12 @@ export class Player {
 
   /** Shows the time on the playback bar. */
   describeTime() {
-    const { recording, clock } = this;
-    const frame = clock.frameAt(this.time);
+    const { recording, clock: { count } } = this;
+    const frame = this.clock.frameAt(this.time);
     element('scrub').value = frame;
-    element('scrub').setAttribute('aria-valuetext', `${this.time.toFixed(1)} seconds`);
+    element('scrub').setAttribute('aria-valuetext', `${this.clockText} seconds`);
     const tick = Math.round(this.time / recording.metadata.deltaTime).toLocaleString('en');
-    element('position').value = `${this.time.toFixed(1)} / ${this.lastTime.toFixed(1)} s · tick ${tick} · frame ${frame + 1} / ${clock.count}`;
+    element('position').value = `${this.clockText} / ${this.timeText(this.lastTime)} s · tick ${tick} · frame ${frame + 1} / ${count}`;
   }
 
   get links() {
@@ -330,7 +338,7 @@ export class Player {
   async savePicture() {
     this.view.draw();
     const canvas = compose(document.createElement('canvas'), this.legend);
-    save(await new Promise((resolve) => { canvas.toBlob(resolve); }), `${this.fileName()}-${this.time.toFixed(1)}s.png`);
+    save(await new Promise((resolve) => { canvas.toBlob(resolve); }), `${this.fileName()}-${this.clockText}s.png`);
   }
 
   /** Starts recording a video, which ends at the end of the run, at a pause or at the next call. */
