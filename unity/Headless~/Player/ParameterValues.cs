@@ -7,43 +7,73 @@ using Newtonsoft.Json.Linq;
 namespace Collektive.Headless
 {
     /// <summary>Describes the parameters of the nodes' programs. Each parameter has its value, or a list of values if nodes have different ones.</summary>
-    internal static class ParameterValues
+    internal sealed class ParameterValues
     {
+        private readonly SortedDictionary<string, List<Values>> programs = new SortedDictionary<string, List<Values>>(StringComparer.Ordinal);
+        private readonly SimulationManager manager;
+
+        internal ParameterValues(SimulationManager manager)
+        {
+            this.manager = manager;
+        }
+
+        /// <summary>Describes the present parameters of all nodes.</summary>
         internal static JObject Of(SimulationManager manager)
         {
-            var programs = new JObject();
-            Add(programs, manager, 0);
-            return programs;
+            var values = new ParameterValues(manager);
+            foreach (var node in manager.Nodes) values.Add(node, node.Simulation.Settings.ParametersOf(node));
+            return values.ToJson();
         }
 
-        /// <summary>Adds the values of the nodes whose ids are not below an id to a description.</summary>
-        internal static void Add(JObject programs, SimulationManager manager, int firstId)
+        /// <summary>Adds the values with which a node joins the simulation.</summary>
+        internal void Add(Node node, List<NodeParameter> set)
         {
-            foreach (var program in manager.Programs)
+            var program = manager.Settings.ProgramOf(node);
+            if (!programs.TryGetValue(program, out var parameters))
             {
-                var nodes = new List<Node>();
-                foreach (var node in manager.Nodes)
+                parameters = new List<Values>();
+                foreach (var known in manager.Programs)
                 {
-                    if (node.Id >= firstId && manager.Settings.ProgramOf(node) == program.Name) nodes.Add(node);
+                    if (known.Name != program) continue;
+                    foreach (var parameter in known.Parameters) parameters.Add(new Values(parameter));
                 }
-                if (nodes.Count == 0) continue;
-                if (programs[program.Name] == null) programs.Add(program.Name, new JObject());
-                var parameters = (JObject)programs[program.Name];
-                foreach (var parameter in program.Parameters) parameters[parameter.Name] = Values(parameter, nodes, parameters[parameter.Name]);
+                programs.Add(program, parameters);
             }
+            foreach (var parameter in parameters) parameter.Add(set);
         }
 
-        private static JToken Values(ProgramParameter parameter, List<Node> nodes, JToken known)
+        internal JObject ToJson()
         {
-            var values = new SortedSet<string>(StringComparer.Ordinal);
-            if (known != null) values.UnionWith(known is JArray list ? list.Values<string>() : new[] { (string)known });
-            foreach (var node in nodes)
+            var all = new JObject();
+            foreach (var program in programs)
             {
-                var set = node.Simulation.Settings.ParametersOf(node);
-                var place = set.FindLastIndex(each => each.name == parameter.Name);
-                values.Add(place < 0 ? parameter.DefaultValue : set[place].value);
+                var parameters = new JObject();
+                foreach (var parameter in program.Value) parameters.Add(parameter.Name, parameter.ToJson());
+                all.Add(program.Key, parameters);
             }
-            return values.Count == 1 ? new JValue(values.Min) : (JToken)new JArray(values);
+            return all;
+        }
+
+        /// <summary>The distinct values of a parameter.</summary>
+        private sealed class Values
+        {
+            private readonly SortedSet<string> distinct = new SortedSet<string>(StringComparer.Ordinal);
+            private readonly ProgramParameter parameter;
+
+            internal Values(ProgramParameter parameter)
+            {
+                this.parameter = parameter;
+            }
+
+            internal string Name => parameter.Name;
+
+            internal void Add(List<NodeParameter> set)
+            {
+                var place = set.FindLastIndex(each => each.name == parameter.Name);
+                distinct.Add(place < 0 ? parameter.DefaultValue : set[place].value);
+            }
+
+            internal JToken ToJson() => distinct.Count == 1 ? new JValue(distinct.Min) : (JToken)new JArray(distinct);
         }
     }
 }

@@ -203,8 +203,8 @@ namespace Collektive.Headless
             var hasReplay = scenario.Replay && !options.IsCheck;
             // The original run may have continued after failures, so a repetition continues too.
             var stopsAtFailures = !options.KeepGoing && scenario.OriginalRun == null;
-            JObject parameters = null;
-            var describedIds = 0;
+            var parameters = new ParameterValues(manager);
+            manager.Simulation.NodeJoined = parameters.Add;
             var hadNodes = manager.Nodes.Count > 0;
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
@@ -245,10 +245,7 @@ namespace Collektive.Headless
                     if (stopsAtFailures && manager.Simulation.AllRoundsFailed)
                         throw new ScenarioException("stopped at tick " + completedTicks
                             + ": all rounds failed; the errors are above. To continue anyway, use --keep-going");
-                    // Later nodes may have other parameters.
-                    if (parameters == null) parameters = ProgramsWithParameters(manager);
-                    else if (manager.Simulation.IdCapacity > describedIds) ParameterValues.Add(parameters, manager, describedIds);
-                    describedIds = manager.Simulation.IdCapacity;
+                    if (before == 0) CheckProgramsOfParameters(manager);
                     replay?.Add(manager.SimulatedTime);
                     var now = Stopwatch.GetTimestamp();
                     totalTimes.Add((now - ended) * 1000.0 / Stopwatch.Frequency);
@@ -268,14 +265,10 @@ namespace Collektive.Headless
                     if (progress.Due || frame == ticks || HasConverged) progress.Show(completedTicks, manager.SimulatedTime, Text());
                 }
                 progress.End();
-                if (manager.Simulation.IsOpen)
-                {
-                    metrics.Measure();
-                    if (parameters != null) ParameterValues.Add(parameters, manager, 0);
-                }
+                if (manager.Simulation.IsOpen) metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 manifest.AddResults(
-                    manager, parameters ?? new JObject(), completedTicks, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
+                    manager, parameters.ToJson(), completedTicks, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
                 manifest.AddConvergence(scenario.Convergence.Times());
                 if (nodes != null) manifest.AddNodeColumns(nodes.Types);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
@@ -361,7 +354,7 @@ namespace Collektive.Headless
         /// <summary>Whether the run must end because all metrics have converged.</summary>
         private bool HasConverged => scenario.StopWhenConverged && scenario.Convergence.IsComplete;
 
-        private JObject ProgramsWithParameters(SimulationManager manager)
+        private void CheckProgramsOfParameters(SimulationManager manager)
         {
             foreach (var program in scenario.Settings.ProgramParameters)
             {
@@ -375,7 +368,6 @@ namespace Collektive.Headless
                 if (found == null)
                     throw new ScenarioException("'parameters." + program.Key + "': unknown program; the programs are: " + string.Join(", ", names));
             }
-            return ParameterValues.Of(manager);
         }
 
         private void EndInterval(SimulationManager manager, ReplayRecorder replay, double second)

@@ -162,15 +162,21 @@ namespace Collektive.Headless.Tests.Player
         public void Numbers_are_written_exactly(double number, string text) => Assert.That(CsvText.Number(number), Is.EqualTo(text));
 
         [Test]
-        public void Parameters_of_later_nodes_are_described()
+        public void Parameters_have_the_values_with_which_nodes_joined()
         {
             Configure("scaled");
-            MakeNode(1);
+            var parameters = new ParameterValues(Manager);
+            Manager.Simulation.NodeJoined = parameters.Add;
+            var first = MakeNode(1, id: 3);
             Play(1);
-            var parameters = ParameterValues.Of(Manager);
-            MakeNode(1).Node.Parameters.Add(new NodeParameter("factor", "5"));
-            ParameterValues.Add(parameters, Manager, 1);
-            Assert.That(parameters.ToString(Formatting.None), Is.EqualTo("{\"scaled\":{\"factor\":[\"3\",\"5\"]}}"));
+            first.Node.Parameters.Add(new NodeParameter("factor", "7"));
+            var later = MakeNode(1, id: 1);
+            later.Node.Parameters.Add(new NodeParameter("factor", "5"));
+            Play(1);
+            later.Node.enabled = false;
+            Play(1);
+            Assert.That(first.Answer, Is.EqualTo(3));
+            Assert.That(parameters.ToJson().ToString(Formatting.None), Is.EqualTo("{\"scaled\":{\"factor\":[\"3\",\"5\"]}}"));
         }
 
         /// <summary>Plays a live run. Sends each command, and waits for a message that answers it. The first command can be null.</summary>

@@ -26,6 +26,9 @@ namespace Collektive.Unity
         /// <summary>The nodes that joined since the last tick. Contains null for nodes that left again.</summary>
         internal IReadOnlyList<Node> Joining => joining;
 
+        /// <summary>Called with each node and its parameters when they are sent to the JVM.</summary>
+        internal Action<Node, List<NodeParameter>> Joined { get; set; }
+
         /// <summary>A number that is greater than all ids.</summary>
         internal int IdCapacity => nextId;
 
@@ -89,7 +92,9 @@ namespace Collektive.Unity
             for (var i = 0; i < joining.Count; i++)
             {
                 if (joining[i] is null) continue;
-                request.AddNode(joining[i].Id, joining[i].Program, ParametersOf(joining[i]));
+                var parameters = joining[i].Simulation.Settings.ParametersOf(joining[i]);
+                request.AddNode(joining[i].Id, joining[i].Program, Pairs(parameters));
+                Joined?.Invoke(joining[i], parameters);
                 IsKnown[joining[i].Id] = true;
                 links.Know(joining[i].Id, true);
             }
@@ -101,7 +106,8 @@ namespace Collektive.Unity
         {
             foreach (var node in nodes)
             {
-                if (IsKnown[node.Id] && node.Simulation.Settings.ProgramOf(node) == program) request.ChangeNode(node.Id, node.Program, ParametersOf(node));
+                var settings = node.Simulation.Settings;
+                if (IsKnown[node.Id] && settings.ProgramOf(node) == program) request.ChangeNode(node.Id, node.Program, Pairs(settings.ParametersOf(node)));
             }
         }
 
@@ -117,9 +123,8 @@ namespace Collektive.Unity
             Debug.LogWarning("all " + nodes.Count + " nodes have the same position, " + place + ": give them different positions", nodes[0]);
         }
 
-        private static KeyValuePair<string, string>[] ParametersOf(Node node)
+        private static KeyValuePair<string, string>[] Pairs(List<NodeParameter> values)
         {
-            var values = node.Simulation.Settings.ParametersOf(node);
             var parameters = new KeyValuePair<string, string>[values.Count];
             for (var i = 0; i < parameters.Length; i++) parameters[i] = new KeyValuePair<string, string>(values[i].name, values[i].value);
             return parameters;

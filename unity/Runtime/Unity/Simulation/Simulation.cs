@@ -110,6 +110,12 @@ namespace Collektive.Unity
         /// <summary>A number that is greater than all ids.</summary>
         internal int IdCapacity => registry.IdCapacity;
 
+        /// <summary>Called with each node and its parameters when they are sent to the JVM.</summary>
+        internal Action<Node, List<NodeParameter>> NodeJoined
+        {
+            set => registry.Joined = value;
+        }
+
         /// <summary>All links, and searches for near nodes.</summary>
         internal NeighbourSearch Links => Context.Links;
 
