@@ -298,17 +298,21 @@ internal class CSharp(private val schema: UserSchema) {
     }
 
     companion object {
+        private val ENUM_READ = Regex("""\(((?:\w+\.)+\w+)\)(__p\.bb\.Get\w*\(o \+ __p\.bb_pos\)) : (\d+);""")
+        private val ENUM_ARGUMENT = Regex("""((?:\w+\.)+\w+)( \w+ = )(\d+)([,)])""")
         private val TAKEN = setOf("Clear", "FindNotFinite", "Write", "WriteChildren", "Fill", "Layout", "Row")
 
         /**
          * Adapts flatc's C# to the package's FlatBuffers assembly: changes the namespace, and defines the symbols used to compile
-         * that assembly. Symbols defined in each file need no settings in users' projects.
+         * that assembly. Symbols defined in each file need no settings in users' projects. Casts defaults of enums, which flatc writes as
+         * integers if they combine several flags.
          */
         fun adapt(text: String): String {
             val header = "// </auto-generated>\n"
             require(header in text) { "flatc's C# has no header" }
             val ours = text.replace("global::Google.", "Google.").replace("Google.FlatBuffers", "global::Collektive.FlatBuffers")
-            return ours.replaceFirst(header, "$header#define UNSAFE_BYTEBUFFER\n#define ENABLE_SPAN_T\n")
+            val cast = ours.replace(ENUM_READ, "($1)$2 : ($1)$3;").replace(ENUM_ARGUMENT, "$1$2($1)$3$4")
+            return cast.replaceFirst(header, "$header#define UNSAFE_BYTEBUFFER\n#define ENABLE_SPAN_T\n")
         }
     }
 }

@@ -76,9 +76,12 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         .sortedBy { it.name.toString() }
         .ifEmpty { throw error("it defines no tables") }
 
-    /** Rejects numbers that do not fit into 64 signed bits, because flatc's binary schema silently replaces them with 0. */
+    /** Rejects numbers that do not fit into 64 signed bits, and -0.0, because flatc's binary schema silently replaces them with 0. */
     private fun checkNumbers(source: Path) {
         for ((index, line) in texts.getValue(source).sanitized.lines().withIndex()) {
+            negativeZero.find(line.substringBefore("//"))?.let {
+                throw GeneratorException("${source.fileName}:${index + 1}: the default ${it.groupValues[1]} is not supported; use 0")
+            }
             for (match in number.findAll(line.substringBefore("//"))) {
                 val text = match.groupValues[1]
                 val value = if (text.startsWith("0x", ignoreCase = true)) text.drop(2).toBigInteger(16) else text.toBigInteger()
@@ -319,6 +322,9 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         /** One Java method creates the layouts of all tables, and methods have at most 64 KB. */
         const val MAX_FIELDS = 3000
         val fileName = Regex("[A-Za-z][A-Za-z0-9_. -]*")
+
+        /** A default of -0, decimal. */
+        val negativeZero = Regex("""=\s*["']?(-(?:0+\.?0*|\.0+)(?:[eE][+-]?[0-9]+)?)(?![0-9a-zA-Z.])""")
 
         /** A default or enum value, decimal or hexadecimal. */
         val number = Regex("""=\s*\+?(0[xX][0-9a-fA-F]+|[0-9]+)\b(?![.eE])""")

@@ -36,6 +36,16 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `defaults that combine several flags are cast in C#`() {
+        val output = Fixture.generate(
+            "namespace a; enum Flags : ubyte (bit_flags) { Red, Green } table SensorData { } table ActuatorData { flags: Flags = \"Red Green\"; }",
+        )
+        val text = texts(output).getValue("csharp/a/ActuatorData.cs")
+        assertContains(text, "(a.Flags)__p.bb.Get(o + __p.bb_pos) : (a.Flags)3;")
+        assertContains(text, "a.Flags flags = (a.Flags)3)")
+    }
+
+    @Test
     fun `no file contains a path of the machine, and all C# is marked as generated`() {
         val output = Fixture.generate(
             "include \"types.fbs\"; namespace a.b; table SensorData { p: org.collektive.schema.Vector3; } struct ActuatorData { x: float; }",

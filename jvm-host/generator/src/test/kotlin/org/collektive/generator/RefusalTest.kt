@@ -46,6 +46,14 @@ internal class RefusalTest {
     }
 
     @Test
+    fun `a default of -0 is refused, because the binary schema contains 0`() {
+        for (zero in listOf("-0", "-0.0", "-.0", "-0e3")) {
+            assertEquals("user.fbs:1: the default $zero is not supported; use 0", refusal(user("", "x: float = $zero;")))
+        }
+        for (default in listOf("-0.5", "-.5", "-1", "-0x1p1")) Fixture.generate(user("", "x: float = $default;"))
+    }
+
+    @Test
     fun `an unsupported type is refused with its field and an alternative`() {
         assertEquals(
             "user.fbs:1: SensorData.shape: unions are not supported; use one optional table field for each case",
