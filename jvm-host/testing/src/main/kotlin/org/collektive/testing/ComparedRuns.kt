@@ -27,11 +27,12 @@ internal fun main(arguments: Array<String>) {
     output.println()
     output.flush()
     while (true) {
-        val (function, seed, loss) = (readlnOrNull() ?: return).split(' ')
+        val (name, seed, loss) = (readlnOrNull() ?: return).split(' ')
+        val function = functions.getValue(name).single()
         val ticks = generateSequence(::readlnOrNull).takeWhile { it.isNotEmpty() }.toList()
         TestNetwork(seed.toLong(), runtime = runtime, loss = loss.toDouble()).use { network ->
             ticks.forEachIndexed { index, tick ->
-                for ((id, result) in network.run(tick, functions.getValue(function).single())) output.println("${index + 1} $id ${text(result)}")
+                for ((id, result) in network.run(tick, function)) output.println("${index + 1} $id ${text(result)}")
             }
         }
         output.println()
