@@ -100,6 +100,7 @@ def test_a_completed_sweep_repeats_no_runs_and_can_be_extended(lamps: Project) -
     assert "name another folder with --out" in other.stderr
 
 
+@pytest.mark.slow
 def test_csv_tables_do_not_become_outdated(project: Project) -> None:
     assert project.sweep("--csv", vary={"seed": [1]}).returncode == 0
     assert project.sweep("--resume", vary={"seed": [1, 2]}).returncode == 0
@@ -151,6 +152,7 @@ def test_results_may_be_in_a_folder_with_colons(project: Project) -> None:
     assert result.returncode == 0, result.stderr
 
 
+@pytest.mark.slow
 def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) -> None:
     for name, before, after in [("light.fbs", "brightest:", "node:"), ("programs/Brightest.kt", "ActuatorData(brightest", "ActuatorData(node"),
                                 ("scene/Lamps.cs", "data.Brightest", "data.Node"), ("scene/Lamps.cs", "answer.Brightest", "answer.Node")]:

@@ -1,7 +1,7 @@
 """Runs the C# tests on one runtime and one JVM: `csharp.py RESULTS JDK RUNTIME [OPTION OF THE TEST RUNNER]...`.
 
 With COLLEKTIVE_TEST_PLACEMENT=OwnProcess, the JVM runs in a separate process. Tests of the category OwnProcess need this placement. Tests of the category
-Debugger also need it, or must run without other tests (`--only Debugger`).
+Debugger also need it, or must run without other tests (`--only Debugger`). Tests of the category AnyPlacement are omitted with it, because they run no JVM.
 """
 import os
 import re
@@ -23,9 +23,11 @@ def run(results: Path, jdk: str, runtime: str, options: list[str]) -> int:
     jar, other = (projects.programs_jar(schema, inputs.programs(PROBE / folder)) for folder in ("programs", "other"))
     environment = {**managed.environment(runtime), "COLLEKTIVE_ROOT": str(ROOT), "COLLEKTIVE_HOST_JAR": str(HOST_JAR),
                    "COLLEKTIVE_TEST_JAVA_HOME": jdk, "COLLEKTIVE_PROBE_JAR": str(jar), "COLLEKTIVE_OTHER_JAR": str(other)}
-    if os.environ.get("COLLEKTIVE_TEST_PLACEMENT") != "OwnProcess":
+    if os.environ.get("COLLEKTIVE_TEST_PLACEMENT") == "OwnProcess":
+        others = ["AnyPlacement"]
+    else:
         others = ["OwnProcess"] if "Debugger" in options else ["OwnProcess", "Debugger"]
-        options = [*options, *(word for other in others for word in ("--without", other))]
+    options = [*options, *(word for other in others for word in ("--without", other))]
     command = managed.command(runtime, CSHARP / "Collektive.TestRunner.exe", "--results", results / "csharp.xml", *options,
                               CSHARP / "Collektive.Headless.Tests.dll")
     process = subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, text=True, errors="replace")

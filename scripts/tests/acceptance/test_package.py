@@ -137,6 +137,7 @@ class PackageTest(Packaged):
         ran = self.project.manifest()
         self.assertEqual((ran["nodes"], ran["ticks"], ran["errors"]), (30, 20, 0))
 
+    @pytest.mark.slow
     def test_a_missing_jvm_is_reported_with_the_solutions(self) -> None:
         result = self.project.play()
         self.assertEqual(result.returncode, 1)

@@ -82,6 +82,7 @@ class SamplesTest(Folder):
         for row in before, after:
             self.assertTrue(0 < row["farthest"] <= 20, row["farthest"])
 
+    @pytest.mark.slow
     def test_the_channel_avoids_walls_and_failed_nodes(self) -> None:
         rows = self.rows("Channel")
         before, after = rows[9], rows[-1]
@@ -92,6 +93,7 @@ class SamplesTest(Folder):
         self.assertTrue(98 <= before["length"] <= 115, before["length"])
         self.assertTrue(107 <= after["length"] <= 125, after["length"])
 
+    @pytest.mark.slow
     def test_the_robots_find_all_casualties_and_stay_connected_if_some_fail(self) -> None:
         rows = self.rows("Rescue")
         self.assertEqual(rows[59]["found"], 3)

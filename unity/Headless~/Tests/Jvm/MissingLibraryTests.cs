@@ -9,7 +9,7 @@ namespace Collektive.Headless.Tests
     /// Tests a process without a usable native library that plays 50 frames. It must report a single error, which names the platform and the solution, and
     /// throw no exception. The tests start separate processes, because this process has loaded the library.
     /// </summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class MissingLibraryTests
     {
         private const string Library = "libcollektive_shim.so";
