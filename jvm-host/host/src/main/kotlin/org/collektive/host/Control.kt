@@ -1,6 +1,5 @@
 package org.collektive.host
 
-import com.sun.management.HotSpotDiagnosticMXBean
 import org.collektive.frame.ControlRequest
 import org.collektive.frame.RecordingAction
 import org.collektive.frames.AnswerBuffer
@@ -8,6 +7,7 @@ import org.collektive.frames.session.JvmState
 import org.collektive.frames.session.controlRequest
 import org.collektive.frames.session.writeControlResponse
 import org.collektive.host.jfr.Recorder
+import org.collektive.host.jvm.jvmFlag
 import org.collektive.host.session.ShimSlots
 import org.collektive.host.session.reading
 import org.collektive.host.shim.HostError
@@ -22,7 +22,6 @@ internal class Control(shim: ShimCalls) {
     private var request = ControlRequest()
     private val buffer = AnswerBuffer(ShimSlots(shim))
     private val recorder = Recorder(shim)
-    private val diagnostics by lazy { ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean::class.java) }
 
     /** Executes the `ControlRequest` in [frame] and writes the `ControlResponse`. Returns its position, `offset << 32 | length`. */
     fun answer(frame: ByteBuffer, slot: Long, answer: ByteBuffer): Long {
@@ -76,11 +75,7 @@ internal class Control(shim: ShimCalls) {
         val values = LinkedHashMap<String, String>()
         for (index in 0 until request.flagsLength()) {
             val name = request.flags(index)
-            try {
-                values[name] = diagnostics.getVMOption(name).value
-            } catch (_: IllegalArgumentException) {
-                continue // this JVM does not have the flag
-            }
+            values[name] = jvmFlag(name) ?: continue
         }
         return values
     }

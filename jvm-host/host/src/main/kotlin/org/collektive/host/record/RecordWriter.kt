@@ -1,11 +1,10 @@
 package org.collektive.host.record
 
-import com.sun.management.HotSpotDiagnosticMXBean
+import org.collektive.host.jvm.jvmFlag
 import org.collektive.host.programs.JarBytes
 import org.collektive.host.shim.HostError
 import org.collektive.host.shim.HostException
 import java.io.IOException
-import java.lang.management.ManagementFactory
 import java.nio.ByteBuffer
 import java.nio.ByteOrder
 import java.nio.channels.FileChannel
@@ -60,17 +59,11 @@ public class RecordWriter internal constructor(private val path: String, private
     private fun head(open: ByteBuffer, jars: List<JarBytes>) {
         header.clear().put(MAGIC).flip()
         while (header.hasRemaining()) channel.write(header)
-        val maths = if (isMathsRepeatable()) "maths=repeatable\n" else ""
+        // The setting Repeatable maths changes results of `Math`.
+        val maths = if (jvmFlag("UseLibmIntrinsic") == "false") "maths=repeatable\n" else ""
         write(Chunk.HEAD, text("java=${Runtime.version()}\nos=${System.getProperty("os.name")} ${System.getProperty("os.arch")}\n$maths"))
         write(Chunk.OPEN, open)
         jars(jars)
-    }
-
-    /** Returns whether the setting Repeatable maths is on, which changes results of `Math`. */
-    private fun isMathsRepeatable(): Boolean = try {
-        ManagementFactory.getPlatformMXBean(HotSpotDiagnosticMXBean::class.java).getVMOption("UseLibmIntrinsic").value == "false"
-    } catch (_: IllegalArgumentException) {
-        false // this JVM does not have the flag
     }
 
     private fun write(kind: Int, payload: ByteBuffer) {
