@@ -88,8 +88,8 @@ def table(rows: list[dict[str, Any]]) -> str:
     bare_columns = ["ms : in C", *(phase.removesuffix("_ms") for phase in BARE_PHASES), "tick"]
     bare_cells = [[f"{row['nodes']}", *(_ratio(sum(row[phase] for phase in phases), row["in_c"][bare]) for bare, phases in BARE_PHASES.items()),
                    _ratio(1000 / row["ticks_per_second"], sum(row["in_c"][bare] for bare in BARE_PHASES))] for row in rows]
-    return "\n".join(["".join(text.rjust(10) for text in line) for line in [columns, *cells]] + [""]
-                     + ["".join(text.rjust(22) for text in line) for line in [bare_columns, *bare_cells]])
+    return "\n".join(["".join(text.rjust(12) for text in line) for line in [columns, *cells]] + [""]
+                     + ["".join(text.rjust(25) for text in line) for line in [bare_columns, *bare_cells]])
 
 
 def _ratio(ms: float, bare_ms: float) -> str:
