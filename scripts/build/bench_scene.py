@@ -24,31 +24,57 @@ BARE_PHASES = {"sense_ms": ("queries_ms", "sense_ms"), "rules_ms": ("rules_ms",)
 NODES = (500, 1000, 2000, 5000, 10000, 20000, 50000)
 # The number of nodes in the sample. The field is scaled for other numbers.
 NODES_OF_FIELD = 500
-# The simulated seconds at which measuring ends and starts. Measuring starts after the JIT compilers have warmed up, and ends before small swarms crowd at
-# the source.
-SECONDS, SETTLED = 10, 6
-QUICK_SECONDS, QUICK_SETTLED = 4, 2
+# Times are means over the simulated seconds 6 to 10: the JIT compilers have mostly warmed up, and small swarms do not crowd at the source yet.
+INTERVAL, SETTLED, MEASURED = 2, 6, 10
+QUICK_INTERVAL, QUICK_SETTLED, QUICK_MEASURED = 1, 2, 4
+# The p99 is the slowest tick of 120: three intervals that begin at least 5 seconds of the clock after the start.
+P99_INTERVALS, WARM_UP_MS = 3, 5000
 
 
-def scenario(nodes: int, seconds: int) -> dict[str, Any]:
+def seconds_of(nodes: int) -> int:
+    """Returns the simulated seconds of a run that lasts longer than the warm-up, as a multiple of the interval."""
+    return max(MEASURED, INTERVAL * math.ceil(30 * math.sqrt(NODES_OF_FIELD / nodes)))
+
+
+def scenario(nodes: int, seconds: int, interval: int) -> dict[str, Any]:
     """Returns the sample's scenario for a number of nodes, with the same density and with tables as the only output."""
     whole: dict[str, Any] = json.loads((SAMPLE / "scenario.json").read_text())
     for key in ("scripts", "schema", "programs"):
         whole[key] = os.path.normpath(os.path.join(SAMPLE, whole[key]))
     scale = math.sqrt(nodes / NODES_OF_FIELD)
     whole["fields"] |= {"nodes": nodes, "fieldScale": scale, "source": [25 * scale, 0, 0]}
-    return whole | {"seconds": seconds, "outputs": {"metrics": True}}
+    return whole | {"seconds": seconds, "outputs": {"metrics": True, "interval": interval}}
 
 
-def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
+def slowest(rows: list[dict[str, str]], ticks: int) -> tuple[float, float]:
+    """Returns the slowest tick in the p99's intervals in milliseconds, and its ratio to their mean: the median of the ratios of a run's warm part.
+
+    A run without enough warm intervals counts as a whole.
+    """
+    begin, warm = 0.0, []
+    for row in rows:
+        if begin >= WARM_UP_MS:
+            warm.append(row)
+        begin += ticks * float(row["tick_ms"])
+    groups = [warm[at:at + P99_INTERVALS] for at in range(0, len(warm) - P99_INTERVALS + 1, P99_INTERVALS)] or [rows]
+    results = sorted((max(float(row["tick_ms_p99"]) for row in group) / mean(group, "tick_ms"), mean(group, "tick_ms")) for group in groups)
+    ratio, tick = results[len(results) // 2]
+    return ratio * tick, ratio
+
+
+def mean(rows: list[dict[str, str]], column: str) -> float:
+    return sum(float(row[column]) for row in rows) / len(rows)
+
+
+def run(nodes: int, seconds: int, interval: int, settled: int, measured: int) -> dict[str, Any]:
     """Measures one size.
 
-    Returns the mean and the 99th percentile of the ticks after the warm-up, the mean times of the phases, and the times of the same ticks as bare loops
-    in C.
+    Returns the mean times of ticks and their phases, the 99th percentile after the warm-up and its ratio to the mean, and the times of the same ticks as
+    bare loops in C.
     """
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder, "scene.json"), Path(folder, "out")
-        settings = scenario(nodes, seconds)
+        settings = scenario(nodes, seconds, interval)
         path.write_text(json.dumps(settings))
         process = subprocess.Popen([COLLEKTIVE, "run", path, "--out", out], stdout=subprocess.DEVNULL)
         _, status, usage = os.wait4(process.pid, 0)
@@ -56,18 +82,16 @@ def run(nodes: int, seconds: int, settled: int) -> dict[str, Any]:
         if process.returncode != 0:
             raise Failure(f"bench scene: the run of {nodes} nodes ended with code {process.returncode}; its messages are above")
         with (out / "metrics.csv").open() as file:
-            rows = [row for row in csv.DictReader(file) if int(row["second"]) > settled]
+            # The first row is of the first tick.
+            rows = list(csv.DictReader(file))[1:]
 
-    ticks = [str(round(second / settings["deltaTime"])) for second in (seconds, settled)]
+    ticks = [str(round(second / settings["deltaTime"])) for second in (measured, settled)]
     bare = subprocess.run([CASE_STUDY, str(nodes), str(settings["threads"]), *ticks], check=True, stdout=subprocess.PIPE, text=True)
-
-    def mean(column: str) -> float:
-        return sum(float(row[column]) for row in rows) / len(rows)
-
-    return {"nodes": nodes, "threads": settings["threads"], "ticks_per_second": round(1000 / mean("tick_ms"), 2),
-            # A row covers at most 100 ticks, so the 99th percentile of a row is its slowest tick.
-            "tick_ms_p99": max(float(row["tick_ms_p99"]) for row in rows),
-            **{phase: round(mean(phase), 3) for phase in PHASES}, "rss_mb": round(usage.ru_maxrss / 1024, 1),
+    p99, ratio = slowest(rows, round(interval / settings["deltaTime"]))
+    rows = [row for row in rows if settled < int(row["second"]) <= measured]
+    return {"nodes": nodes, "threads": settings["threads"], "ticks_per_second": round(1000 / mean(rows, "tick_ms"), 2),
+            "tick_ms_p99": round(p99, 3), "p99_to_mean": round(ratio, 3),
+            **{phase: round(mean(rows, phase), 3) for phase in PHASES}, "rss_mb": round(usage.ru_maxrss / 1024, 1),
             "mean_distance": float(rows[-1]["mean_distance"]), "in_c": json.loads(bare.stdout)}
 
 
@@ -83,7 +107,7 @@ def table(rows: list[dict[str, Any]]) -> str:
     """
     columns = ["nodes", "ticks/s", "p99 ms", "p99/mean", *(phase.removesuffix("_ms") + " ms" for phase in PHASES), "RSS MB", "us a node", "growth"]
     cells = [[f"{row['nodes']}", f"{row['ticks_per_second']:.1f}", f"{row['tick_ms_p99']:.2f}",
-              f"{row['tick_ms_p99'] * row['ticks_per_second'] / 1000:.2f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rss_mb']:.0f}",
+              f"{row['p99_to_mean']:.2f}", *(f"{row[phase]:.2f}" for phase in PHASES), f"{row['rss_mb']:.0f}",
               f"{micros_per_node(row):.2f}", f"{micros_per_node(row) / micros_per_node(rows[0]):.2f}"] for row in rows]
     bare_columns = ["ms : in C", *(phase.removesuffix("_ms") for phase in BARE_PHASES), "tick"]
     bare_cells = [[f"{row['nodes']}", *(_ratio(sum(row[phase] for phase in phases), row["in_c"][bare]) for bare, phases in BARE_PHASES.items()),
@@ -114,7 +138,8 @@ def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     # Compile before the runs, because the memory of a run includes the memory of processes that it starts.
     projects.scripts_dll(inputs.schema(SAMPLE / "gradient_ascent.fbs"), inputs.scripts(SAMPLE))
     lock.release()
-    rows = [run(nodes, *((QUICK_SECONDS, QUICK_SETTLED) if quick else (SECONDS, SETTLED))) for nodes in sizes]
+    rows = [run(nodes, QUICK_MEASURED, QUICK_INTERVAL, QUICK_SETTLED, QUICK_MEASURED) if quick
+            else run(nodes, seconds_of(nodes), INTERVAL, SETTLED, MEASURED) for nodes in sizes]
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps({"machine": machine(), "rows": rows}, indent=2) + "\n")
     print(table(rows), flush=True)

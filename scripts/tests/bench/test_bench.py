@@ -80,9 +80,9 @@ class BenchScene(unittest.TestCase):
         self.assertEqual(sorted(self.whole), ["machine", "rows"])
         self.assertEqual([row["nodes"] for row in self.whole["rows"]], [50, 1000])
         for row in self.whole["rows"]:
-            self.assertEqual(list(row), ["nodes", "threads", "ticks_per_second", "tick_ms_p99", "queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms",
-                                         "physics_ms", "other_ms", "rss_mb", "mean_distance", "in_c"])
-            self.assertGreaterEqual(row["tick_ms_p99"], 1000 / row["ticks_per_second"], row)
+            self.assertEqual(list(row), ["nodes", "threads", "ticks_per_second", "tick_ms_p99", "p99_to_mean", "queries_ms", "rules_ms", "sense_ms", "step_ms",
+                                         "act_ms", "physics_ms", "other_ms", "rss_mb", "mean_distance", "in_c"])
+            self.assertGreaterEqual(row["p99_to_mean"], 1, row)
 
     def test_the_phases_add_up_to_the_tick(self) -> None:
         for row in self.whole["rows"]:
