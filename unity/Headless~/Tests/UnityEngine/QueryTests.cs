@@ -45,6 +45,47 @@ namespace Collektive.Headless.Tests.Engine
             float Number(float most) => (float)(random.NextDouble() * 2 - 1) * most;
         }
 
+        [TestCase(false)]
+        [TestCase(true)]
+        public void Queries_find_colliders_that_move_between_steps(bool replaces)
+        {
+            var random = new System.Random(3);
+            var colliders = new List<SphereCollider>();
+            for (var index = 0; index < 60; index++) colliders.Add(Make());
+            for (var step = 0; step < 300; step++)
+            {
+                foreach (var collider in colliders)
+                    if (random.Next(3) == 0) collider.transform.position = Place();
+                if (random.Next(2) == 0) Physics.Simulate(0.02f);
+                for (var index = 0; replaces && index < colliders.Count; index++)
+                {
+                    if (random.Next(30) > 0) continue;
+                    UnityEngine.Object.DestroyImmediate(colliders[index].gameObject);
+                    colliders[index] = Make();
+                }
+                Physics.SyncTransforms();
+                foreach (var collider in colliders)
+                {
+                    var center = Place();
+                    var offset = collider.transform.position - center;
+                    var count = Physics.OverlapSphereNonAlloc(center, offset.magnitude, Results);
+                    Assert.That(Array.IndexOf(Results, collider, 0, count), Is.GreaterThanOrEqualTo(0), $"overlap in step {step}");
+                    // A ray ignores colliders that contain its origin.
+                    Assert.That(offset.magnitude <= collider.radius || Physics.Raycast(center, offset, offset.magnitude), $"ray in step {step}");
+                }
+                Physics.Simulate(0.02f);
+            }
+
+            SphereCollider Make()
+            {
+                var made = new GameObject().AddComponent<SphereCollider>();
+                made.transform.position = Place();
+                return made;
+            }
+
+            Vector3 Place() => new Vector3((float)random.NextDouble(), (float)random.NextDouble(), (float)random.NextDouble()) * 20f;
+        }
+
         [Test]
         public void Overlaps_follow_moving_bodies()
         {
