@@ -85,6 +85,16 @@ namespace Collektive.Headless.Tests.Bridge
         }
 
         [Test]
+        public void The_time_is_a_multiple_of_a_delta_time_with_many_decimals()
+        {
+            session = Open("sum");
+            for (var i = 0; i < 8192 / 4; i++) session.Step(1 / 8192.0, Limit);
+            Assert.That(session.Time, Is.EqualTo(0.25));
+            for (var i = 0; i < 3; i++) session.Step(0.1, Limit);
+            Assert.That(session.Time, Is.EqualTo(0.55));
+        }
+
+        [Test]
         public void A_closed_session_rejects_steps_and_can_be_closed_again()
         {
             session = Open("sum");

@@ -25,6 +25,9 @@ namespace Collektive.Bridge
         private readonly int closeLimitMs;
         private double pendingDelta;
         private double lastDelta;
+        // The tick and time after which all steps have had this delta time.
+        private ulong lastDeltaTick;
+        private double lastDeltaTime;
         private bool isPending;
         private ulong handle;
 
@@ -136,9 +139,9 @@ namespace Collektive.Bridge
             if (isPending) return false;
             Shim.Check(code);
             Tick++;
-            lastDelta = pendingDelta;
-            // Without rounding, errors of the sum would accumulate.
-            Time = Math.Round(Time + pendingDelta, TimeDecimals);
+            // The time is a product, because the rounding errors of a sum would accumulate.
+            if (lastDelta != pendingDelta) (lastDelta, lastDeltaTick, lastDeltaTime) = (pendingDelta, Tick - 1, Time);
+            Time = Math.Round(lastDeltaTime + (Tick - lastDeltaTick) * lastDelta, TimeDecimals);
             Request.Clear();
             Point(answer);
             Answer.Read(answerBuffer);
