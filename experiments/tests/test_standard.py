@@ -407,12 +407,18 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
      {"max(x + z)": (8, 10), "min(min(x, z))": (0, 1), "avg(x)": (2.8, 3.9)}),
     ({"deployment": {"kind": "Uniform", "nodes": 200, "size": [10, 10]}, "obstacles": [{"box": [3, 3], "size": [4, 2]}]}, 0.1,
      {"count(*) filter (where abs(x - 3) <= 2 and abs(z - 3) <= 1)": (0, 0)}),
+    # Walls along a polygon reach 0.05 m beyond it.
+    ({"deployment": {"kind": "Uniform", "nodes": 200, "size": [3, 3]}, "obstacles": [{"polygon": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}]}, 0.1,
+     {"count(*) filter (where abs(x) < 1.049 and abs(z) <= 1)": (0, 0)}),
     ({"deployment": {"nodes": 9, "spacing": 2}, "neighbourhood": {"kind": "Nearest", "count": 3}}, 0.1, {"min(degree)": (3, 3)}),
     ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"}}, 0.1, {"sum(degree)": (2, 2)}),
     ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"},
       "obstacles": [{"polygon": [[1, -1], [1.5, -1], [1.5, 1], [1, 1]]}]}, 0.1, {"sum(degree)": (0, 0)}),
     ({"movement": {"kind": "RandomWaypoint", "speed": 2}}, 2, {f"max({SPEED})": (1.99, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
     ({"movement": {"kind": "LevyWalk", "speed": 2}}, 9, {f"max({SPEED})": (1.9, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
+    # In a tick, the nodes cross the corridor several times. No reflection may end at its sides.
+    ({"deployment": {"kind": "Uniform", "nodes": 200, "size": [1, 50]}, "movement": {"kind": "LevyWalk", "speed": 90, "shortest": 50}}, 2,
+     {"sum(abs(x) > 0.4999)": (0, 2), "avg(abs(x))": (0.22, 0.28), "max(abs(x))": (0.45, 0.5), "max(abs(z))": (20, 25)}),
     # The two islands are 22 m apart across the antimeridian.
     ({"deployment": {"kind": "File", "file": "islands.csv"}}, 0.1, {"max(x) - min(x)": (22.2, 22.3), "total(x) filter (where id = 0)": (-11.2, -11.1)}),
     # The program's target is the origin.

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Collektive.Bridge;
 using UnityEngine;
@@ -52,7 +53,7 @@ namespace Collektive.Standard
             {
                 var isInBox = obstacle.polygon.Count == 0 && Mathf.Abs(place.x - obstacle.box[0]) <= obstacle.size[0] / 2
                     && Mathf.Abs(place.z - obstacle.box[1]) <= obstacle.size[1] / 2;
-                if (isInBox || obstacle.polygon.Count > 0 && IsInside(obstacle.polygon, place)) return false;
+                if (isInBox || obstacle.polygon.Count > 0 && (IsInside(obstacle.polygon, place) || IsInWall(obstacle.polygon, place))) return false;
             }
             return true;
         }
@@ -66,6 +67,11 @@ namespace Collektive.Standard
 
         private static void Reflect(ref float place, ref float direction, float[] bounds)
         {
+            if (place >= bounds[0] && place <= bounds[1]) return;
+            // A fast node crosses the area several times in a tick. Two reflections shift the place by twice the side, and keep the direction.
+            var shift = 2 * (bounds[1] - bounds[0]);
+            var distance = place < bounds[0] ? bounds[0] - place : place - bounds[1];
+            if (shift > 0 && distance > shift / 2) place -= shift * (float)Math.Round((place - (bounds[0] + bounds[1]) / 2) / shift);
             if (place >= bounds[0] && place <= bounds[1]) return;
             place = Mathf.Clamp(place < bounds[0] ? 2 * bounds[0] - place : 2 * bounds[1] - place, bounds[0], bounds[1]);
             direction = -direction;
@@ -103,6 +109,19 @@ namespace Collektive.Standard
                 bounds[1] = Mathf.Max(bounds[1], coordinate);
             }
             return bounds;
+        }
+
+        /// <summary>Returns whether a place is in a wall along a side of a polygon. Half of each wall is outside the polygon.</summary>
+        private static bool IsInWall(List<float[]> corners, Vector3 place)
+        {
+            for (int i = 0, before = corners.Count - 1; i < corners.Count; before = i++)
+            {
+                var corner = new Vector3(corners[before][0], 0, corners[before][1]);
+                var side = new Vector3(corners[i][0], 0, corners[i][1]) - corner;
+                var share = side.sqrMagnitude > 0 ? Mathf.Clamp01(Vector3.Dot(place - corner, side) / side.sqrMagnitude) : 0;
+                if ((place - corner - share * side).magnitude <= StandardScene.WallWidth / 2) return true;
+            }
+            return false;
         }
 
         /// <summary>Returns whether a place is inside a polygon. A ray from such a place crosses the sides an odd number of times.</summary>

@@ -14,7 +14,7 @@ namespace Collektive.Standard
         private const int IgnoreRaycastLayer = 2;
         private const int MaxNodes = 1_000_000;
         private const int MaxSets = 32;
-        private const float WallWidth = 0.1f;
+        internal const float WallWidth = 0.1f;
 
         /// <summary>Time limit for the evaluation of an expression when the scene is checked before the run.</summary>
         private const int CheckMs = 1000;
