@@ -22,6 +22,8 @@ NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
 RUNTIME = "runtime"
 """The key of the aggregate runtime. It can vary, because the bundle contains the programs compiled for each runtime."""
 RUNTIMES = ("builtin", "collektive")
+IGNORING_CASE = (RUNTIME, "schedule")
+"""Keys whose values the player reads without regard to case."""
 RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 
 Values = dict[str, Any]
@@ -275,6 +277,7 @@ def _check(experiment: Experiment) -> None:
 def _reject_duplicates(located: Located, part: str, keys: list[str], rows: list[tuple[Any, ...]]) -> None:
     seen: set[str] = set()
     for index, row in enumerate(rows):
+        row = tuple(value.lower() if key in IGNORING_CASE and isinstance(value, str) else value for key, value in zip(keys, row))
         # Values such as 1 and "1" count as duplicates, too, because tables and figures show the same text for both.
         forms = {identity(row), "\0".join(map(text, row))}
         if forms & seen:
