@@ -149,6 +149,8 @@ namespace Collektive.Headless
             {
                 // The value is out of the range of the type. The error below reports it.
             }
+            if (type == typeof(float) && number || kind == JTokenType.Integer && (type == typeof(int) || type == typeof(long)))
+                throw Error(token, "'" + key + "' is " + token.ToString(Formatting.None) + "; it must be between " + RangeOf(type));
             var names = type.IsEnum ? " (one of " + string.Join(", ", Enum.GetNames(type)) + ")" : "";
             throw Error(token, NotOfType(token, key, type) + names);
         }
@@ -176,6 +178,9 @@ namespace Collektive.Headless
             foreach (var item in array) strings.Add((string)Convert(item, typeof(string), key));
             return strings;
         }
+
+        private static string RangeOf(Type type) => type == typeof(float) ? "-3.4E+38 and 3.4E+38"
+            : type == typeof(int) ? int.MinValue + " and " + int.MaxValue : long.MinValue + " and " + long.MaxValue;
 
         /// <summary>Returns the name of a type for messages.</summary>
         internal static string NameOf(Type type)
