@@ -4,9 +4,11 @@ import jdk.jfr.consumer.RecordedEvent
 import jdk.jfr.consumer.RecordedFrame
 import jdk.jfr.consumer.RecordingFile
 import org.collektive.host.jfr.RoundSampling
+import java.io.IOException
 import java.nio.file.Path
 import java.time.Duration
 import java.util.Locale
+import kotlin.system.exitProcess
 
 /**
  * Summarises a flight recording as text: tick times, hot methods per program, allocations and garbage collection pauses.
@@ -21,8 +23,14 @@ internal class ProfileReport {
     private val pauses = ArrayList<Duration>()
     private var errors = 0L
 
+    /** Adds the events of a recording. Throws an [IOException] if the file is truncated or damaged. */
     fun read(file: Path): ProfileReport {
-        RecordingFile(file).use { while (it.hasMoreEvents()) add(it.readEvent()) }
+        try {
+            RecordingFile(file).use { while (it.hasMoreEvents()) add(it.readEvent()) }
+        } catch (e: RuntimeException) {
+            // The parser does not check the offsets and sizes in a file.
+            throw IOException("damaged: $e", e)
+        }
         return this
     }
 
@@ -188,7 +196,13 @@ internal class ProfileReport {
         /** Prints the report of the recording whose path is the only argument. */
         @JvmStatic
         fun main(arguments: Array<String>) {
-            print(ProfileReport().read(Path.of(arguments.single())).text())
+            val file = Path.of(arguments.single())
+            try {
+                print(ProfileReport().read(file).text())
+            } catch (e: IOException) {
+                System.err.println("collektive: cannot read the flight recording '$file' (${e.message}): profile the scenario again")
+                exitProcess(1)
+            }
         }
     }
 }
