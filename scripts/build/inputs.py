@@ -61,8 +61,12 @@ def scripts(folder: Path) -> Part:
 
 
 def programs(path: Path) -> Part:
-    """Reads a jar, or a folder with Kotlin files and the Java files that they use."""
-    return Part(path, partial(_below, suffixes=(".kt", ".java"))) if path.is_dir() else jar(path)
+    """Reads a jar, or a folder with Kotlin files. Raises `Failure` if it contains Java files, which would not be compiled."""
+    if not path.is_dir():
+        return jar(path)
+    for file in _below(path, (".java",)).values():
+        raise Failure(f"{file}: only Kotlin is compiled: convert this Java file to Kotlin, or move it to another folder")
+    return Part(path, partial(_below, suffixes=(".kt",)))
 
 
 def jar(path: Path) -> Part:

@@ -33,6 +33,12 @@ def test_folders_with_unusual_names_are_included(tmp_path: Path, folder: str) ->
     assert names(inputs.programs(tmp_path)) == [f"{folder}/a.kt"]
 
 
+def test_java_among_programs_is_rejected(tmp_path: Path) -> None:
+    write(tmp_path / "deep/A.java")
+    with pytest.raises(Failure, match=r"deep/A\.java: only Kotlin is compiled"):
+        inputs.programs(tmp_path)
+
+
 def test_generated_csharp_is_excluded_but_other_sources_in_folders_of_that_name_are_not(tmp_path: Path) -> None:
     project = tmp_path / "Generated/obj"
     for name in ["A.cs", "Generated/B.cs", "part/obj/C.cs", "Generated/b.kt"]:
@@ -138,7 +144,7 @@ class Project:
         result = subprocess.run([FLATC, "--binary", "--schema", "--bfbs-comments", "-I", ROOT / "schema", "-I", schema.parent, "-o", fresh / "bfbs", schema],
                                 capture_output=True)
         binary = (fresh / f"bfbs/{schema.stem}.bfbs").read_bytes() if result.returncode == 0 else result.stdout + result.stderr
-        return read("scripts", ".cs", {"Generated", "obj"}), read("programs", ".kt", set()) | read("programs", ".java", set()), schema.name.encode() + binary
+        return read("scripts", ".cs", {"Generated", "obj"}), read("programs", ".kt", set()), schema.name.encode() + binary
 
     def edit(self) -> str:
         """Makes a random change and returns its description."""
@@ -147,7 +153,7 @@ class Project:
 
     def place(self, part: str) -> Path:
         self.created += 1
-        suffix = {"scripts": ".cs", "programs": self.random.choice([".kt", ".java"]), "schemas": ".fbs", "outside": ".txt"}[part]
+        suffix = {"scripts": ".cs", "programs": ".kt", "schemas": ".fbs", "outside": ".txt"}[part]
         return self.folder / part / self.random.choice(self.FOLDERS) / f"f{self.created}{self.random.choice([suffix, suffix, '.md'])}"
 
     def add(self) -> Path:

@@ -1,5 +1,8 @@
 package org.collektive.generator
 
+import org.junit.jupiter.api.io.TempDir
+import java.io.ByteArrayOutputStream
+import java.io.PrintStream
 import java.nio.file.Files
 import java.nio.file.Path
 import kotlin.test.Test
@@ -26,6 +29,14 @@ internal class RefusalTest {
         )
         assertContains(refusal("namespace a; struct SensorData { x: float; }"), "ActuatorData is missing")
         assertContains(refusal("namespace a;"), "it defines no types")
+    }
+
+    @Test
+    fun `Java files among programs are refused`(@TempDir folder: Path) {
+        Files.createFile(folder.resolve("Helper.java"))
+        val log = ByteArrayOutputStream()
+        assertEquals(1, ProgramCompiler.compile(listOf("--jar", "$folder/a.jar", "--work", "$folder/work", "--source", "$folder"), PrintStream(log)))
+        assertContains("$log", "Helper.java: programs are compiled from Kotlin only")
     }
 
     @Test
