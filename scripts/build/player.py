@@ -30,12 +30,24 @@ class Plan:
     def programs_jar(self) -> Path:
         """Compiles the scenario's programs if they have changed, and returns their jar.
 
-        Raises `Failure` before the compilation if the sources do not contain the scenario's program.
+        Raises `Failure` if they do not contain the scenario's program, or a program or parameter in its `parameters`.
         """
         known = projects.program_names(self.parts["programs"])
         if known and self["program"] not in known:
             raise Failure(f"unknown program '{self['program']}'; '{self['programs']}' contains {', '.join(sorted(known))}")
-        return projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
+        jar = projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
+        self._check_parameters(projects.parameter_names(jar))
+        return jar
+
+    def _check_parameters(self, known: dict[str, set[str]]) -> None:
+        # A manifest contains the scenario of its run.
+        scenario = self["file"].get("scenario", self["file"])
+        for program, values in (scenario.get("parameters") or {}).items() if known else ():
+            if program not in known:
+                raise Failure(f"'parameters.{program}': unknown program; the programs are: {', '.join(sorted(known))}")
+            for name in values:
+                if name not in known[program]:
+                    raise Failure(f"'parameters.{program}.{name}': unknown parameter; the program declares: {', '.join(sorted(known[program])) or 'none'}")
 
     def scripts_dll(self) -> Path:
         """Compiles the scenario's C# if it has changed, and returns the assembly."""

@@ -20,6 +20,9 @@ from build.places import BUILD, CSHARP, FLATC, GENERATOR_JAR, HOST_JAR, LIBRARY_
 # A folder with a file for each jar that was run here. The name of the file is the jar's SHA-256.
 OWN_PROGRAMS = BUILD / "own-programs"
 COMPILE_COMMAND = "org.collektive.generator.CompileCommand"
+# The folder of the index of programs in a jar. ProgramIndex.kt defines its format.
+PROGRAM_INDEX = "META-INF/collektive/programs/"
+ESCAPES = {"t": "\t", "n": "\n", "r": "\r"}
 PLUGIN_SERVICE = "META-INF/services/org.jetbrains.kotlin.compiler.plugin.CompilerPluginRegistrar"
 
 
@@ -59,6 +62,25 @@ def program_names(programs: Part) -> set[str] | None:
     found = [match[1] for name, file in programs.files.items() if name.endswith(".kt")
              for match in re.finditer(r'@Program\s*\(\s*(?:name\s*=\s*)?("[^"$\\]*"|)', file.read_text(encoding="utf-8", errors="replace"))]
     return {name.strip('"') for name in found} if all(found) else None
+
+
+def parameter_names(jar: Path) -> dict[str, set[str]]:
+    """Returns the names of the parameters of each program in a jar, from the index of our compiler plugin. Without an index, returns an empty object."""
+    found: dict[str, set[str]] = {}
+    try:
+        with zipfile.ZipFile(jar) as archive:
+            for index in [name for name in archive.namelist() if name.startswith(PROGRAM_INDEX) and not name.endswith("/")]:
+                program = ""
+                for line in archive.read(index).decode(errors="replace").split("\n")[:-1]:
+                    kind, name = [re.sub(r"\\(.)", lambda match: ESCAPES.get(match[1], match[1]), column) for column in line.split("\t")][:2]
+                    program = name if kind == "program" else program
+                    names = found.setdefault(program, set())
+                    if kind == "parameter":
+                        names.add(name)
+    # The host reports damaged jars.
+    except (zipfile.BadZipFile, OSError, ValueError):
+        return {}
+    return found
 
 
 def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin: Part | None = None) -> Path:

@@ -1,0 +1,32 @@
+"""Tests that unknown names in a scenario's parameters are reported before a run, which would replace earlier results."""
+import zipfile
+from pathlib import Path
+
+import pytest
+
+from build import player, projects
+from build.console import Failure
+
+
+def test_the_index_of_a_jar_contains_the_parameters_of_its_programs(tmp_path: Path) -> None:
+    jar = tmp_path / "programs.jar"
+    jar.write_bytes(b"not a jar")
+    assert projects.parameter_names(jar) == {}
+    with zipfile.ZipFile(jar, "w") as archive:
+        archive.writestr("META-INF/collektive/programs/a.AKt", "program\ta\\\\b\ta.SensorData\nparameter\twidth\t1\tWidth.\nprogram\tc\ta.SensorData\n")
+    assert projects.parameter_names(jar) == {"a\\b": {"width"}, "c": set()}
+
+
+@pytest.mark.parametrize("parameters, message", [
+    ({"hops": {"width": 1}}, "'parameters.hops': unknown program; the programs are: channel"),
+    ({"channel": {"wide": 1}}, r"'parameters.channel.wide': unknown parameter; the program declares: length, width"),
+])
+def test_unknown_parameters_are_rejected_before_the_run(parameters: dict[str, dict[str, int]], message: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(projects, "program_names", lambda part: None)
+    monkeypatch.setattr(projects, "programs_jar", lambda *parts: Path("programs.jar"))
+    monkeypatch.setattr(projects, "parameter_names", lambda jar: {"channel": {"width", "length"}})
+    parts = dict.fromkeys(("schema", "programs"))
+    for file in [{"parameters": parameters}, {"scenario": {"parameters": parameters}, "parameters": {}}]:
+        with pytest.raises(Failure, match=message):
+            player.Plan({"file": file}, parts).programs_jar()  # type: ignore[arg-type]
+    assert player.Plan({"file": {"parameters": {"channel": {"width": 1}}}}, parts).programs_jar() == Path("programs.jar")  # type: ignore[arg-type]
