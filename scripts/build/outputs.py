@@ -82,8 +82,10 @@ def _end(folder: Path) -> None:
 
 def _is_of_run(folder: Path) -> bool:
     """Returns whether a run wrote the folder's manifest. The file may also be unrelated to runs."""
+    manifest = folder / "manifest.json"
     try:
-        return b'"outcome":' in (folder / "manifest.json").read_bytes()
+        # Reading a pipe would wait for its writer.
+        return manifest.is_file() and b'"outcome":' in manifest.read_bytes()
     except OSError:
         return False
 

@@ -51,6 +51,9 @@ def find_files(path: Path) -> list[tuple[Path, str]]:
 
 def _kind(file: Path) -> str | None:
     """Returns the kind of a file by its keys, without parsing it, because the file may be invalid."""
+    # Reading a pipe or a device might never end.
+    if not file.is_file():
+        return None
     try:
         text = file.read_text(encoding="utf-8", errors="replace")
     except OSError:

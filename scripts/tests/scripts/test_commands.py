@@ -1,5 +1,6 @@
 """Tests how commands report steps that fail or are interrupted."""
 import argparse
+import os
 from collections.abc import Callable
 from pathlib import Path
 
@@ -42,6 +43,14 @@ def test_scenarios_are_checked_while_the_outputs_are_locked(tmp_path: Path, monk
 def test_nested_keys_do_not_determine_the_kind_of_a_file(tmp_path: Path, text: str, kind: str) -> None:
     (tmp_path / "file.json").write_text(text)
     assert check.find_files(tmp_path) == [(tmp_path / "file.json", kind)]
+
+
+def test_pipes_are_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pipe = tmp_path / "pipe.json"
+    os.mkfifo(pipe)
+    # Reading would wait until another process writes to the pipe.
+    monkeypatch.setattr(Path, "read_text", lambda *_, **__: pytest.fail("the pipe was read"))
+    assert check.find_files(pipe) == [(pipe, check.SCENARIO)]
 
 
 def test_ctrl_c_ends_a_check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,4 +1,5 @@
 """Tests that a run replaces earlier results only if it has begun."""
+import os
 from pathlib import Path
 
 import pytest
@@ -49,6 +50,15 @@ def test_results_are_restored_by_the_command_after_a_killed_one(folder: Path) ->
     with pytest.raises(Failure, match="has results of a run"), outputs.open_folder(folder, False):
         pass
     assert contents(folder) == before
+
+
+def test_a_pipe_is_not_read(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (folder / "manifest.json").unlink()
+    os.mkfifo(folder / "manifest.json")
+    # Reading would wait until another process writes to the pipe.
+    monkeypatch.setattr(Path, "read_bytes", lambda *_: pytest.fail("the pipe was read"))
+    with pytest.raises(Failure, match="but no manifest of a run"), outputs.open_folder(folder, True):
+        pass
 
 
 def test_files_not_written_by_a_run_are_kept(folder: Path) -> None:
