@@ -36,7 +36,7 @@ class CheckTest(Project):
         errors = {
             self.write("key.json", secnds=3): "unknown key 'secnds'",
             self.write("program.json", program="brightst"): "unknown program 'brightst'",
-            self.write("parameter.json", parameters={"brightest": {"step": 3}}): "the parameter 'step', which program 'brightest' does not declare",
+            self.write("parameter.json", parameters={"brightest": {"step": 3}}): "'parameters.brightest.step': unknown parameter; the program declares: ",
             self.write("metric.json", metrics={"lit": "avg(lihgt)"}): "no such column: lihgt",
             self.write("function.json", metrics={"lit": {"function": "lit"}}): "unknown metric 'lit'; the jars contain no metrics",
             self.write("no-function.json", metrics={"lit": {}}): "'metrics.lit.function' is missing",
