@@ -9,7 +9,7 @@ from pathlib import Path
 from build.places import LOGS
 
 # A command that another command starts continues the clock of that command.
-STARTED = float(os.environ.setdefault("COLLEKTIVE_STARTED", str(time.time())))
+STARTED = float(os.environ.setdefault("COLLEKTIVE_STARTED", str(time.monotonic())))
 _step = ""
 
 
@@ -23,7 +23,7 @@ class Failure(Exception):
 
 def print_progress(text: str) -> None:
     """Prints a progress message that begins with the seconds since the start."""
-    print(f"[{time.time() - STARTED:4.0f}s] {text}", file=sys.stderr, flush=True)
+    print(f"[{time.monotonic() - STARTED:4.0f}s] {text}", file=sys.stderr, flush=True)
 
 
 def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None, log: Path | None = None) -> None:

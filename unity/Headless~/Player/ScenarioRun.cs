@@ -21,7 +21,8 @@ namespace Collektive.Headless
         private readonly Scenario scenario;
         private readonly Options options;
         private readonly Interrupt interrupt;
-        private readonly DateTime startTime;
+        private readonly TimeSpan timeBefore;
+        private readonly Stopwatch time = Stopwatch.StartNew();
         private readonly ulong callsBefore = Jvm.StepCalls;
         private readonly List<double> stepTimes = new List<double>();
         private readonly List<double> totalTimes = new List<double>();
@@ -34,13 +35,13 @@ namespace Collektive.Headless
         private string cause = "";
         private int completedTicks;
 
-        /// <param name="startTime">Start time of the run in UTC; null for the start time of the process.</param>
-        internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, DateTime? startTime = null)
+        /// <param name="timeBefore">Time from the start of the run until now; null for the time since the start of the process.</param>
+        internal ScenarioRun(Scenario scenario, Options options, Interrupt interrupt, TimeSpan? timeBefore = null)
         {
             this.scenario = scenario;
             this.options = options;
             this.interrupt = interrupt;
-            this.startTime = startTime ?? Process.GetCurrentProcess().StartTime.ToUniversalTime();
+            this.timeBefore = timeBefore ?? DateTime.UtcNow - Process.GetCurrentProcess().StartTime.ToUniversalTime();
             if (scenario.OriginalRun != null
                 && (options.Seed != null || options.Seconds != null || options.Assignments.Count + options.FieldAssignments.Count > 0))
             {
@@ -146,7 +147,7 @@ namespace Collektive.Headless
 
         private void Count(SimulationManager manager)
         {
-            if (++completedTicks == 1) firstTick = DateTime.UtcNow - startTime;
+            if (++completedTicks == 1) firstTick = timeBefore + time.Elapsed;
             metrics.Add(manager.Times, manager.Network);
             runMetrics.Ticked(manager);
             stepTimes.Add(manager.Times.Step);

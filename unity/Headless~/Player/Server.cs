@@ -119,7 +119,7 @@ namespace Collektive.Headless
                 Console.SetError(writer);
                 try
                 {
-                    code = new ScenarioRun(Read(request), options.For(folder), interrupt, DateTime.UtcNow).Run();
+                    code = new ScenarioRun(Read(request), options.For(folder), interrupt, TimeSpan.Zero).Run();
                 }
                 catch (Exception error)
                 {
