@@ -127,8 +127,8 @@ class Live:
         try:
             await self.player.stop()
             await self.start()
-        except (Failure, OSError) as failure:
-            # The player has already printed the error of an invalid scenario, and the compilers have printed their errors.
+        except (Failure, OSError, ValueError) as failure:
+            # A value with a null character is a ValueError. The player has already printed the error of an invalid scenario, and the compilers have printed their errors.
             reason = str(failure) or f"the {'scenario is invalid' if self.plan is plan else 'sources do not compile'}; the reason is in the terminal"
             stopped = {"event": "stopped", "message": reason}
         if self.plan is plan:
@@ -228,7 +228,7 @@ class Live:
                 await page.connection.close(1008, "too many commands")
                 return
             try:
-                command = json.loads(text)
+                command = json.loads(text, parse_constant=_refuse)
                 await self.execute(page, command)
             except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
                 page.event({"event": "warning", "message": f"a command from the page is invalid: {error!r}"})
@@ -356,6 +356,10 @@ class Live:
 
 def _text(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
+
+
+def _refuse(constant: str) -> None:
+    raise ValueError(f"{constant} is not a JSON number")
 
 
 class Gate:

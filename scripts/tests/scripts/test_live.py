@@ -175,7 +175,12 @@ def test_an_interrupted_copy_of_an_example_is_not_used(tmp_path: Path, monkeypat
     assert list(Path("out/live/GradientAscent/programs").glob("**/*.kt"))
 
 
-def test_an_unreadable_source_at_a_restart_is_reported_to_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.parametrize(("error", "message"), [
+    (PermissionError(13, "Permission denied", "A.kt"), "[Errno 13] Permission denied: 'A.kt'"),
+    # A page can send a value with a null character, which a command line cannot contain.
+    (ValueError("embedded null byte"), "embedded null byte"),
+])
+def test_an_error_at_a_restart_is_reported_to_the_page(error: Exception, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     # The environment of this suite does not contain this package.
     for name in ("asyncio.server", "datastructures", "exceptions", "http11"):
         monkeypatch.setitem(sys.modules, f"websockets.{name}", MagicMock())
@@ -183,7 +188,7 @@ def test_an_unreadable_source_at_a_restart_is_reported_to_the_page(tmp_path: Pat
     live_run = server.Live({"scenario": "a.json", "trust_jvm": False, "seed": None, "values": []}, tmp_path)
     live_run.plan = None
     live_run.player = AsyncMock()
-    live_run.start = AsyncMock(side_effect=PermissionError(13, "Permission denied", "A.kt"))
+    live_run.start = AsyncMock(side_effect=error)
     asyncio.run(live_run.restart("b.json", None, {}, False))
-    assert live_run.stopped == {"event": "stopped", "message": "[Errno 13] Permission denied: 'A.kt'"}
+    assert live_run.stopped == {"event": "stopped", "message": message}
     assert live_run.scenario == "a.json"

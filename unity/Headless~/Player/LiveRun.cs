@@ -1,6 +1,7 @@
 using System;
 using System.Diagnostics;
 using System.Globalization;
+using System.Linq;
 using Collektive.Bridge;
 using Collektive.Unity;
 using Newtonsoft.Json.Linq;
@@ -213,14 +214,21 @@ namespace Collektive.Headless
                 foreach (var parameter in known.Parameters)
                 {
                     if (parameter.Name != name) continue;
-                    var isNumber = parameter.Type == ParameterType.Number || parameter.Type == ParameterType.Integer;
-                    if (isNumber && !double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out _))
-                        Notify("parameter '" + name + "' must be a number");
+                    if (FindProblem(parameter, value) is string problem) Notify("parameter '" + name + "' " + problem);
                     else manager.Simulation.SetParameter(program, name, value);
                     return;
                 }
             }
             Notify("program '" + program + "' has no parameter '" + name + "'");
+        }
+
+        /// <summary>Returns the reason why the engine would reject a value and end the simulation, or null.</summary>
+        internal static string FindProblem(ProgramParameter parameter, string value)
+        {
+            if (parameter.Type == ParameterType.Enum)
+                return parameter.Values.Contains(value) ? null : "must be one of " + string.Join(", ", parameter.Values);
+            var isNumber = parameter.Type == ParameterType.Number || parameter.Type == ParameterType.Integer;
+            return !isNumber || double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out _) ? null : "must be a number";
         }
 
         private void RemoveNode(int id)

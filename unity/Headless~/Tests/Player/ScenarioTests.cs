@@ -5,6 +5,7 @@ using System.IO;
 using System.Linq;
 using System.Reflection;
 using System.Threading;
+using Collektive.Bridge;
 using Collektive.Unity;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -175,6 +176,16 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("threads", "--set threads: write it as --set KEY=VALUE")]
         public void Invalid_assignments_are_reported(string assignment, string message) =>
             Assert.That(Assert.Throws<ScenarioException>(() => Read(Minimal(), assignment)).Message, Is.StringContaining(message));
+
+        [TestCase("LINE", "RING", null)]
+        [TestCase("LINE", "CIRCLE", "must be one of LINE, RING")]
+        [TestCase("2", "-1e3", null)]
+        [TestCase("2", "many", "must be a number")]
+        public void A_live_run_refuses_values_of_parameters_that_would_end_it(string byDefault, string value, string problem)
+        {
+            var parameter = new ProgramParameter("shape", byDefault, "", byDefault == "2" ? new string[0] : new[] { "LINE", "RING" });
+            Assert.That(LiveRun.FindProblem(parameter, value), Is.EqualTo(problem));
+        }
 
         [TestCase(5, null)]
         [TestCase(9, 0.0)]
