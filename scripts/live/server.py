@@ -128,7 +128,8 @@ class Live:
             await self.player.stop()
             await self.start()
         except (Failure, OSError, ValueError) as failure:
-            # A value with a null character is a ValueError. The player has already printed the error of an invalid scenario, and the compilers have printed their errors.
+            # A value with a null character causes a ValueError. The player has already printed the error of an invalid scenario, and the compilers have
+            # printed their errors.
             reason = str(failure) or f"the {'scenario is invalid' if self.plan is plan else 'sources do not compile'}; the reason is in the terminal"
             stopped = {"event": "stopped", "message": reason}
         if self.plan is plan:

@@ -13,7 +13,8 @@ def test_the_index_of_a_jar_contains_the_parameters_of_its_programs(tmp_path: Pa
     jar.write_bytes(b"not a jar")
     assert projects.parameter_names(jar) == {}
     with zipfile.ZipFile(jar, "w") as archive:
-        archive.writestr("META-INF/collektive/programs/a.AKt", "program\ta\\\\b\ta.SensorData\nparameter\twidth\t1\tWidth.\nprogram\tc\ta.SensorData\n")
+        archive.writestr("META-INF/collektive/programs/a.AKt",
+                         "program\ta\\\\b\ta.SensorData\nparameter\twidth\t1\tWidth.\nprogram\tc\ta.SensorData\n")
     assert projects.parameter_names(jar) == {"a\\b": {"width"}, "c": set()}
 
 
@@ -21,7 +22,7 @@ def test_the_index_of_a_jar_contains_the_parameters_of_its_programs(tmp_path: Pa
     ({"hops": {"width": 1}}, "'parameters.hops': unknown program; the programs are: channel"),
     ({"channel": {"wide": 1}}, r"'parameters.channel.wide': unknown parameter; the program declares: length, width"),
 ])
-def test_unknown_parameters_are_rejected_before_the_run(parameters: dict[str, dict[str, int]], message: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unknown_names_are_rejected_before_the_run(parameters: dict[str, dict[str, int]], message: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(projects, "program_names", lambda part: None)
     monkeypatch.setattr(projects, "programs_jar", lambda *parts: Path("programs.jar"))
     monkeypatch.setattr(projects, "parameter_names", lambda jar: {"channel": {"width", "length"}})
@@ -29,4 +30,5 @@ def test_unknown_parameters_are_rejected_before_the_run(parameters: dict[str, di
     for file in [{"parameters": parameters}, {"scenario": {"parameters": parameters}, "parameters": {}}]:
         with pytest.raises(Failure, match=message):
             player.Plan({"file": file}, parts).programs_jar()  # type: ignore[arg-type]
-    assert player.Plan({"file": {"parameters": {"channel": {"width": 1}}}}, parts).programs_jar() == Path("programs.jar")  # type: ignore[arg-type]
+    plan = player.Plan({"file": {"parameters": {"channel": {"width": 1}}}}, parts)  # type: ignore[arg-type]
+    assert plan.programs_jar() == Path("programs.jar")

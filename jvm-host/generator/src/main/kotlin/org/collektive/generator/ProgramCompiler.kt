@@ -68,7 +68,7 @@ internal object ProgramCompiler {
         val sources = values.getValue("--source")
         // The Kotlin compiler reads Java files but does not compile them.
         sources.flatMap { files(Path.of(it), "").values }.find { "$it".endsWith(".java") }?.let {
-            throw GeneratorException("$it: programs are compiled from Kotlin only: convert this Java file to Kotlin, or move it to another folder")
+            throw GeneratorException("$it: only Kotlin is compiled: convert this Java file to Kotlin, or move it to another folder")
         }
         val library = values.getValue("--library").joinToString(File.pathSeparator)
         generated.deleteRecursively()

@@ -35,8 +35,9 @@ internal class RefusalTest {
     fun `Java files among programs are refused`(@TempDir folder: Path) {
         Files.createFile(folder.resolve("Helper.java"))
         val log = ByteArrayOutputStream()
-        assertEquals(1, ProgramCompiler.compile(listOf("--jar", "$folder/a.jar", "--work", "$folder/work", "--source", "$folder"), PrintStream(log)))
-        assertContains("$log", "Helper.java: programs are compiled from Kotlin only")
+        val words = listOf("--jar", "$folder/a.jar", "--work", "$folder/work", "--source", "$folder")
+        assertEquals(1, ProgramCompiler.compile(words, PrintStream(log)))
+        assertContains("$log", "Helper.java: only Kotlin is compiled")
     }
 
     @Test
