@@ -31,6 +31,26 @@ class BranchTest {
         assertSeen("parameterInArms", 0 to setOf(2), 1 to setOf(3))
 
     @Test
+    fun `different lambdas from outside aggregate functions do not align where they are called`() {
+        val programs = listOf("storedLambda", "storedObject", "storedFieldLambda", "storedProperty", "storedEffect", "earlyReturnOfLambda")
+        for (program in programs) {
+            assertSeen(program, 0 to setOf(2), 1 to setOf(3))
+        }
+    }
+
+    @Test
+    fun `the same lambda from outside aggregate functions aligns where it is called`() {
+        assertSeen("sameLambda", 0 to setOf(1, 2, 3))
+        assertSeen("nonLocalReturn", 0 to setOf(1, 2, 3))
+    }
+
+    @Test
+    fun `a lambda from outside aggregate functions is in the path`() = assertEquals(
+        listOf("invoke > lambda > neighboring", "seen > neighboring"),
+        trace(compiled.program("lambdaThenCall")).second,
+    )
+
+    @Test
     fun `a local function called in both arms does not align across them`() = assertSeen("functionInArms", 0 to setOf(2), 1 to setOf(3))
 
     @Test
@@ -109,6 +129,40 @@ class BranchTest {
                 fun look() = seen()
                 return if (even) look() else look()
             }
+
+            val looks = listOf<Aggregate<Int>.() -> Set<Int>>({ ids(neighboring(0)) }, { ids(neighboring(1)) })
+            fun Aggregate<Int>.storedLambda(): Set<Int> = looks[localId % 2](this)
+
+            fun interface Look { fun of(device: Aggregate<Int>): Set<Int> }
+            val lookers = listOf(Look { ids(it.neighboring(0)) }, Look { ids(it.neighboring(1)) })
+            fun Aggregate<Int>.storedObject(): Set<Int> = lookers[localId % 2].of(this)
+
+            val ofField = listOf<(Field<Int, Int>) -> Set<Int>>({ ids(it.context.neighboring(0)) }, { ids(it.context.neighboring(1)) })
+            fun Aggregate<Int>.storedFieldLambda(): Set<Int> = neighboring(0).let { ofField[localId % 2](it) }
+
+            class Strategy(val look: Aggregate<Int>.() -> Set<Int>)
+            val strategy = Strategy { seen() }
+            val otherStrategy = Strategy { seen() }
+            fun Aggregate<Int>.storedProperty(): Set<Int> = listOf(strategy, otherStrategy)[localId % 2].look(this)
+
+            val returning = listOf<Aggregate<Int>.() -> Set<Int>>(
+                { if (localId < 0) return@listOf setOf<Int>(); ids(neighboring(0)) },
+                { if (localId > 0) return@listOf ids(neighboring(0)); seen() },
+            )
+            fun Aggregate<Int>.earlyReturnOfLambda(): Set<Int> = returning[localId % 2](this)
+
+            val effects = listOf<Aggregate<Int>.(MutableSet<Int>) -> Unit>(
+                { it += seen() },
+                { if (localId > 0) it += seen() },
+                { seen(); error("") },
+            )
+            fun Aggregate<Int>.storedEffect(): Set<Int> = mutableSetOf<Int>().also { effects[localId % 2](this, it) }
+
+            fun nonLocal(device: Any): Set<Int> { with(device as Aggregate<Int>) { return seen() } }
+            fun Aggregate<Int>.nonLocalReturn(): Set<Int> = nonLocal(this)
+
+            fun Aggregate<Int>.sameLambda(): Set<Int> = listOf(looks[0], looks[0])[localId % 2](this)
+            fun Aggregate<Int>.lambdaThenCall(): Set<Int> = looks[0](this) + seen()
 
             class Keeper(private val device: Aggregate<Int>) { fun look(): Set<Int> = device.seen() }
             fun Aggregate<Int>.keeperInArms(): Set<Int> { val keeper = Keeper(this); return if (even) keeper.look() else keeper.look() }

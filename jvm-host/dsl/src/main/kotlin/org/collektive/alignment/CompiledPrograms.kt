@@ -16,6 +16,16 @@ public fun pushToken(aggregate: Aggregate<*>?, token: String): Int {
     return 0
 }
 
+/**
+ * Called at the beginning of a lambda that is written outside aggregate functions, with a token that identifies the lambda.
+ *
+ * At depth 0, the lambda is the whole program of a device. The token is dropped there, so programs from different lambdas are aligned
+ * where they make the same calls. If [aggregate] does not implement [AlignmentStack], its depth is unknown and the token stays.
+ */
+public fun pushLambdaToken(aggregate: Aggregate<*>?, token: String): Int = pushToken(aggregate, token).also { depth ->
+    if (depth == 0 && aggregate is AlignmentStack) aggregate.popTo(0)
+}
+
 /** Called after an aligned call or branch, even if it throws an exception. */
 public fun popToken(aggregate: Aggregate<*>?, depth: Int) {
     if (aggregate is AlignmentStack) aggregate.popTo(depth) else aggregate?.dealign()

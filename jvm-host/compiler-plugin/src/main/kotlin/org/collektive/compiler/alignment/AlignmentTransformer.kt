@@ -15,6 +15,7 @@ import org.jetbrains.kotlin.ir.builders.irBlock
 import org.jetbrains.kotlin.ir.builders.irCall
 import org.jetbrains.kotlin.ir.builders.irGet
 import org.jetbrains.kotlin.ir.builders.irGetField
+import org.jetbrains.kotlin.ir.builders.irReturn
 import org.jetbrains.kotlin.ir.builders.irString
 import org.jetbrains.kotlin.ir.builders.irTemporary
 import org.jetbrains.kotlin.ir.builders.irTry
@@ -44,10 +45,12 @@ import org.jetbrains.kotlin.ir.expressions.IrFunctionAccessExpression
 import org.jetbrains.kotlin.ir.expressions.IrFunctionExpression
 import org.jetbrains.kotlin.ir.expressions.IrGetObjectValue
 import org.jetbrains.kotlin.ir.expressions.IrGetValue
+import org.jetbrains.kotlin.ir.expressions.IrReturn
 import org.jetbrains.kotlin.ir.expressions.IrStatementContainer
 import org.jetbrains.kotlin.ir.expressions.IrStatementOrigin
 import org.jetbrains.kotlin.ir.expressions.IrTypeOperatorCall
 import org.jetbrains.kotlin.ir.expressions.IrWhen
+import org.jetbrains.kotlin.ir.symbols.IrSimpleFunctionSymbol
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
 import org.jetbrains.kotlin.ir.types.IrSimpleType
 import org.jetbrains.kotlin.ir.types.isNothing
@@ -65,6 +68,7 @@ import org.jetbrains.kotlin.name.Name
  * Rewrites the aggregate functions of one file:
  * - A call that can reach a primitive runs between the push and the pop of its token. Its arguments are evaluated before the push.
  * - An arm of a branch that contains such a call or reads a field also gets a token.
+ * - A lambda with an Aggregate that is written outside aggregate functions runs below its own token, unless it is the whole program.
  * - Inside an arm or the body of `alignedOn`, each read of a field from outside goes through `project`.
  *
  * Pops are in `finally` blocks, so that no exit from a call (return, break, a caught exception) leaves a token on the stack. A `catch`
@@ -125,12 +129,19 @@ internal class AlignmentTransformer(
         val outerRegion = region
         val outerEntry = entry
         source = sourceIn(declaration) ?: outerSource
-        if (outerSource == null && source != null && declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA) {
+        val outerDepends = dependsOnPath
+        val isEntry = outerSource == null && source != null && declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA
+        if (isEntry) {
             entry = declaration
+            dependsOnPath = false
         }
         if (declaration in alignedBodies) region = Region(outerRegion)
         if (declaration !in stdlibLambdas) for (parameter in declaration.parameters) regionOf[parameter] = region
         val result = super.visitFunctionNew(declaration)
+        if (isEntry) {
+            if (dependsOnPath) alignEntry(declaration)
+            dependsOnPath = outerDepends
+        }
         source = outerSource
         region = outerRegion
         entry = outerEntry
@@ -263,8 +274,30 @@ internal class AlignmentTransformer(
     private fun aligned(arm: IrExpression, name: String): IrExpression =
         builderAt(arm).irBlock(resultType = arm.type) { align(arm, token(name, arm)) { current() } }
 
-    private fun IrBlockBuilder.align(body: IrExpression, token: String, aggregate: IrBlockBuilder.() -> IrExpression) {
-        val push = irCall(dsl.pushToken).apply {
+    /** Runs the body of [lambda] below its own token, so that different lambdas called at one place are not aligned. */
+    private fun alignEntry(lambda: IrFunction) {
+        val statements = (lambda.body as? IrBlockBody)?.statements ?: return
+        val last = statements.lastOrNull() as? IrExpression
+        val result = (last as? IrReturn)?.takeIf { it.returnTargetSymbol == lambda.symbol }?.value
+        val type = (result ?: last)?.type?.takeIf { result != null || it.isNothing() } ?: plugin.irBuiltIns.unitType
+        val token = tokens.next("lambda", lambda.startOffset, lambda, null)
+        DeclarationIrBuilder(plugin, lambda.symbol, lambda.startOffset, lambda.endOffset).run {
+            val code = irBlock(resultType = type) {
+                for (statement in statements) +(if (statement === last && result != null) result else statement)
+            }
+            val aligned = irBlock(resultType = type) { align(code, token, dsl.pushLambdaToken) { current() } }
+            statements.clear()
+            statements += if (result == null) aligned else irReturn(aligned)
+        }
+    }
+
+    private fun IrBlockBuilder.align(
+        body: IrExpression,
+        token: String,
+        pushFunction: IrSimpleFunctionSymbol = dsl.pushToken,
+        aggregate: IrBlockBuilder.() -> IrExpression,
+    ) {
+        val push = irCall(pushFunction).apply {
             arguments[0] = aggregate()
             arguments[1] = irString(token)
         }

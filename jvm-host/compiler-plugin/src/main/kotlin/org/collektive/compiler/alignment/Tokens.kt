@@ -14,7 +14,8 @@ import org.jetbrains.kotlin.ir.util.render
  *
  * An entry is a lambda with an Aggregate receiver that is not inside other aggregate code, such as the lambda passed to
  * `Collektive.aggregate`. Inside an entry, tokens have no location, and the hash covers only declarations inside the entry. Two entries
- * with the same calls in the same order therefore align, wherever they are written.
+ * with the same calls in the same order therefore align, wherever they are written, if each is the whole program of its device. If an
+ * entry is called inside a program, its tokens are below the token of the entry itself, which has a location.
  *
  * Tokens are compared by their whole text, so error messages need no table of names. The text depends only on the sources, so it is the
  * same on all devices that run the same jar.

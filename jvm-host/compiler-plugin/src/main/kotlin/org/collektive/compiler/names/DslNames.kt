@@ -25,6 +25,7 @@ internal object DslNames {
     val local = Name.identifier("local")
 
     val pushToken = CallableId(alignmentPackage, Name.identifier("pushToken"))
+    val pushLambdaToken = CallableId(alignmentPackage, Name.identifier("pushLambdaToken"))
     val popToken = CallableId(alignmentPackage, Name.identifier("popToken"))
     val recordFailure = CallableId(alignmentPackage, Name.identifier("recordFailure"))
     val project = CallableId(alignmentPackage, Name.identifier("project"))

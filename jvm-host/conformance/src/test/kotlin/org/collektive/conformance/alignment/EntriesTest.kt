@@ -11,6 +11,8 @@ import kotlin.test.assertNotEquals
 
 fun Aggregate<Int>.counted(start: Int): Int = share(start) { it.local.value + 1 }
 
+val actions = listOf<Aggregate<Int>.() -> Int>({ counted(1) }, { counted(2) })
+
 /** Tests that two programs from different lambdas are aligned where they make the same calls in the same order. */
 class EntriesTest {
     private fun paths(result: AggregateResult<Int, *>) = result.toSend.prepareMessageFor(9).sharedData.keys
@@ -34,5 +36,14 @@ class EntriesTest {
         assertNotEquals(paths(first), paths(calls))
         assertEquals(1, (paths(first) intersect paths(calls)).size)
         assertEquals(emptySet(), paths(first) intersect paths(order))
+    }
+
+    @Test
+    fun `different lambdas called inside a program do not align, and the same lambda does`() {
+        val program: Aggregate<Int>.() -> Int = { actions[localId](this) }
+        val first = paths(Collektive.aggregate(0, compute = program))
+        assertEquals(emptySet(), first intersect paths(Collektive.aggregate(1, compute = program)))
+        val same: Aggregate<Int>.() -> Int = { actions[0](this) }
+        assertEquals(paths(Collektive.aggregate(0, compute = same)), paths(Collektive.aggregate(1, compute = same)))
     }
 }
