@@ -12,6 +12,7 @@ import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.stdlib.util.HopPath
 import it.unibo.collektive.stdlib.util.Reducer
 import it.unibo.collektive.stdlib.util.aligned
+import it.unibo.collektive.stdlib.util.isSameAs
 import kotlinx.serialization.Serializable
 
 /**
@@ -133,7 +134,7 @@ private fun <ID : Any, V> best(
     val id = received.neighborId(from)
     val path = received.neighborValue(from).path
     val former = received.local.value
-    return if (former.value == best && former.path.extends(path, id)) former else GossipValue(best, path + id)
+    return if (former.value.isSameAs(best) && former.path.extends(path, id)) former else GossipValue(best, path + id)
 }
 
 /** Returns the length of the shortest received path with at least [least] hops, or -1 if no path is that long. */

@@ -14,6 +14,7 @@ import it.unibo.collektive.stdlib.util.PathValue
 import it.unibo.collektive.stdlib.util.aligned
 import it.unibo.collektive.stdlib.util.forEachNeighborWith
 import it.unibo.collektive.stdlib.util.hops
+import it.unibo.collektive.stdlib.util.isSameAs
 import it.unibo.collektive.stdlib.util.nonOverflowingPlus
 
 /**
@@ -36,7 +37,8 @@ import it.unibo.collektive.stdlib.util.nonOverflowingPlus
  * not creep up when a source or a link disappears, unlike those of [bellmanFordGradientCast] (the "rising value" problem).
  *
  * @param source whether this device is a source.
- * @param local the data of a source, and the result of a device that cannot reach a source.
+ * @param local the data of a source, and the result of a device that cannot reach a source. A round is cheaper if unchanged data is the
+ *   same object, a number or a text.
  * @param bottom the distance of a source to itself, and the lower bound of [metric].
  * @param top infinity: the upper bound of [metric].
  * @param metric the distances to the neighbours, coerced to [bottom]..[top]. Paths are shortest only if distances exceed [bottom].
@@ -122,7 +124,8 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
 
     /** Returns the offer of a source, which is [former] itself if nothing changed. */
     private fun atSource(local: V, former: PathValue<ID, V, D>?): PathValue<ID, V, D> =
-        former?.takeIf { it.length == 0 && it.distance == bottom && it.data == local } ?: PathValue(bottom, local, HopPath.empty<ID>())
+        former?.takeIf { it.length == 0 && it.distance.isSameAs(bottom) && it.data.isSameAs(local) }
+            ?: PathValue(bottom, local, HopPath.empty<ID>())
 
     /** Returns the field to send. Its local value is this device's result. */
     private fun spread(received: Field<ID, PathValue<ID, V, D>?>): Field<ID, PathValue<ID, V, D>?> {
@@ -157,7 +160,8 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
         received.forEachNeighborWith(metric) { id, value, distance ->
             val offer = offers[index++]
             val step = distance.coerceIn(bottom, top)
-            if (value !== offer.value || id != offer.id || step != offer.step || sum(value, step) != offer.sum) return false
+            if (value !== offer.value || id != offer.id) return false
+            if (!step.isSameAs(offer.step) || !sum(value, step).isSameAs(offer.sum)) return false
         }
         return true
     }
@@ -216,18 +220,14 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
     /**
      * Returns the value of [offer] on this device.
      *
-     * Returns [former] itself if nothing changed, so a settled network allocates no paths.
+     * Returns [former] itself if nothing changed, and its path if only the data changed, so a settled network allocates no paths.
      */
     private fun take(offer: Offer<ID, V, D>, former: PathValue<ID, V, D>?): PathValue<ID, V, D> {
         val value = checkNotNull(offer.value)
         val data = accumulateData(value.distance, offer.step, value.data)
-        return if (
-            former != null && former.path.extends(value.path, offer.id) && former.distance == offer.distance && former.data == data
-        ) {
-            former
-        } else {
-            PathValue(offer.distance, data, value.path + offer.id)
-        }
+        val known = former?.takeIf { it.path.extends(value.path, offer.id) }
+        return known?.takeIf { it.distance.isSameAs(offer.distance) && it.data.isSameAs(data) }
+            ?: PathValue(offer.distance, data, known?.path ?: (value.path + offer.id))
     }
 }
 

@@ -26,6 +26,15 @@ class GossipTest {
     }
 
     @Test
+    fun `a value whose equals ignores a change is updated`() {
+        val swarm = Swarm(3).line(1.0, 1.0)
+        for (note in listOf("old", "new")) {
+            val seen = swarm.rounds(4) { gossipMaxBy(Labelled(-localId, note)) { it.id } }
+            assertEquals(List(3) { note }, seen.values.map { it.note })
+        }
+    }
+
+    @Test
     fun `a condition that holds anywhere is true everywhere, and false again when it ends`() = perturbed(0 until 4) {
             swarm,
             atOnce,

@@ -36,6 +36,22 @@ class GradientCastTest {
     }
 
     @Test
+    fun `data whose equals ignores a change is updated`() {
+        val swarm = Swarm(3).line(1.0, 1.0)
+        for (note in listOf("old", "new")) {
+            val seen = swarm.rounds(4) {
+                val metric = with(swarm) { lengths() }
+                val sent = alignedOn("sent") { gradientCast(localId == 0, Labelled(1, note), metric) }
+                val accumulated = alignedOn("accumulated") {
+                    gradientCast(localId == 0, Labelled(1, note), metric, accumulateData = { _, _, _ -> Labelled(1, note) })
+                }
+                sent.note to accumulated.note
+            }
+            assertEquals(List(3) { note to note }, seen.values.toList())
+        }
+    }
+
+    @Test
     fun `hops are counted up to one more than maxDiameter, and are 0 elsewhere`() = perturbed { swarm, atOnce, random ->
         val sources = swarm.ids.filter { random.nextInt(6) == 0 }.toSet()
         val limit = random.nextInt(1, 5)
