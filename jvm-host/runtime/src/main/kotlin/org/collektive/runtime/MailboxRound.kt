@@ -93,7 +93,7 @@ internal class MailboxRound<ID : Any>(
     override fun <T> send(path: Path, values: Field<ID, T>, sharing: DataSharingMethod<T>) {
         val default = values.local.value
         val overrides = LinkedHashMap<ID, T>()
-        for ((id, value) in values.neighbors.list) if (value != default) overrides[id] = value
+        for ((id, value) in values.neighbors.list) if (!isSame(value, default)) overrides[id] = value
         outbound.addData(path, SharedData(default, overrides), sharing)
     }
 
@@ -119,6 +119,9 @@ internal class MailboxRound<ID : Any>(
     }
 
     private companion object {
+        /** Returns whether a message can replace [a] by [b]. Only `equals` of built-in types compares everything. */
+        fun isSame(a: Any?, b: Any?) = a === b || (a is Number || a is String || a is Boolean || a is Char) && a == b
+
         /** Returns [ids], sorted if they are comparable, because fields require sorted numbers. */
         fun <ID : Any> ascending(ids: Set<ID>): List<ID> {
             val type = ids.firstOrNull()?.javaClass

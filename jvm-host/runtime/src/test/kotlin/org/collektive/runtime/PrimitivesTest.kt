@@ -134,6 +134,26 @@ class PrimitivesTest {
     }
 
     @Test
+    fun `each neighbour gets its own value even if equals says that it is the local one`() {
+        class Note(val receiver: Int) {
+            override fun equals(other: Any?) = other is Note
+
+            override fun hashCode() = 0
+        }
+        for (network in listOf(network(1, 2, 3), Network(mailboxes(null), 1, 2, 3))) {
+            network.line(1, 2, 3)
+            val seen = List(3) {
+                network.round {
+                    exchanging(Note(0)) { notes ->
+                        notes.map { Note(it.id) }.yielding { notes.neighbors.values.list.map { it.receiver } }
+                    }
+                }
+            }
+            assertEquals(mapOf(1 to listOf(1), 2 to listOf(2, 2), 3 to listOf(3)), seen.last())
+        }
+    }
+
+    @Test
     fun `a new node with an old id starts without state and messages`() {
         val network = network(1, 2).line(1, 2)
         val program: Aggregate<Int>.() -> Any? = {
