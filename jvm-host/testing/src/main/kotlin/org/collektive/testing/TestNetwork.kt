@@ -47,8 +47,9 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
     private val tick = Tick()
     private val ids = TreeSet<Int>()
 
-    // The links in the engine, and those that the next round adds or changes.
+    // The links in the engine, and those that the next round removes, or adds or changes. The engine removes a node's links itself.
     private val links = HashSet<Pair<Int, Int>>()
+    private val removedLinks = LinkedHashSet<Pair<Int, Int>>()
     private val newLinks = LinkedHashMap<Pair<Int, Int>, LinkValues>()
 
     /** The ids of all nodes, in ascending order. */
@@ -69,8 +70,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
         known(id)
         ids -= id
         if (!tick.nodesAdded.removeIf { it.id == id }) tick.nodesRemoved.add(id)
-        links.removeIf { it.first == id || it.second == id }
-        newLinks.keys.removeIf { it.first == id || it.second == id }
+        for (list in listOf(links, removedLinks, newLinks.keys)) list.removeIf { it.first == id || it.second == id }
     }
 
     /** Links [a] and [b] in both directions, or updates their links: [length] is in metres, [attenuation] 0 (clear) or greater. */
@@ -85,9 +85,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
     public fun unlink(a: Int, b: Int) {
         for (link in listOf(known(a) to known(b), b to a)) {
             newLinks -= link
-            if (!links.remove(link)) continue
-            tick.linksRemoved.add(link.first)
-            tick.linksRemoved.add(link.second)
+            if (links.remove(link)) removedLinks += link
         }
     }
 
@@ -131,6 +129,11 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
         tick.number++
         tick.time = tick.number * deltaTime
         tick.deltaTime = deltaTime
+        for ((from, to) in removedLinks) {
+            tick.linksRemoved.add(from)
+            tick.linksRemoved.add(to)
+        }
+        removedLinks.clear()
         tick.links =
             LinkList().also { list ->
                 for ((link, values) in newLinks) list.add(link.first, link.second, values.length, values.attenuation)

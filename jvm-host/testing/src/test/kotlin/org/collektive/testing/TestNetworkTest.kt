@@ -71,6 +71,26 @@ class TestNetworkTest {
     }
 
     @TestFactory
+    fun `links can be removed, and added again, before their node is removed`() = onBoth {
+        fun counts() = round { neighborhood().neighbors.size }
+        repeat(2) { counts() }
+        unlink(0, 1)
+        unlink(1, 2)
+        link(1, 2)
+        remove(1)
+        assertEquals(mapOf(0 to 0, 2 to 0), counts())
+        add(1)
+        link(0, 1)
+        unlink(0, 1)
+        link(1, 2)
+        repeat(2) { counts() }
+        assertEquals(mapOf(0 to 0, 1 to 1, 2 to 1), counts())
+        unlink(1, 2)
+        link(1, 2)
+        assertEquals(mapOf(0 to 0, 1 to 1, 2 to 1), counts())
+    }
+
+    @TestFactory
     fun `state lasts from round to round and ends with its node`() = onBoth {
         fun count() = round { evolve(0) { it + 1 } }
         repeat(2) { count() }
