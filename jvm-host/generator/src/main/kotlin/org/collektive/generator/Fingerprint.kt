@@ -56,9 +56,12 @@ internal object Fingerprint {
         when {
             field.required -> append(" required")
             field.optional -> append("=null")
-            scalar != null -> append('=').append(if (scalar.real) field.default.real else field.default.integer)
+            scalar != null -> append('=').append(if (scalar.real) text(field.default.real) else field.default.integer)
         }
     }
+
+    /** A text that is the same on all JDKs, unlike `toString`, whose digits changed in JDK 19. */
+    private fun text(real: Double): String = java.lang.Double.toHexString(real)
 
     /** The 64-bit FNV-1a hash of the text in UTF-8. */
     fun hash(text: String): Long {

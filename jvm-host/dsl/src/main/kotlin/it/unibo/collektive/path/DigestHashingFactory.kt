@@ -19,10 +19,17 @@ public value class DigestHashingFactory(public val digest: Digest = JdkDigest())
             }
         }
         for (token in tokens) {
-            val text = "${token?.javaClass?.name} $token"
+            val text = "${token?.javaClass?.name} ${text(token)}"
             digest.update("${text.length} $text".toByteArray())
         }
         return SerializablePath(digest.digestToString(), tokens.toList())
+    }
+
+    /** Returns the text of [token]. The digits of `toString` of a real number changed in JDK 19. */
+    private fun text(token: Any?) = when (token) {
+        is Double -> java.lang.Double.toHexString(token)
+        is Float -> java.lang.Float.toHexString(token)
+        else -> token.toString()
     }
 
     private fun overridesToString(type: Class<*>) = type.getMethod("toString").declaringClass != Any::class.java

@@ -31,6 +31,22 @@ class PathsTest {
     }
 
     @Test
+    fun `the digests of numbers are the same on all JDKs`() {
+        var text = ""
+        val digest = object : Digest {
+            override fun update(data: ByteArray) {
+                text += data.decodeToString()
+            }
+
+            override fun digest() = text.encodeToByteArray()
+
+            override fun digestToString() = text
+        }
+        DigestHashingFactory(digest)(2.0e-3, 0.1f, 7)
+        assertEquals("37 java.lang.Double 0x1.0624dd2f1a9fcp-929 java.lang.Float 0x1.99999ap-419 java.lang.Integer 7", text)
+    }
+
+    @Test
     fun `a digest path survives serialisation`() {
         val path = DigestHashingFactory()("a", Key("b", 2))
         val text = Json.encodeToString(Path.serializer(), path)
