@@ -32,8 +32,8 @@ class BranchTest {
 
     @Test
     fun `different lambdas from outside aggregate functions do not align where they are called`() {
-        val programs = listOf("storedLambda", "storedObject", "storedFieldLambda", "storedProperty", "storedEffect", "earlyReturnOfLambda")
-        for (program in programs) {
+        val stored = listOf("storedLambda", "storedObject", "storedFieldLambda", "storedProperty", "storedEffect")
+        for (program in stored + listOf("earlyReturnOfLambda", "table", "enum", "factory")) {
             assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         }
     }
@@ -57,6 +57,12 @@ class BranchTest {
     fun `a function of an object that keeps the Aggregate does not align across the arms`() {
         assertSeen("keeperInArms", 0 to setOf(2), 1 to setOf(3))
         assertSeen("keeperOfKeeperInArms", 0 to setOf(2), 1 to setOf(3))
+    }
+
+    @Test
+    fun `functions and objects that refer to each other do not align across the arms`() {
+        assertSeen("cycleInArms", 0 to setOf(2), 1 to setOf(3))
+        assertSeen("keeperOfCycleInArms", 0 to setOf(2), 1 to setOf(3))
     }
 
     @Test
@@ -168,6 +174,36 @@ class BranchTest {
             fun Aggregate<Int>.keeperInArms(): Set<Int> { val keeper = Keeper(this); return if (even) keeper.look() else keeper.look() }
             class Team(private val keeper: Keeper) { fun look(): Set<Int> = keeper.look() }
             fun Aggregate<Int>.keeperOfKeeperInArms(): Set<Int> { val team = Team(Keeper(this)); return if (even) team.look() else team.look() }
+
+            fun Aggregate<Int>.cycleInArms(): Set<Int> {
+                class Walk {
+                    fun start() = there(1)
+                    fun there(n: Int): Set<Int> = if (n > 0) back(n - 1) else seen()
+                    fun back(n: Int): Set<Int> = there(n)
+                }
+                val walk = Walk()
+                return if (even) walk.back(0) else walk.back(0)
+            }
+
+            class Node(val parent: Node2?, val keeper: Keeper)
+            class Node2 { lateinit var child: Node }
+            fun size(node: Node): Int = node.keeper.look().size
+            fun look(node: Node2): Set<Int> = node.child.keeper.look()
+            fun Aggregate<Int>.keeperOfCycleInArms(): Set<Int> {
+                val parent = Node2().also { it.child = Node(it, Keeper(this)) }
+                size(parent.child)
+                return if (even) look(parent) else look(parent)
+            }
+
+            val table: Map<Boolean, Aggregate<Int>.() -> Set<Int>> = mapOf(true to { seen() }, false to { seen() })
+            fun Aggregate<Int>.table(): Set<Int> = table.getValue(even)(this)
+
+            enum class Mode(val run: (Aggregate<Int>) -> Set<Int>) { EVEN({ it.seen() }), ODD({ it.seen() }) }
+            fun Aggregate<Int>.enum(): Set<Int> = (if (even) Mode.EVEN else Mode.ODD).run(this)
+
+            fun first(): Aggregate<Int>.() -> Set<Int> = { seen() }
+            fun second(): Aggregate<Int>.() -> Set<Int> = { seen() }
+            fun Aggregate<Int>.factory(): Set<Int> = (if (even) first() else second())(this)
 
             fun Aggregate<Int>.earlyReturn(): Set<Int> {
                 if (even) return setOf()

@@ -44,7 +44,7 @@ class ProjectionTest {
 
     @Test
     fun `a field is projected wherever it comes from`() {
-        for (program in listOf("property", "pair", "element", "destructured", "delegated", "smartCast", "cast")) {
+        for (program in listOf("property", "pair", "element", "destructured", "delegated", "lazyProperty", "smartCast", "cast")) {
             assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         }
         for (program in listOf("each", "iterated")) assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
@@ -114,6 +114,12 @@ class ProjectionTest {
                 return if (even) { val (g, _) = f; ids(g) } else { val (g, _) = f; ids(g) }
             }
             fun Aggregate<Int>.delegated(): Set<Int> { val f by lazy { neighboring(localId) }; f.local; return if (even) ids(f) else ids(f) }
+            class Lazily(private val device: Aggregate<Int>) { val field by lazy { device.neighboring(device.localId) } }
+            fun Aggregate<Int>.lazyProperty(): Set<Int> {
+                val lazily = Lazily(this)
+                lazily.field.local
+                return if (even) ids(lazily.field) else ids(lazily.field)
+            }
             fun Aggregate<Int>.smartCast(): Set<Any> {
                 val f: Any = neighboring(localId)
                 if (f !is Field<*, *>) return setOf()

@@ -35,7 +35,11 @@ import org.jetbrains.kotlin.ir.visitors.acceptVoid
  * use one. Only such calls are aligned. For all other calls (`sqrt`, `listOf`, getters of a field), alignment makes no difference.
  */
 internal class AggregateReach(private val dsl: DslSymbols) {
-    private val reachability = HashMap<IrFunction, Boolean>()
+    private val reachability = Reachability<IrFunction> { function ->
+        // A constructor runs the initialisers of its class.
+        val code = if (function is IrConstructor) function.parentAsClass else function
+        Finder().apply { code.acceptChildrenVoid(this) }.found
+    }
 
     /** Whether [call], inside an aggregate function, needs its own token on the alignment stack. */
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
@@ -96,15 +100,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         }
     }
 
-    private fun reachesPrimitive(function: IrFunction): Boolean {
-        reachability[function]?.let { return it }
-        reachability[function] = false // stops the recursion; the rest of the body determines the result
-        // A constructor runs the initialisers of its class.
-        val code = if (function is IrConstructor) function.parentAsClass else function
-        val found = Finder().apply { code.acceptChildrenVoid(this) }.found
-        reachability[function] = found
-        return found
-    }
+    private fun reachesPrimitive(function: IrFunction): Boolean = reachability.reaches(function)
 
     private inner class Finder : IrVisitorVoid() {
         var found = false

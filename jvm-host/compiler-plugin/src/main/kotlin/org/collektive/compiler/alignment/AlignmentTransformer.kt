@@ -210,7 +210,11 @@ internal class AlignmentTransformer(
 
     /** Whether [call] returns an existing field, for example from a property, a list or a pair. */
     private fun returnsExistingField(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
-        !dsl.isFieldMember(call.symbol.owner) && !reach.mustAlign(call) && call.arguments.none { it != null && dsl.isField(it.type) }
+        !dsl.isFieldMember(call.symbol.owner) && (isDelegated(call) || !reach.mustAlign(call)) &&
+        call.arguments.none { it != null && dsl.isField(it.type) }
+
+    /** Whether [call] reads a delegated property, whose delegate may store the field, as `lazy` does. */
+    private fun isDelegated(call: IrCall) = call.symbol.owner.origin == IrDeclarationOrigin.DELEGATED_PROPERTY_ACCESSOR
 
     private fun projected(field: IrExpression, name: String): IrExpression {
         dependsOnPath = true

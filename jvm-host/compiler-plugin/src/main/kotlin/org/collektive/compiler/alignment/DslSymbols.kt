@@ -50,19 +50,15 @@ internal class DslSymbols private constructor(
         type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::containsDslType) == true } ||
         type.getClass()?.let(::storesAggregate) == true
 
-    private val storesAggregateByClass = HashMap<IrClass, Boolean>()
-
-    /** Whether an object of [type] stores an Aggregate in a property, directly or through other objects. */
-    private fun storesAggregate(type: IrClass): Boolean {
-        if (PLATFORM.any(type.getPackageFragment().packageFqName::startsWith)) return false
-        storesAggregateByClass[type]?.let { return it }
-        storesAggregateByClass[type] = false // ends the recursion between classes that refer to each other
-        val found = aggregateProperty(type) != null || type.properties.any { property ->
+    private val storing = Reachability<IrClass> { type ->
+        aggregateProperty(type) != null || type.properties.any { property ->
             property.backingField?.type?.getClass()?.let(::storesAggregate) == true
         } || type.isInner && storesAggregate(type.parentAsClass)
-        storesAggregateByClass[type] = found
-        return found
     }
+
+    /** Whether an object of [type] stores an Aggregate in a property, directly or through other objects. */
+    private fun storesAggregate(type: IrClass): Boolean =
+        PLATFORM.none(type.getPackageFragment().packageFqName::startsWith) && storing.reaches(type)
 
     /**
      * The property in which an object of [type] stores the Aggregate of its program, or `null`. Implementations of Aggregate
