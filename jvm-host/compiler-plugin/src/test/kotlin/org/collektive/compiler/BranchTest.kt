@@ -185,15 +185,16 @@ class BranchTest {
                 return if (even) walk.back(0) else walk.back(0)
             }
 
-            class Node(val parent: Node2?, val keeper: Keeper)
+            class Node(val parent: Node2, val keeper: Keeper)
             class Node2 { lateinit var child: Node }
             fun size(node: Node): Int = node.keeper.look().size
             fun look(node: Node2): Set<Int> = node.child.keeper.look()
             fun Aggregate<Int>.keeperOfCycleInArms(): Set<Int> {
-                val parent = Node2().also { it.child = Node(it, Keeper(this)) }
-                size(parent.child)
-                return if (even) look(parent) else look(parent)
+                val child = node(this)
+                size(child)
+                return if (even) look(child.parent) else look(child.parent)
             }
+            fun node(device: Aggregate<Int>) = Node2().let { parent -> Node(parent, Keeper(device)).also { parent.child = it } }
 
             val table: Map<Boolean, Aggregate<Int>.() -> Set<Int>> = mapOf(true to { seen() }, false to { seen() })
             fun Aggregate<Int>.table(): Set<Int> = table.getValue(even)(this)
