@@ -87,6 +87,59 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Queries_find_colliders_after_others_were_destroyed()
+        {
+            Floor(); // so that a collider is always left
+            var place = new Vector3(0f, 50f, 0f);
+            for (var steps = 0; steps < 30; steps++)
+            {
+                var colliders = Row(10);
+                Assert.That(Physics.CheckSphere(colliders[0].transform.position, 0.1f));
+                colliders[1].transform.position += Vector3.up;
+                Run(steps * Step);
+                colliders[9].transform.position = place;
+                Run(Step);
+                UnityEngine.Object.DestroyImmediate(colliders[0].gameObject);
+                Assert.That(Physics.CheckSphere(place, 0.1f), $"after {steps} steps");
+                for (var index = 1; index < colliders.Count; index++) UnityEngine.Object.DestroyImmediate(colliders[index].gameObject);
+            }
+        }
+
+        [Test]
+        public void Queries_find_colliders_that_replaced_all_others()
+        {
+            for (var steps = 0; steps < 30; steps++)
+            {
+                var colliders = Row(10);
+                Assert.That(Physics.CheckSphere(colliders[0].transform.position, 0.1f));
+                colliders[1].transform.position += Vector3.up;
+                Run(Step);
+                foreach (var collider in colliders) UnityEngine.Object.DestroyImmediate(collider.gameObject);
+                colliders = Row(10);
+                Run(steps * Step);
+                colliders.AddRange(Row(10, height: 20f));
+                for (var step = 0; step < 30; step++)
+                {
+                    foreach (var collider in colliders) Assert.That(Physics.CheckSphere(collider.transform.position, 0.1f), $"{steps} and {step} steps");
+                    Run(Step);
+                }
+                foreach (var collider in colliders) UnityEngine.Object.DestroyImmediate(collider.gameObject);
+            }
+        }
+
+        static List<SphereCollider> Row(int count, float height = 5f)
+        {
+            var colliders = new List<SphereCollider>();
+            for (var index = 0; index < count; index++)
+            {
+                colliders.Add(new GameObject().AddComponent<SphereCollider>());
+                colliders[index].transform.position = new Vector3(3f * index, height, 0f);
+            }
+            Physics.SyncTransforms();
+            return colliders;
+        }
+
+        [Test]
         public void Overlaps_follow_moving_bodies()
         {
             var bodies = new List<Rigidbody>();
