@@ -127,6 +127,18 @@ namespace Collektive.Headless.Tests.Engine
             }
         }
 
+        [Test]
+        public void A_new_collider_keeps_its_place_when_a_moved_one_is_destroyed()
+        {
+            var old = new GameObject().AddComponent<SphereCollider>();
+            old.transform.position = new Vector3(10f, 0f, 0f);
+            Physics.SyncTransforms();
+            UnityEngine.Object.DestroyImmediate(old.gameObject);
+            var made = new GameObject().AddComponent<SphereCollider>();
+            Assert.That(Physics.CheckSphere(Vector3.zero, 0.1f));
+            Assert.That(made.bounds.center, Is.EqualTo(Vector3.zero));
+        }
+
         static List<SphereCollider> Row(int count, float height = 5f)
         {
             var colliders = new List<SphereCollider>();

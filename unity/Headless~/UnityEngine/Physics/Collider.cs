@@ -162,8 +162,13 @@ namespace UnityEngine
         void Detach()
         {
             DropShape();
-            if (staticActor != Physx.None) Physx.physics_actor_destroy(PhysicsWorld.Handle, staticActor);
-            staticActor = Physx.None;
+            if (staticActor != Physx.None)
+            {
+                // Otherwise, its pending commands would move the next actor with this handle.
+                PhysicsWorld.Flush();
+                Physx.physics_actor_destroy(PhysicsWorld.Handle, staticActor);
+                staticActor = Physx.None;
+            }
             if (Body is null) return;
             Body.Colliders.Remove(this);
             Body = null;
