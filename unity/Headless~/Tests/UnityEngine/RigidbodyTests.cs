@@ -213,6 +213,27 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That((body.transform.GetChild(1).GetComponent<Collider>().bounds.center - new Vector3(1f, 0f, 0f)).magnitude, Is.LessThan(0.05f));
         }
 
+        [TestCase(true)]
+        [TestCase(false)]
+        public void A_kinematic_child_follows_its_parents_body(bool isThrown)
+        {
+            var parent = Add<Rigidbody>("parent");
+            parent.useGravity = false;
+            var middle = new GameObject("middle");
+            middle.transform.SetParent(parent.transform);
+            var zone = new GameObject("zone").AddComponent<SphereCollider>();
+            zone.isTrigger = true;
+            zone.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            zone.transform.SetParent(middle.transform);
+            zone.transform.localPosition = new Vector3(0f, 2f, 0f);
+            if (isThrown) parent.linearVelocity = new Vector3(5f, 0f, 0f);
+            else parent.position = new Vector3(5f, 0f, 0f);
+            Run(1f);
+            Physics.SyncTransforms();
+            Assert.That((zone.transform.position - new Vector3(5f, 2f, 0f)).magnitude, Is.LessThan(1e-3f));
+            Assert.That((zone.bounds.center - zone.transform.position).magnitude, Is.LessThan(1e-3f));
+        }
+
         [Test]
         public void A_force_wakes_a_sleeping_body()
         {

@@ -76,6 +76,20 @@ namespace UnityEngine
             if (IsBehind) Place(Motion.Pose.Position, Motion.Pose.Rotation);
         }
 
+        /// Keeps the transform's pose although a physics step reported one for the body.
+        internal void SkipStep() => bodyStep = Motion.Step;
+
+        /// Whether the last physics step moved a body above this transform.
+        internal bool HasMovedParent
+        {
+            get
+            {
+                for (var parent = parentOrNull; !(parent is null); parent = parent.parentOrNull)
+                    if (parent.body != Physx.None && parent.Motion.Step == PhysicsWorld.StepCount) return true;
+                return false;
+            }
+        }
+
         Transform Followed()
         {
             Follow();

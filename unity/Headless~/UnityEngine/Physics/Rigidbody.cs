@@ -568,10 +568,21 @@ namespace UnityEngine
             OrderPose(Physx.Order.Pose, position, rotation);
         }
 
-        /// Moves the transform if the last step moved the body.
-        internal void UpdateTransform() => activeTransform.Follow();
+        /// Moves the transform, which has a parent, if the last step moved the body. Otherwise, the body follows the transform if the step moved a parent.
+        internal void UpdateTransform()
+        {
+            var step = PhysicsWorld.StepCount;
+            var isLed = kinematic && targetStep != step - 1;
+            if (isLed) activeTransform.SkipStep();
+            else activeTransform.Follow();
+            if ((isLed || Motion.Step != step) && activeTransform.HasMovedParent) PhysicsWorld.TransformChanged(activeTransform);
+        }
 
-        internal void Publish() => activeTransform.Place(Motion.Pose.Position, Motion.Pose.Rotation);
+        internal void Publish()
+        {
+            activeTransform.Place(Motion.Pose.Position, Motion.Pose.Rotation);
+            foreach (var child in activeTransform.children) PhysicsWorld.TransformChanged(child);
+        }
 
         internal override void CopyFrom(Component original)
         {
