@@ -277,6 +277,27 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Links(), Is.EqualTo("0>1 1>0"));
         }
 
+        [TestCase(1, "0>1 1>0")]
+        [TestCase(9, "")]
+        public void A_node_that_was_reactivated_elsewhere_has_left_the_trigger(float place, string links)
+        {
+            var zone = MakeNode(1, id: 0);
+            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var visitor = MakeNode(2, new Vector3(1, 0, 0), id: 1).Node.gameObject;
+            visitor.AddComponent<SphereCollider>().radius = 0.1f;
+            visitor.AddComponent<Rigidbody>().isKinematic = true;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            visitor.SetActive(false);
+            visitor.transform.position = new Vector3(place, 0, 0);
+            visitor.SetActive(true);
+            Play(2);
+            Assert.That(Links(), Is.EqualTo(links));
+        }
+
         private static ProbeNode[] MakeLine(params float[] places)
         {
             var line = new ProbeNode[places.Length];

@@ -24,6 +24,8 @@ namespace Collektive.Unity
         {
             internal Collider Collider;
             internal Node Owner;
+            // The owner's number of deactivations when the collider entered. Unity sends no exit message for them, but another enter message afterwards.
+            internal int Deactivations;
         }
 
         /// <inheritdoc/>
@@ -45,7 +47,7 @@ namespace Collektive.Unity
             for (var i = 0; i < visitors.Count; i++)
             {
                 ref var visitor = ref all[i];
-                if (visitor.Collider.IsGone()) continue;
+                if (visitor.Collider.IsGone() || visitor.Deactivations != visitor.Owner.Deactivations) continue;
                 // A node with several colliders in the zone is added only once.
                 var owner = visitor.Owner;
                 var offset = owner.Position;
@@ -61,9 +63,12 @@ namespace Collektive.Unity
 
         private void OnTriggerEnter(Collider other)
         {
-            if (other.isTrigger || Find(other) < visitors.Count) return;
+            if (other.isTrigger) return;
             var node = other.GetComponentInParent<Node>();
-            if (node != null) visitors.Add(new Visitor { Collider = other, Owner = node });
+            if (node == null) return;
+            var index = Find(other);
+            if (index == visitors.Count) visitors.Add(default);
+            visitors.Items[index] = new Visitor { Collider = other, Owner = node, Deactivations = node.Deactivations };
         }
 
         private void OnTriggerExit(Collider other)

@@ -176,6 +176,9 @@ namespace Collektive.Unity
 
         internal Transform Body { get; private set; }
 
+        /// <summary>How often the GameObject was deactivated while the node was enabled. Each time, its colliders left physics.</summary>
+        internal int Deactivations { get; private set; }
+
         /// <summary>The node's simulation, or null.</summary>
         internal Simulation Simulation { get; private set; }
 
@@ -301,6 +304,7 @@ namespace Collektive.Unity
                 EnabledNodes[enabledIndex] = null;
                 if (2 * ++gaps > EnabledNodes.Count) CloseGaps();
             }
+            if (!gameObject.activeInHierarchy) Deactivations++;
             Simulation?.Leave(this);
         }
 
