@@ -22,7 +22,7 @@ SCRIPT = """#!/usr/bin/env bash
 #SBATCH --array=0-{last}
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task={threads}
-#SBATCH --output={folder}/logs/slurm-%a.txt
+#SBATCH --output={logs}/slurm-%a.txt
 set -euo pipefail
 export PYTHONPATH={package}
 exec {python} -P -s -m collektive_experiments task {folder} "${{SLURM_ARRAY_TASK_ID:?run this with sbatch}}"
@@ -32,6 +32,8 @@ exec {python} -P -s -m collektive_experiments task {folder} "${{SLURM_ARRAY_TASK
 def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust: bool) -> str:
     """Writes `tasks.json` and `slurm.sh` to the sweep's folder. Returns the path of the script."""
     folder = os.path.abspath(store.folder)
+    if "\n" in folder or "\r" in folder:
+        raise ExperimentError(f"'{folder}' contains a line break, after which the rest of a comment would be a command: name another folder with --out")
     size = -(-len(todo) // MAX_TASKS)
     chunks = [todo[start:start + size] for start in range(0, len(todo), size)]
     tasks = {"limit": limit, "trust": trust,
@@ -41,7 +43,9 @@ def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust:
     path = os.path.join(folder, "slurm.sh")
     package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
     files.write(path, SCRIPT.format(
-        count=len(todo), path=shlex.quote(path), folder=shlex.quote(folder), name="collektive-" + "".join(c for c in os.path.basename(folder) if c.isalnum()),
+        count=len(todo), path=shlex.quote(path), folder=shlex.quote(folder),
+        # Slurm replaces %j and other codes in the path.
+        logs=shlex.quote(f"{folder}/logs".replace("%", "%%")), name="collektive-" + "".join(c for c in os.path.basename(folder) if c.isalnum()),
         last=len(chunks) - 1, threads=threads, package=shlex.quote(package), python=shlex.quote(sys.executable)))
     os.chmod(path, 0o755)
     return path

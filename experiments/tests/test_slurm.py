@@ -8,6 +8,7 @@ import pytest
 
 from collektive_experiments import __main__ as command
 from collektive_experiments.experiment import Run
+from collektive_experiments.positions import ExperimentError
 from collektive_experiments.slurm import write_job
 from collektive_experiments.store import Store
 from collektive_experiments.worker import WorkerError
@@ -36,3 +37,12 @@ def test_a_node_without_a_jdk_is_reported_in_one_line(monkeypatch: pytest.Monkey
     monkeypatch.setattr(command, "run_task", run_task)
     assert command.main(["task", "out", "0"]) == 1
     assert capsys.readouterr().err == "collektive: no JDK 17 or newer found\n"
+
+
+def test_a_script_contains_the_folder_only_in_quotes(tmp_path: Path) -> None:
+    store = Store(str(tmp_path / "50 %j; $(touch x)"))
+    os.makedirs(store.logs)
+    script = Path(write_job(store, [(Run("run", {}, {}), False)], 1, 60, False)).read_text()
+    assert f"#SBATCH --output='{tmp_path}/50 %%j; $(touch x)/logs'/slurm-%a.txt" in script
+    with pytest.raises(ExperimentError, match="contains a line break"):
+        write_job(Store(str(tmp_path / "a\ntouch x")), [], 1, 60, False)
