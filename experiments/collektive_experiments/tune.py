@@ -4,11 +4,13 @@ import csv
 import json
 import math
 import os
+import warnings
 from collections.abc import Callable
 from typing import Any
 
 import optuna
 import sqlalchemy
+from optuna.trial import TrialState
 
 from .bundle import prepare
 from .experiment import Experiment, Run, name_of, text
@@ -39,18 +41,17 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     total = options.trials or search.trials
     distributions = {key: _distribution(value) for key, value in search.parameters.items()}
     code = 0
-    while code == 0 and (left := total - len(_finished(study))) > 0:
-        count = min(left, options.jobs)
-        # Trials of an interrupted search are continued first.
-        trials: list[Any] = [trial for trial in study.get_trials(states=(optuna.trial.TrialState.RUNNING,))
-                             if trial.params.keys() == search.parameters.keys()][:count]
-        trials += [study.ask(distributions) for _ in range(count - len(trials))]
+    while code == 0 and (left := total - (finished := len(_finished(study, search)))) > 0:
+        # Trials of an interrupted search are continued first, in the same groups as without the interruption, because proposals depend on finished trials.
+        count = min(left, options.jobs - finished % options.jobs)
+        trials: list[Any] = _trials(study, search, TrialState.RUNNING)[:count]
+        trials += [_ask(study, search, distributions) for _ in range(count - len(trials))]
         runs = {trial.number: [_run(experiment, run, trial.params) for run in experiment.runs()] for trial in trials}
         # Runs are collected by name, because different trials may propose the same values.
         every = {run.name: run for group in runs.values() for run in group}
         todo = [(run, False) for run in every.values() if not store.is_complete(run)]
         if todo:
-            is_limited = not options.keep_going and not _finished(study)
+            is_limited = not options.keep_going and not finished
             code = drive(store, len(todo), todo, pool(), options.jobs, MAX_EQUAL_FAILURES if is_limited else math.inf)
         if code >= 128:
             break
@@ -58,11 +59,11 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
         for trial in trials:
             values = [_value(store, run, search.metric) for run in runs[trial.number]]
             if any(math.isnan(value) for value in values):
-                study.tell(trial.number, state=optuna.trial.TrialState.FAIL)
+                study.tell(trial.number, state=TrialState.FAIL)
             else:
                 study.tell(trial.number, sum(values) / len(values))
     _write(study, search, os.path.join(store.folder, "trials.csv"))
-    done = [trial for trial in _finished(study) if trial.value is not None]
+    done = [trial for trial in _finished(study, search) if trial.value is not None]
     if not done and code >= 128:
         return code
     if not done:
@@ -77,9 +78,12 @@ def _distribution(values: Any) -> optuna.distributions.BaseDistribution:
     if isinstance(values, list):
         return optuna.distributions.CategoricalDistribution(values)
     low, high, step, log = values["from"], values["to"], values.get("step"), values.get("log", False)
-    if is_int(low) and is_int(high) and (step is None or is_int(step)):
-        return optuna.distributions.IntDistribution(low, high, log=log, step=step or 1)
-    return optuna.distributions.FloatDistribution(low, high, log=log, step=step)
+    with warnings.catch_warnings():
+        # Optuna warns if `step` does not divide the range, and reduces `to`.
+        warnings.simplefilter("ignore")
+        if is_int(low) and is_int(high) and (step is None or is_int(step)):
+            return optuna.distributions.IntDistribution(low, high, log=log, step=step or 1)
+        return optuna.distributions.FloatDistribution(low, high, log=log, step=step)
 
 
 def _study(search: Search, store: Store) -> optuna.Study:
@@ -95,13 +99,26 @@ def _study(search: Search, store: Store) -> optuna.Study:
         raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or varied values differ; "
                               "name another folder with --out")
     study.set_user_attr("search", search.identity)
-    # The seed is the number of trials, so a resumed search always proposes the same values.
-    study.sampler = optuna.samplers.TPESampler(seed=len(study.trials), constant_liar=True)
+    for trial in study.get_trials(states=(TrialState.RUNNING,)):
+        # The search was killed while it proposed this trial.
+        if trial.params.keys() != search.parameters.keys():
+            study.tell(trial.number, state=TrialState.FAIL)
     return study
 
 
-def _finished(study: optuna.Study) -> list[optuna.trial.FrozenTrial]:
-    return study.get_trials(deepcopy=False, states=(optuna.trial.TrialState.COMPLETE, optuna.trial.TrialState.FAIL))
+def _trials(study: optuna.Study, search: Search, *states: TrialState) -> list[optuna.trial.FrozenTrial]:
+    """Returns the trials in any of these states, or all trials without states. Omits trials that were not completely proposed."""
+    return [trial for trial in study.get_trials(deepcopy=False, states=states or None) if trial.params.keys() == search.parameters.keys()]
+
+
+def _finished(study: optuna.Study, search: Search) -> list[optuna.trial.FrozenTrial]:
+    return _trials(study, search, TrialState.COMPLETE, TrialState.FAIL)
+
+
+def _ask(study: optuna.Study, search: Search, distributions: dict[str, optuna.distributions.BaseDistribution]) -> optuna.Trial:
+    """Proposes the values of a trial. The seed is the number of earlier trials, so a resumed search proposes the same values as an uninterrupted one."""
+    study.sampler = optuna.samplers.TPESampler(seed=len(_trials(study, search)), constant_liar=True)
+    return study.ask(distributions)
 
 
 def _run(experiment: Experiment, run: Run, parameters: dict[str, Any]) -> Run:
@@ -128,6 +145,6 @@ def _write(study: optuna.Study, search: Search, path: str) -> None:
     lines: list[str] = []
     writer = csv.writer(argparse.Namespace(write=lines.append), lineterminator="\n")
     writer.writerow(["trial", search.metric, *search.parameters])
-    for trial in _finished(study):
+    for trial in _finished(study, search):
         writer.writerow([trial.number, "" if trial.value is None else trial.value, *(trial.params[key] for key in search.parameters)])
     write(path, "".join(lines))

@@ -1,5 +1,6 @@
 """Tests the search for parameter values."""
 import argparse
+import contextlib
 import csv
 import json
 import math
@@ -8,6 +9,7 @@ from typing import Any, cast
 
 import pytest
 from conftest import Project
+from optuna.storages import RDBStorage
 
 from collektive_experiments import read
 from collektive_experiments import search as searching
@@ -126,6 +128,42 @@ def test_an_interrupted_search_continues_its_trials(project: Project, monkeypatc
     # After the first trials, failures are results of the search.
     assert [limit for _, limit in calls] == [5, 5, math.inf]
     assert [line.split(",")[0] for line in (project.folder / "out/trials.csv").read_text().splitlines()] == ["trial", "0", "1", "2"]
+
+
+def test_a_killed_search_continues_with_the_same_trials(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    steps = {"from": 0, "to": 9, "step": 4}
+    experiment = read(project.experiment(vary={"seed": "1-2"}, tune={**TUNE, "trials": 12, "parameters": {"network.loss": {"from": 0, "to": 1}, "x": steps}}))
+    options = argparse.Namespace(resume=True, trust_jvm=False, trials=None, jobs=3, keep_going=False)
+    monkeypatch.setattr(tuning, "prepare", lambda *_: None)
+    monkeypatch.setattr(tuning, "check_search", lambda *_: None)
+    monkeypatch.setattr(tuning, "drive", lambda *_: 0)
+    monkeypatch.setattr(tuning, "_value", lambda store, run, metric: run.values["network.loss"] * (run.values["x"] + 1))
+
+    def search(out: str, method: str, kill_at: int) -> list[list[str]]:
+        """Kills the search before the given call of a method of its storage, and continues it. Returns the values of its trials."""
+        calls = 0
+        original = getattr(RDBStorage, method)
+
+        def call(*arguments: Any, **named: Any) -> Any:
+            nonlocal calls
+            calls += 1
+            if calls == kill_at:
+                raise SystemExit
+            return original(*arguments, **named)
+
+        with monkeypatch.context() as patch:
+            patch.setattr(RDBStorage, method, call)
+            for _ in range(2):
+                with Store(str(project.folder / out)) as store, contextlib.suppress(SystemExit):
+                    tuning.tune(experiment, read_search(experiment), store, cast(Any, lambda: None), options)
+        with open(project.folder / out / "trials.csv") as file:
+            return [row[1:] for row in csv.reader(file)]
+
+    undisturbed = search("undisturbed", "set_trial_param", 0)
+    assert len(undisturbed) == 13
+    # In the proposal of a trial, and between the results of two trials.
+    for method, kill_at in (("set_trial_param", 22), ("set_trial_state_values", 8)):
+        assert search(f"{method}-{kill_at}", method, kill_at) == undisturbed
 
 
 @pytest.mark.parametrize("keys", [{"set": {"converged": {"agreeing": {"from": 3}}}}, {"set": {"converged.agreeing": {"from": 3}}},
