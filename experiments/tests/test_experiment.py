@@ -1,12 +1,14 @@
 """Tests that errors in experiment files are reported with their line, before the first run."""
 import json
 import os
+import tracemalloc
 from pathlib import Path
 
 import pytest
 
 from collektive_experiments import ExperimentError, read
 from collektive_experiments.experiment import name_of
+from collektive_experiments.positions import Located
 
 
 def write(folder: Path, text: str) -> str:
@@ -118,3 +120,15 @@ def test_two_configurations_never_share_a_folder(one: dict[str, object], other: 
 
 def test_the_order_of_settings_does_not_change_the_folder() -> None:
     assert name_of({"a": 1}, {"a": 1, "b": 2.0}) == name_of({"a": 1}, {"b": 2, "a": 1.0})
+
+
+@pytest.mark.parametrize("text", [" " * 300_000 + "{}", '"' + "a" * 300_000 + '"', "'" + "a" * 300_000 + "'"])
+def test_reading_a_large_file_needs_little_memory(tmp_path: Path, text: str) -> None:
+    path = tmp_path / "large.json"
+    path.write_text(text)
+    tracemalloc.start()
+    try:
+        Located(str(path))
+        assert tracemalloc.get_traced_memory()[1] < 10 * len(text)
+    finally:
+        tracemalloc.stop()
