@@ -134,6 +134,10 @@ def _with_includes(schema: Path) -> dict[str, Path]:
         for include in _includes(file):
             # Like flatc, this appends even an absolute path to each place.
             candidates = {place: f"{place}/{include}" for place in (os.path.dirname(file), str(CORE), folder)}
+            for candidate in candidates.values():
+                # flatc would wait for the writer of a pipe.
+                if os.path.exists(candidate) and not os.path.isfile(candidate) and not os.path.isdir(candidate):
+                    raise Failure(f"{file}: the include '{include}' is not a file")
             place = next((place for place, candidate in candidates.items() if os.path.isfile(candidate)), str(CORE))
             if place == str(CORE):
                 continue

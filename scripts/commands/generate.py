@@ -3,7 +3,7 @@ include "types.fbs" for types such as Vector3."""
 import argparse
 from pathlib import Path
 
-from build import graph, processes, projects
+from build import graph, inputs, processes, projects
 from build.console import Failure, print_progress
 
 
@@ -17,6 +17,7 @@ def run(arguments: argparse.Namespace) -> int:
     schema: Path = arguments.schema
     if not schema.is_file():
         raise Failure(f"generate: '{schema}' does not exist")
+    inputs.schema(schema)
     outputs = {"--csharp": arguments.csharp, "--jvm": arguments.jvm}
     if not any(outputs.values()):
         outputs["--csharp"] = schema.parent / "Generated"

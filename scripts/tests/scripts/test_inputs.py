@@ -68,6 +68,13 @@ def test_a_schema_has_all_its_includes_except_those_of_the_package(tmp_path: Pat
     assert names(inputs.schema(tmp_path / "project/a.fbs")) == ["../common/b.fbs", "../common/c.fbs", "a.fbs"]
 
 
+def test_an_included_pipe_is_rejected(tmp_path: Path) -> None:
+    schema = write(tmp_path / "a.fbs", 'include "pipe.fbs";')
+    os.mkfifo(tmp_path / "pipe.fbs")
+    with pytest.raises(Failure, match=r"the include 'pipe\.fbs' is not a file"):
+        inputs.schema(schema)
+
+
 @pytest.mark.parametrize("include, words", [("a\\\\b.fbs", "backslash"), ("link/../b.fbs", "linked folder")])
 def test_ambiguous_includes_are_rejected(tmp_path: Path, include: str, words: str) -> None:
     write(tmp_path / "other/b.fbs")

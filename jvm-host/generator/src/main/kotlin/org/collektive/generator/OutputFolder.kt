@@ -1,5 +1,8 @@
 package org.collektive.generator
 
+import java.nio.file.AccessDeniedException
+import java.nio.file.FileAlreadyExistsException
+import java.nio.file.FileSystemException
 import java.nio.file.Files
 import java.nio.file.LinkOption.NOFOLLOW_LINKS
 import java.nio.file.Path
@@ -20,8 +23,22 @@ internal class OutputFolder(private val root: Path) {
         if (isSource(path) && old != null && !isGenerated(old)) {
             throw GeneratorException("$file exists and was not generated: move it, or choose another folder")
         }
-        Files.createDirectories(file.parent)
-        Files.write(file, bytes)
+        try {
+            if (!Files.isDirectory(root)) Files.createDirectories(root)
+            val folder = generateSequence(file.parent, Path::getParent).first(Files::exists)
+            if (!folder.toRealPath().startsWith(root.toRealPath())) {
+                throw GeneratorException("cannot write $file: $folder is behind a symbolic link; remove it, or choose another folder")
+            }
+            Files.createDirectories(file.parent)
+            Files.write(file, bytes)
+        } catch (e: FileSystemException) {
+            val reason = when (e) {
+                is FileAlreadyExistsException -> "it is not a folder"
+                is AccessDeniedException -> "permission denied"
+                else -> e.reason
+            }
+            throw GeneratorException("cannot write $file: ${e.file}: $reason")
+        }
     }
 
     /**

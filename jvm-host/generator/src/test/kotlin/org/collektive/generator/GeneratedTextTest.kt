@@ -139,6 +139,24 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `nothing is written behind a linked subfolder`() {
+        val output = Fixture.newFolder()
+        val schema = Fixture.testSchemas.resolve("globals.fbs")
+        Fixture.generate(schema, output)
+        val namespace = Fixture.files(output).first { "$it".endsWith(".cs") }.parent
+        namespace.toFile().deleteRecursively()
+        val elsewhere = Fixture.newFolder()
+        Files.createSymbolicLink(namespace, elsewhere)
+        val error = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
+        assertContains(error.message.orEmpty(), "$namespace is behind a symbolic link")
+        assertEquals(emptyList(), Fixture.files(elsewhere))
+        Files.delete(namespace)
+        Files.createFile(namespace)
+        val file = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
+        assertContains(file.message.orEmpty(), "cannot write $namespace")
+    }
+
+    @Test
     fun `files that the generator has not written are kept, and links are not followed`() {
         val output = Fixture.newFolder()
         val schema = Fixture.testSchemas.resolve("globals.fbs")
