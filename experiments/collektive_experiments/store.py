@@ -72,6 +72,9 @@ class Store:
             files.remove(self.bundle)
         elif not resume:
             raise ExperimentError(f"'{self.folder}' has results of a sweep: continue it with --resume, or name another folder with --out")
+        elif not os.path.isdir(self.bundle):
+            # A new bundle could contain other inputs than those of the earlier runs.
+            raise ExperimentError(f"'{self.bundle}' with the inputs of the earlier runs is missing: restore it, or name another folder with --out")
         else:
             self._require_same(settings)
         files.write(os.path.join(self.folder, "sweep.json"), json.dumps(settings, indent=2) + "\n")

@@ -1,12 +1,15 @@
 """Tests which files of a project a sweep copies."""
 import json
+import os
 from pathlib import Path
 
 import pytest
 from conftest import Project
 
+from collektive_experiments import read
 from collektive_experiments.bundle import prepare
 from collektive_experiments.positions import ExperimentError
+from collektive_experiments.store import Store
 
 
 def test_an_include_outside_the_project_is_rejected(project: Project) -> None:
@@ -55,3 +58,12 @@ def test_a_runtime_cannot_be_added_to_a_bundle(tmp_path: Path) -> None:
     (tmp_path / "programs-collektive.jar").touch()
     with pytest.raises(ExperimentError, match="contains no programs for the runtime 'builtin': name another folder with --out"):
         prepare("scenario.json", str(tmp_path), False, ["builtin", "collektive"])
+
+
+def test_a_sweep_without_its_bundle_is_not_continued_with_other_inputs(project: Project) -> None:
+    experiment = read(project.experiment(vary={"seed": "1-2"}))
+    with Store(str(project.folder / "out")) as store:
+        store.open(experiment, resume=False)
+        os.mkdir(os.path.join(store.runs, "seed=1"))
+    with Store(str(project.folder / "out")) as store, pytest.raises(ExperimentError, match="with the inputs of the earlier runs is missing"):
+        store.open(experiment, resume=True)
