@@ -36,8 +36,9 @@ internal class Node(new: NewNode, val runtime: DeviceRuntime, clock: Clock, seed
     var isReloaded = false
         private set
 
-    /** Replaces the program and its parameters. */
+    /** Replaces the program and its parameters, and drops the answer, whose class the new program does not know. */
     fun reload(new: NewNode) {
+        answer = null
         program = new.program
         device.parameters = new.parameters
         isReloaded = true

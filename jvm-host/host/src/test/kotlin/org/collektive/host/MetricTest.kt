@@ -6,6 +6,7 @@ import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 @Timeout(60)
@@ -120,6 +121,17 @@ class MetricTest {
         val answer = session.ok(tick(2, 3).apply { reload = ProbeJars.harmless })
         assertContains(answer.reload().error().orEmpty(), "unknown metric 'sensed'; the jars contain no metrics")
         assertEquals(listOf(3.0 to null), session.metrics(answer))
+    }
+
+    @Test
+    fun `after a reload, metrics see only answers of the new programs`() {
+        open("answered", schedule = ASYNCHRONOUS)
+        session.ok(tick(1, 3, 5, 8))
+        val reloaded = session.ok(tick(2, 3).apply { reload = ProbeJars.programs })
+        assertEquals(listOf(Double.NaN to null), session.metrics(reloaded))
+        val (value, error) = session.metrics(session.ok(tick(3, 5, 8)))[0]
+        assertTrue(value.isFinite())
+        assertNull(error)
     }
 
     private companion object {
