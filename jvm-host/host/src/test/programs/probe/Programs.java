@@ -34,6 +34,7 @@ public final class Programs {
     if (label.startsWith("text:")) text = "x".repeat(Integer.parseInt(label.substring(5)));
     switch (label) {
       case "throw": throw new IllegalStateException("broken\nin two lines");
+      case "throw-surrogate": throw new IllegalStateException("half \ud83d");
       case "recurse": return recurse(aggregate, sensors);
       case "memory": return exhaust();
       case "null": return null;

@@ -37,6 +37,9 @@ public class AnswerBuffer(private val slots: AnswerSlots) : FlatBufferBuilder.By
         return (memory.capacity() - length).toLong() shl 32 or length.toLong()
     }
 
+    /** Writes a [text] of user code. Replaces unpaired surrogates, which the [builder] would refuse. Returns its position. */
+    internal fun text(text: String): Int = builder.createString(ByteBuffer.wrap(text.encodeToByteArray()))
+
     /** Converts a distance [fromEnd] of [memory], in bytes, to a position from its start. */
     internal fun position(fromEnd: Int): Int = memory.capacity() - fromEnd
 

@@ -56,6 +56,12 @@ class InspectionTest {
     fun close() = session.close()
 
     @Test
+    fun `a value that is cut within a surrogate pair`() {
+        open("""keep(aggregate, "a", "x".repeat(119) + "\ud83d\ude00");""")
+        assertEquals("x".repeat(119) + "?…", state(inspection(1, 1, 1)).single().second)
+    }
+
+    @Test
     fun `the state and the last round of the requested node only`() {
         open("""keep(aggregate, "b", device.getId()); keep(aggregate, "a", "text"); keep(aggregate, "c", null);""")
         assertNull(inspection(1, -1, 1, 2))

@@ -183,6 +183,7 @@ class StepTest {
     fun `a failed round is reported with its node, its program and the lines of its code`() {
         val labels = mapOf(
             "throw" to "java.lang.IllegalStateException: broken in two lines [node 2 at root]\n    at probe.Programs.probe(Programs.java:",
+            "throw-surrogate" to "java.lang.IllegalStateException: half ? [node 2 at root]",
             "recurse" to "java.lang.StackOverflowError: infinite recursion [node 2 at deeper > deeper > ",
             "memory" to "java.lang.OutOfMemoryError",
             "exit" to "java.lang.SecurityException: System.exit is refused",

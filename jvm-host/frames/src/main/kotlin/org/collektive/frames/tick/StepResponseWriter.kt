@@ -82,7 +82,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
 
     private fun write(reload: ReloadOutcome): Int {
         val builder = buffer.builder
-        val error = builder.createString(reload.error)
+        val error = buffer.text(reload.error)
         val programs = ReloadResponse.createProgramsVector(builder, buffer.writePrograms(reload.programs))
         return ReloadResponse.createReloadResponse(builder, error, programs, reload.values?.stored ?: 0, reload.values?.kept ?: 0)
     }
@@ -90,7 +90,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
     private fun write(inspection: NodeInspection): Int {
         val builder = buffer.builder
         val entries = inspection.values.map { (path, value) ->
-            StateEntry.createStateEntry(builder, builder.createString(path), builder.createString(value))
+            StateEntry.createStateEntry(builder, buffer.text(path), buffer.text(value))
         }
         val state = Inspection.createStateVector(builder, entries.toIntArray())
         return Inspection.createInspection(builder, inspection.node, inspection.roundNanos, state)
@@ -110,7 +110,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
 
     private fun writeMetrics(metrics: List<MetricOutcome>): Int {
         val builder = buffer.builder
-        val tables = metrics.map { MetricValue.createMetricValue(builder, it.value, it.error?.let(builder::createString) ?: 0) }
+        val tables = metrics.map { MetricValue.createMetricValue(builder, it.value, it.error?.let(buffer::text) ?: 0) }
         return StepResponse.createMetricsVector(builder, tables.toIntArray())
     }
 
@@ -118,7 +118,7 @@ public class StepResponseWriter(private val buffer: AnswerBuffer) {
         val builder = buffer.builder
         val errors = (0 until result.size).mapNotNull { index ->
             result.failure(index)?.let { message ->
-                val text = builder.createString(message)
+                val text = buffer.text(message)
                 RoundError.createRoundError(builder, result.id(index), builder.createString(result.program(index).name), text)
             }
         }
