@@ -135,6 +135,51 @@ class ReloadTest {
         assertReloaded(step(jar(evolve, counter(""))).reload(), stored = 4, kept = 0)
     }
 
+    /** Reloads a program that keeps [initial], with other [members], and checks that the value is lost and the rounds succeed. */
+    private fun assertLost(initial: String, use: String, before: String, after: String = before) {
+        val body = "var state = aggregate.alignedOn(\"state\", () -> aggregate.evolve($initial, s -> s)); return \"\" + $use;"
+        open(body, before)
+        step()
+        val answer = step(jar(body, after))
+        assertReloaded(answer.reload(), stored = 2, kept = 0)
+        text(answer)
+        session.close()
+        tick = 0
+    }
+
+    @Test
+    fun `values of a class with other fields are lost even if serialization accepts them`() {
+        val uid = "private static final long serialVersionUID = 1;"
+        fun item(fields: String) = "static final class Item implements java.io.Serializable { $fields }"
+        assertLost("new Item()", "state", item("$uid String a = \"a\";"), item("$uid String a = \"a\"; String b = \"b\";"))
+        val list = item("java.util.List<Integer> a = java.util.List.of(1);")
+        assertLost("new Item()", "state.a.get(0)", list, list.replace("Integer", "String").replace("1", "\"a\""))
+    }
+
+    @Test
+    fun `values that refer to previous code, or whose code fails, are lost`() {
+        val order = "static final class Order implements java.util.Comparator<String> { public int compare(String a, String b) { return 0; } }"
+        assertLost("new java.util.TreeSet<String>(new Order())", "(Order) state.comparator()", order)
+        val failing = "private Object readResolve() { throw new AssertionError(); }"
+        val item = "static final class Item implements java.io.Serializable { private static final long serialVersionUID = 1; }"
+        assertLost("new Item()", "state", item, item.replace("}", "$failing }"))
+    }
+
+    @Test
+    fun `an empty map or set of an enum accepts constants of the new class`() {
+        val body = """
+            var set = aggregate.alignedOn("set", () -> aggregate.evolve(java.util.EnumSet.noneOf(Mode.class), s -> s)).clone();
+            var map = aggregate.alignedOn("map", () -> aggregate.evolve(new java.util.EnumMap<Mode, Mode>(Mode.class), s -> s)).clone();
+            set.add(Mode.A);
+            map.put(Mode.A, Mode.A);
+            return "" + set + map;"""
+        open(body, "enum Mode { A }")
+        step()
+        val answer = step(jar(body, "enum Mode { A }"))
+        assertReloaded(answer.reload(), stored = 4, kept = 4)
+        assertEquals("[A]{A=A}", text(answer))
+    }
+
     @Test
     fun `a Kotlin object in kept state is still the only instance`() {
         val body = """

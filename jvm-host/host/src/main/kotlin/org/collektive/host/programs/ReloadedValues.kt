@@ -4,7 +4,7 @@ import org.collektive.spi.Conversion
 import org.collektive.spi.Conversion.Lost
 import java.io.ByteArrayInputStream
 import java.io.ByteArrayOutputStream
-import java.io.IOException
+import java.io.InvalidClassException
 import java.io.ObjectInputStream
 import java.io.ObjectOutputStream
 import java.io.ObjectStreamClass
@@ -12,7 +12,12 @@ import java.io.OutputStream
 import java.lang.reflect.Field
 import java.lang.reflect.Modifier
 import java.util.Collections
+import java.util.EnumMap
+import java.util.EnumSet
 import java.util.IdentityHashMap
+import java.util.PriorityQueue
+import java.util.SortedMap
+import java.util.SortedSet
 
 /**
  * Converts values of the programs of [old] to those of [new].
@@ -50,6 +55,9 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         value is Array<*> -> value.any { contains(it, seen, depth + 1) }
         value.javaClass.isArray -> false
         value.javaClass.classLoader != null -> fields(value).any { contains(it, seen, depth + 1) }
+        // These contain the class of their keys or elements.
+        value is EnumMap<*, *> && value.isEmpty() || value is EnumSet<*> && value.isEmpty() -> throw UnknownContent
+        contains(comparatorOf(value), seen, depth + 1) -> true
         value is Collection<*> -> value.any { contains(it, seen, depth + 1) }
         value is Map<*, *> -> value.any { (key, item) -> contains(key, seen, depth + 1) || contains(item, seen, depth + 1) }
         else -> throw UnknownContent
@@ -67,16 +75,8 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         val output = Output(bytes)
         output.use { it.writeObject(value) }
         if (output.hasOld) Input(bytes.toByteArray()).use(ObjectInputStream::readObject) else value
-    } catch (_: IOException) {
-        Lost
-    } catch (_: ReflectiveOperationException) {
-        Lost
-    } catch (_: RuntimeException) {
-        // Code of the user's classes.
-        Lost
-    } catch (_: LinkageError) {
-        Lost
-    } catch (_: StackOverflowError) {
+    } catch (_: Throwable) {
+        // Code of the user's classes can throw anything.
         Lost
     }
 
@@ -97,10 +97,16 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         override fun resolveObject(value: Any?): Any? = value?.let { singleton(it.javaClass) } ?: value
 
         override fun resolveClass(description: ObjectStreamClass): Class<*> = try {
-            Class.forName(description.name, false, new)
+            Class.forName(description.name, false, new).also(::requireSameForm)
         } catch (_: ClassNotFoundException) {
             // Names of primitive types.
             super.resolveClass(description)
+        }
+
+        /** Checks what serialization does not: type arguments, and all fields if the class declares its `serialVersionUID`. */
+        private fun requireSameForm(type: Class<*>) {
+            if (type.classLoader !== new || type.isArray || Enum::class.java.isAssignableFrom(type)) return
+            if (form(type) != form(Class.forName(type.name, false, old))) throw InvalidClassException(type.name, "its fields changed")
         }
     }
 
@@ -122,6 +128,18 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
 
         fun isSimple(value: Any?) = value == null || value is String || value is Boolean || value is Char || value is Unit ||
             value is Number && value.javaClass.classLoader == null
+
+        fun comparatorOf(value: Any): Comparator<*>? = when (value) {
+            is SortedMap<*, *> -> value.comparator()
+            is SortedSet<*> -> value.comparator()
+            is PriorityQueue<*> -> value.comparator()
+            else -> null
+        }
+
+        /** The names and types of the fields that serialization keeps. */
+        fun form(type: Class<*>): Map<String, String> = type.declaredFields
+            .filterNot { Modifier.isStatic(it.modifiers) || Modifier.isTransient(it.modifiers) }
+            .associate { it.name to it.genericType.typeName }
 
         /** Returns the only instance of a Kotlin `object`, or null for other classes. */
         fun singleton(type: Class<*>): Any? {
