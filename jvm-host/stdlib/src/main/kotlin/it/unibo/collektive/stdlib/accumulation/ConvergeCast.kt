@@ -50,7 +50,9 @@ public inline fun <reified ID : Any, reified T, reified P : Comparable<P>> Aggre
 /**
  * Runs [convergeCast] towards the nearest [sink] in hops.
  *
- * It stabilises after `hopDistanceTo` has done so. A device that cannot reach a sink sends nothing.
+ * It stabilises after `hopDistanceTo` has done so, where each device reaches a sink and sinks are not neighbours. Elsewhere it does not,
+ * because potentials are equal: neighbours that cannot reach a sink, or are both sinks, choose each other as parents ([findParent]) and
+ * count each other's values again in each round.
  */
 public inline fun <reified ID : Any, reified T> Aggregate<ID>.convergeCast(
     local: T,
