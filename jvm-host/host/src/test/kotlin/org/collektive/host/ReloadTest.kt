@@ -158,7 +158,8 @@ class ReloadTest {
 
     @Test
     fun `values that refer to previous code, or whose code fails, are lost`() {
-        val order = "static final class Order implements java.util.Comparator<String> { public int compare(String a, String b) { return 0; } }"
+        val order = """
+            static final class Order implements java.util.Comparator<String> { public int compare(String a, String b) { return 0; } }"""
         assertLost("new java.util.TreeSet<String>(new Order())", "(Order) state.comparator()", order)
         val failing = "private Object readResolve() { throw new AssertionError(); }"
         val item = "static final class Item implements java.io.Serializable { private static final long serialVersionUID = 1; }"

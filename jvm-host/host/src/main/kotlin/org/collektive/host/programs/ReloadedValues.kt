@@ -55,8 +55,7 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         value is Array<*> -> value.any { contains(it, seen, depth + 1) }
         value.javaClass.isArray -> false
         value.javaClass.classLoader != null -> fields(value).any { contains(it, seen, depth + 1) }
-        // These contain the class of their keys or elements.
-        value is EnumMap<*, *> && value.isEmpty() || value is EnumSet<*> && value.isEmpty() -> throw UnknownContent
+        isEmptyEnumCollection(value) -> throw UnknownContent
         contains(comparatorOf(value), seen, depth + 1) -> true
         value is Collection<*> -> value.any { contains(it, seen, depth + 1) }
         value is Map<*, *> -> value.any { (key, item) -> contains(key, seen, depth + 1) || contains(item, seen, depth + 1) }
@@ -128,6 +127,9 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
 
         fun isSimple(value: Any?) = value == null || value is String || value is Boolean || value is Char || value is Unit ||
             value is Number && value.javaClass.classLoader == null
+
+        /** Returns whether [value] refers only to the class of its future keys or elements. */
+        fun isEmptyEnumCollection(value: Any) = value is EnumMap<*, *> && value.isEmpty() || value is EnumSet<*> && value.isEmpty()
 
         fun comparatorOf(value: Any): Comparator<*>? = when (value) {
             is SortedMap<*, *> -> value.comparator()
