@@ -47,9 +47,10 @@ def scenario(nodes: int, seconds: int, interval: int) -> dict[str, Any]:
 
 
 def slowest(rows: list[dict[str, str]], ticks: int) -> tuple[float, float]:
-    """Returns the slowest tick in the p99's intervals in milliseconds, and its ratio to their mean: the median of the ratios of a run's warm part.
+    """Returns the slowest of 120 ticks after the warm-up in milliseconds, and its ratio to their mean.
 
-    A run without enough warm intervals counts as a whole.
+    If the warm part of a run contains several such groups of ticks, these are the values of the group with the median ratio. If it contains none, they are
+    the values of the whole run. `ticks` is the number of ticks in a row.
     """
     begin, warm = 0.0, []
     for row in rows:
@@ -57,9 +58,10 @@ def slowest(rows: list[dict[str, str]], ticks: int) -> tuple[float, float]:
             warm.append(row)
         begin += ticks * float(row["tick_ms"])
     groups = [warm[at:at + P99_INTERVALS] for at in range(0, len(warm) - P99_INTERVALS + 1, P99_INTERVALS)] or [rows]
-    results = sorted((max(float(row["tick_ms_p99"]) for row in group) / mean(group, "tick_ms"), mean(group, "tick_ms")) for group in groups)
+    maxima = [max(float(row["tick_ms_p99"]) for row in group) for group in groups]
+    results = sorted((tick / mean(group, "tick_ms"), tick) for tick, group in zip(maxima, groups))
     ratio, tick = results[len(results) // 2]
-    return ratio * tick, ratio
+    return tick, ratio
 
 
 def mean(rows: list[dict[str, str]], column: str) -> float:

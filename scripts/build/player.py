@@ -36,13 +36,13 @@ class Plan:
         if known and self["program"] not in known:
             raise Failure(f"unknown program '{self['program']}'; '{self['programs']}' contains {', '.join(sorted(known))}")
         jar = projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
-        self._check_parameters(projects.parameter_names(jar))
+        # A manifest contains the scenario of its run.
+        if parameters := self["file"].get("scenario", self["file"]).get("parameters"):
+            self._check_parameters(parameters, projects.parameter_names(jar))
         return jar
 
-    def _check_parameters(self, known: dict[str, set[str]]) -> None:
-        # A manifest contains the scenario of its run.
-        scenario = self["file"].get("scenario", self["file"])
-        for program, values in (scenario.get("parameters") or {}).items() if known else ():
+    def _check_parameters(self, parameters: dict[str, Any], known: dict[str, set[str]]) -> None:
+        for program, values in parameters.items() if known else ():
             if program not in known:
                 raise Failure(f"'parameters.{program}': unknown program; the programs are: {', '.join(sorted(known))}")
             for name in values:
