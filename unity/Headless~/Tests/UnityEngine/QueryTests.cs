@@ -78,9 +78,9 @@ namespace Collektive.Headless.Tests.Engine
 
             SphereCollider Make()
             {
-                var made = new GameObject().AddComponent<SphereCollider>();
-                made.transform.position = Place();
-                return made;
+                var sphere = new GameObject().AddComponent<SphereCollider>();
+                sphere.transform.position = Place();
+                return sphere;
             }
 
             Vector3 Place() => new Vector3((float)random.NextDouble(), (float)random.NextDouble(), (float)random.NextDouble()) * 20f;
@@ -134,9 +134,9 @@ namespace Collektive.Headless.Tests.Engine
             old.transform.position = new Vector3(10f, 0f, 0f);
             Physics.SyncTransforms();
             UnityEngine.Object.DestroyImmediate(old.gameObject);
-            var made = new GameObject().AddComponent<SphereCollider>();
+            var added = new GameObject().AddComponent<SphereCollider>();
             Assert.That(Physics.CheckSphere(Vector3.zero, 0.1f));
-            Assert.That(made.bounds.center, Is.EqualTo(Vector3.zero));
+            Assert.That(added.bounds.center, Is.EqualTo(Vector3.zero));
         }
 
         static List<SphereCollider> Row(int count, float height = 5f)
