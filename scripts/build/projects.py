@@ -56,12 +56,18 @@ def record_own_program(jar: Path) -> None:
 
 
 def program_names(programs: Part) -> set[str] | None:
-    """Returns the names of the programs in a folder of Kotlin. Returns None for a jar, and if a name is in a constant, which only the compiler can read."""
+    """Returns the names of the programs in a folder of Kotlin. Returns None for a jar, and for names or annotations that only the compiler can read."""
     if programs.path.is_file():
         return None
-    found = [match[1] for name, file in programs.files.items() if name.endswith(".kt")
-             for match in re.finditer(r'@Program\s*\(\s*(?:name\s*=\s*)?("[^"$\\]*"|)', file.read_text(encoding="utf-8", errors="replace"))]
-    return {name.strip('"') for name in found} if all(found) else None
+    found: list[str] = []
+    for name, file in programs.files.items():
+        text = file.read_text(encoding="utf-8", errors="replace") if name.endswith(".kt") else ""
+        names = re.findall(r'@Program\s*\(\s*(?:name\s*=\s*)?"([^"$\\]+)"\s*[,)]', text)
+        # Other occurrences of the word may be annotations, too, such as @[Program("a")], or declare an alias.
+        if len(re.findall(r"\bProgram\b", re.sub(r"(?m)^import org\.collektive\.api\.Program\s*$", "", text))) != len(names):
+            return None
+        found += names
+    return set(found)
 
 
 def parameter_names(jar: Path) -> dict[str, set[str]]:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from build import player, projects
+from build import inputs, player, projects
 from build.console import Failure
 
 
@@ -16,6 +16,16 @@ def test_the_index_of_a_jar_contains_the_parameters_of_its_programs(tmp_path: Pa
         archive.writestr("META-INF/collektive/programs/a.AKt",
                          "program\ta\\\\b\ta.SensorData\nparameter\twidth\t1\tWidth.\nprogram\tc\ta.SensorData\n")
     assert projects.parameter_names(jar) == {"a\\b": {"width"}, "c": set()}
+
+
+@pytest.mark.parametrize("other", [
+    '@org.collektive.api.Program("b")', '@[Program("b")]', '@Program("b" + "c")', '@Program("""b""")', "@Program(B)", '@Program(parameters = [], name = "b")',
+    'typealias Behaviour = Program\n@Behaviour("b")', 'import org.collektive.api.Program as Behaviour\n@Behaviour("b")'])
+def test_names_that_only_the_compiler_can_read_do_not_hide_others(other: str, tmp_path: Path) -> None:
+    (tmp_path / "A.kt").write_text('import org.collektive.api.Program\n\n@Program("a", parameters = [])\nfun a() = 1\n@Program(name = "d")\nfun d() = 1\n')
+    assert projects.program_names(inputs.programs(tmp_path)) == {"a", "d"}
+    (tmp_path / "B.kt").write_text(f"{other}\nfun b() = 1\n")
+    assert projects.program_names(inputs.programs(tmp_path)) is None
 
 
 @pytest.mark.parametrize("parameters, message", [
