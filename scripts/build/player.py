@@ -23,6 +23,8 @@ class Plan:
 
     values: dict[str, Any]
     parts: dict[str, Part]
+    scenario: Path = Path()
+    content: bytes = b""
 
     def __getitem__(self, key: str) -> Any:
         return self.values[key]
@@ -49,6 +51,13 @@ class Plan:
                 if name not in known[program]:
                     raise Failure(f"'parameters.{program}.{name}': unknown parameter; the program declares: {', '.join(sorted(known[program])) or 'none'}")
 
+    def require_unchanged(self) -> None:
+        """Raises `Failure` if the scenario or a file of the project was changed, added or removed since this plan was made."""
+        if self.scenario.read_bytes() != self.content:
+            raise Failure(f"'{self.scenario}' changed during compilation: run the command again")
+        for part in self.parts.values():
+            part.require_unchanged()
+
     def scripts_dll(self) -> Path:
         """Compiles the scenario's C# if it has changed, and returns the assembly."""
         return projects.scripts_dll(self.parts["schema"], self.parts["scripts"])
@@ -70,7 +79,8 @@ def plan(scenario: str, options: Sequence[str]) -> Plan:
     if result.returncode != 0:
         raise InvalidScenario(1)
     values = json.loads(result.stdout)
-    return Plan(values, {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)})
+    parts = {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)}
+    return Plan(values, parts, Path(scenario), Path(scenario).read_bytes())
 
 
 class InvalidScenario(Failure):

@@ -79,6 +79,8 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.keep_going:
         words.append("--keep-going")
     has_pictures = plan["pictures"]
+    # The player reads the scenario, data and jars again.
+    plan.require_unchanged()
     print_progress(f"running {arguments.scenario}")
     with outputs.open_folder(Path(out), arguments.overwrite):
         # Scripts may change the current folder.

@@ -36,3 +36,14 @@ class SimultaneousCommandsTest(Project):
         java = [os.path.join(jdk(), "bin/java"), "-Xshare:on", "-XX:+VerifySharedSpaces", f"-XX:SharedArchiveFile={archives[0]}", "-XX:+UseSerialGC"]
         checked = subprocess.run([*java, "-cp", HOST_JAR, "-version"], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr + checked.stdout)
+
+    def test_a_scenario_that_changes_during_compilation_is_not_run(self) -> None:
+        self.change("programs/Brightest.kt", "val mine", f"/* {self.folder} {os.getpid()}: not compiled yet */ val mine")
+        run = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")], stderr=subprocess.PIPE, text=True)
+        assert run.stderr is not None
+        for line in run.stderr:
+            if "compile-programs" in line:
+                self.change("lamps.json", '"seconds": 1', '"seconds": 2')
+        self.assertEqual(run.wait(), 1)
+        self.assertIn("lamps.json' changed during compilation: run the command again", line)
+        self.assertFalse(os.path.exists(self.path("out")))
