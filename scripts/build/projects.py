@@ -190,10 +190,12 @@ def _java() -> list[str | Path]:
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:
     """Calls `make` to build a file from parts of a project in an empty folder, unless it exists, and returns the file. The first part is a schema.
 
-    The name of the folder contains a hash of all inputs, so an existing folder is valid. If two commands build the same folder at the same time, the
+    The name of the folder contains a hash of all inputs, so an existing file is valid. If two commands build the same folder at the same time, the
     result of the first one is kept.
     """
-    if not folder.is_dir():
+    if not (folder / file).exists():
+        # An interrupted `clean` may have left a part of the folder.
+        shutil.rmtree(folder, ignore_errors=True)
         work = folder.with_name(f"{folder.name}.{os.getpid()}")
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
@@ -220,7 +222,7 @@ def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Cal
             work.rename(folder)
         except OSError:
             shutil.rmtree(work)
-            if not folder.is_dir():
+            if not (folder / file).exists():
                 raise
     return folder / file
 

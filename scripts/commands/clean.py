@@ -2,9 +2,9 @@
 import argparse
 import shutil
 
-from build import lock
+from build import graph, lock, maven
 from build.console import Failure
-from build.places import BUILD, JVM
+from build.places import BUILD, GRAPH, JVM
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -13,9 +13,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(_: argparse.Namespace) -> int:
     lock.exclusive()
-    for folder in [BUILD, JVM / "target", *JVM.glob("*/target")]:
+    folders = [JVM / "target", *JVM.glob("*/target"), BUILD]
+    for folder in folders:
         if folder.is_symlink():
             raise Failure(f"'{folder}' is a symbolic link: delete it and its target")
+    if BUILD.exists():
+        # If this command is interrupted, the next build repeats each step whose outputs may be incomplete.
+        maven.STARTED.touch()
+        for mark in (graph.STAMP, GRAPH / ".ninja_log"):
+            mark.unlink(missing_ok=True)
+    for folder in [BUILD / "stamp", *folders]:
         if folder.exists():
             shutil.rmtree(folder)
     return 0

@@ -1,14 +1,15 @@
 """Tests how commands report steps that fail or are interrupted."""
 import argparse
 import os
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from checkout import Checkout
 
-from build import graph, lock, processes
-from commands import check, demo, profile
+from build import graph, lock, maven, processes, projects
+from commands import check, clean, demo, profile
 from commands import run as run_command
 
 
@@ -87,3 +88,36 @@ def test_clean_does_not_follow_links(checkout: Checkout, tmp_path: Path) -> None
     command = checkout.start_command("clean")
     errors = command.communicate()[1]
     assert (command.returncode, errors) == (1, f"collektive: '{checkout.root}/build' is a symbolic link: delete it and its target\n")
+
+
+def test_a_build_after_an_interrupted_clean_starts_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "cmake").mkdir()
+    (tmp_path / "a/target").mkdir(parents=True)
+    for mark in (stamp := tmp_path / "cmake/arguments", tmp_path / "cmake/.ninja_log", tmp_path / "a/target/main.key"):
+        mark.touch()
+    monkeypatch.setattr(clean, "BUILD", tmp_path)
+    monkeypatch.setattr(clean, "JVM", tmp_path)
+    monkeypatch.setattr(clean, "GRAPH", tmp_path / "cmake")
+    monkeypatch.setattr(graph, "STAMP", stamp)
+    monkeypatch.setattr(maven, "STARTED", tmp_path / "maven-started")
+    monkeypatch.setattr(lock, "exclusive", lambda: None)
+    (tmp_path / "stamp").mkdir()
+    deleted: list[Path] = []
+
+    def delete(folder: Path) -> None:
+        deleted.append(folder)
+        if folder.name != "stamp":
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(shutil, "rmtree", delete)
+    with pytest.raises(KeyboardInterrupt):
+        clean.run(argparse.Namespace())
+    assert deleted == [tmp_path / "stamp", tmp_path / "a/target"]
+    assert (tmp_path / "maven-started").exists() and not os.listdir(tmp_path / "cmake")
+
+
+def test_a_cached_folder_without_its_output_is_built_again(tmp_path: Path) -> None:
+    (tmp_path / "key").mkdir()
+    (tmp_path / "key/rest").touch()
+    jar = projects._cached(tmp_path / "key", "programs.jar", "test", [], lambda work, _: (work / "programs.jar").touch())
+    assert jar.exists() and not (tmp_path / "key/rest").exists()
