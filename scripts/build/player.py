@@ -1,5 +1,6 @@
 """Runs scenarios with the player."""
 import json
+import re
 import signal
 import subprocess
 from collections.abc import Sequence
@@ -15,6 +16,9 @@ from build.places import HOST_JAR, PLAYER
 # The function that reads each part of a project, by the part's key in a scenario.
 READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "data": inputs.data, "runtimeJars": inputs.jars,
            "runtimePlugin": inputs.jar}
+
+# A decimal number in Java.
+NUMBER = re.compile(r"\s*[+-]?(NaN|Infinity|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?[fFdD]?)\s*", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -32,7 +36,8 @@ class Plan:
     def programs_jar(self) -> Path:
         """Compiles the scenario's programs if they have changed, and returns their jar.
 
-        Raises `Failure` if they do not contain the scenario's program, or a program or parameter in its `parameters`.
+        Raises `Failure` if they do not contain the scenario's program, or a program or parameter in its `parameters`, or if the value of a parameter is
+        invalid.
         """
         known = projects.program_names(self.parts["programs"])
         if known and self["program"] not in known:
@@ -40,16 +45,22 @@ class Plan:
         jar = projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
         # A manifest contains the scenario of its run.
         if parameters := self["file"].get("scenario", self["file"]).get("parameters"):
-            self._check_parameters(parameters, projects.parameter_names(jar))
+            self._check_parameters(parameters, projects.parameters(jar))
         return jar
 
-    def _check_parameters(self, parameters: dict[str, Any], known: dict[str, set[str]]) -> None:
+    def _check_parameters(self, parameters: dict[str, Any], known: dict[str, dict[str, list[str]]]) -> None:
         for program, values in parameters.items() if known else ():
             if program not in known:
                 raise Failure(f"'parameters.{program}': unknown program; the programs are: {', '.join(sorted(known))}")
-            for name in values:
+            for name, value in values.items():
                 if name not in known[program]:
                     raise Failure(f"'parameters.{program}.{name}': unknown parameter; the program declares: {', '.join(sorted(known[program])) or 'none'}")
+                default, constants = "".join(known[program][name][:1]), known[program][name][2:]
+                text = value if isinstance(value, str) else json.dumps(value)
+                if constants and text not in constants:
+                    raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be one of {', '.join(constants)}")
+                if NUMBER.fullmatch(default) and not NUMBER.fullmatch(text) and "x" not in text.lower():
+                    raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be a number like its default {default}")
 
     def require_unchanged(self) -> None:
         """Raises `Failure` if the scenario or a file of the project was changed, added or removed since this plan was made."""

@@ -70,19 +70,22 @@ def program_names(programs: Part) -> set[str] | None:
     return set(found)
 
 
-def parameter_names(jar: Path) -> dict[str, set[str]]:
-    """Returns the names of the parameters of each program in a jar, from the index of our compiler plugin. Without an index, returns an empty object."""
-    found: dict[str, set[str]] = {}
+def parameters(jar: Path) -> dict[str, dict[str, list[str]]]:
+    """Returns the parameters of each program in a jar, by name: the default, the description and the possible values.
+
+    They are in the index of our compiler plugin. Without an index, returns an empty object.
+    """
+    found: dict[str, dict[str, list[str]]] = {}
     try:
         with zipfile.ZipFile(jar) as archive:
             for index in [name for name in archive.namelist() if name.startswith(PROGRAM_INDEX) and not name.endswith("/")]:
                 program = ""
                 for line in archive.read(index).decode(errors="replace").split("\n")[:-1]:
-                    kind, name = [re.sub(r"\\(.)", lambda match: ESCAPES.get(match[1], match[1]), column) for column in line.split("\t")][:2]
+                    kind, name, *rest = [re.sub(r"\\(.)", lambda match: ESCAPES.get(match[1], match[1]), column) for column in line.split("\t")]
                     program = name if kind == "program" else program
-                    names = found.setdefault(program, set())
+                    declared = found.setdefault(program, {})
                     if kind == "parameter":
-                        names.add(name)
+                        declared[name] = rest
     # The host reports damaged jars.
     except (zipfile.BadZipFile, OSError, ValueError):
         return {}
