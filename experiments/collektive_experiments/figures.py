@@ -268,9 +268,10 @@ def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, opt
 
 def _add_legend(figure: Figure, results: Results, by: str) -> None:
     """Adds a legend above the axes, with as many columns as fit."""
-    known = {name: handle for axes in figure.axes for handle, name in zip(*axes.get_legend_handles_labels())}
-    labels = [name for name in _names(results, by) if name in known]
-    handles = [known[name] for name in labels]
+    # Artists are labelled with the indices of values, because Matplotlib omits empty labels and labels that start with an underscore.
+    known = {index: handle for axes in figure.axes for handle, index in zip(*axes.get_legend_handles_labels())}
+    shown = {index: name for index, name in enumerate(_names(results, by)) if str(index) in known}
+    labels, handles = list(shown.values()), [known[str(index)] for index in shown]
     # Numbers need a title that explains them, and names do not.
     title = None if pd.api.types.is_string_dtype(results.runs[by]) else _axis(results, by)
     for columns in range(len(labels), 0, -1):
@@ -283,7 +284,7 @@ def _add_legend(figure: Figure, results: Results, by: str) -> None:
 def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: str, by: str | None) -> set[int]:
     counts = set()
     parts = _split(results, data, by)
-    for index, name, runs in parts:
+    for index, runs in parts:
         # Times at which no run has a value interrupt the line.
         table = runs.pivot_table(index="run", columns="second", values=metric, dropna=False)
         # Runs that end earlier have no values at later times, so the number of runs differs between times.
@@ -294,7 +295,7 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
         line_style = _line_style(index)
         # Lines have their markers at different times, so that markers do not cover each other.
         step = max(1, len(table.columns) // 6)
-        axes.plot(table.columns, table.mean(), label=name, markevery=(index * step // (parts[-1][0] + 1), step), **line_style)
+        axes.plot(table.columns, table.mean(), label=str(index), markevery=(index * step // (parts[-1][0] + 1), step), **line_style)
         axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=line_style["color"], alpha=0.2, linewidth=0)
     return counts
 
@@ -302,7 +303,7 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
 def _line(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str, by: str | None) -> set[int]:
     counts = set()
     values, censored = results.values(metric), results.censored(metric)
-    for index, name, runs in _split(results, data, by):
+    for index, runs in _split(results, data, by):
         rows = []
         for place, part in runs.groupby(x):
             found = values[part.index].dropna().to_numpy(float)
@@ -313,7 +314,7 @@ def _line(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str,
             continue
         places, means, low, high, is_bound = (np.array(column) for column in zip(*rows))
         line_style = _line_style(index)
-        axes.errorbar(places, means, [np.nan_to_num(means - low), np.nan_to_num(high - means)], label=name, capsize=2, **line_style)
+        axes.errorbar(places, means, [np.nan_to_num(means - low), np.nan_to_num(high - means)], label=str(index), capsize=2, **line_style)
         axes.plot(places[is_bound], means[is_bound], linestyle="", marker=line_style["marker"], color=line_style["color"], markerfacecolor="white", zorder=3)
     return counts
 
@@ -326,8 +327,8 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
     labels = _names(results, x) if x else ["all runs"]
     boxes = 1 if by is None else results.runs[by].nunique()
     width = 0.8 / boxes
-    for place, _, group in _split(results, data, x):
-        for index, name, part in _split(results, group, by):
+    for place, group in _split(results, data, x):
+        for index, part in _split(results, group, by):
             # The values are sorted, so that points of similar values are spread to different positions.
             sample = values[part.index].dropna().sort_values(kind="stable")
             counts.add(len(sample))
@@ -338,7 +339,7 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
             box = axes.boxplot([sample.to_numpy(float)], positions=[at], widths=0.8 * width, patch_artist=True, showfliers=not is_few, whiskerprops=lines,
                                capprops=lines, medianprops={"color": "black"}, flierprops={"markersize": 3}, manage_ticks=False)
             box["boxes"][0].set(facecolor=to_rgba(colour, 0.35), edgecolor=colour, hatch=HATCHES[index] if by else "",
-                                label="" if index in labelled else name)
+                                label="" if index in labelled else str(index))
             labelled.add(index)
             if is_few:
                 spots = at + 0.5 * width * ((np.arange(len(sample)) * GOLDEN_RATIO) % 1 - 0.5)
@@ -360,7 +361,7 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
     values, censored = results.values(metric), results.censored(metric)
     low_end, end = values[data.index].min(), values[data.index].max()
     start = 0 if metric.startswith(CONVERGED) else low_end - 0.03 * (end - low_end)
-    for index, name, runs in _split(results, data, by):
+    for index, runs in _split(results, data, by):
         sample = values[runs.index].dropna()
         is_censored = censored[sample.index].to_numpy(bool)
         counts.add(len(sample))
@@ -370,7 +371,7 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
         places = np.array([start, *times, end])
         shares, low, high = (np.array([0, *curve, curve[-1] if len(curve) else 0]) for curve in curves)
         line_style = _line_style(index)
-        axes.step(places, shares, where="post", label=name, markevery=[*range(1, len(places) - 1, max(1, len(places) // 5))], **line_style)
+        axes.step(places, shares, where="post", label=str(index), markevery=[*range(1, len(places) - 1, max(1, len(places) // 5))], **line_style)
         axes.fill_between(places, low, high, step="post", color=line_style["color"], alpha=0.15, linewidth=0)
         ends = np.unique(sample[is_censored])
         axes.plot(ends, shares[np.searchsorted(places, ends, side="right") - 1], linestyle="", marker="|", markersize=8, color=line_style["color"], zorder=3)
@@ -468,12 +469,12 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
     return figure, list(grid[:len(parts)]), colour, [group for _, group in parts]
 
 
-def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[int, str, pd.DataFrame]]:
-    """Splits a table by the values of a key. Returns the index, the name and the rows of each value. A value has the same index in all figures."""
+def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[int, pd.DataFrame]]:
+    """Splits a table by the values of a key. Returns the index and the rows of each value. A value has the same index in all figures."""
     if key is None:
-        return [(0, "all runs", data)]
-    parts = [(index, _value(results, value), data[data[key] == value]) for index, value in enumerate(_order(results.runs[key]))]
-    return [part for part in parts if len(part[2])]
+        return [(0, data)]
+    parts = [(index, data[data[key] == value]) for index, value in enumerate(_order(results.runs[key]))]
+    return [part for part in parts if len(part[1])]
 
 
 def _names(results: Results, key: str) -> list[str]:

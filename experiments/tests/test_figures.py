@@ -236,6 +236,17 @@ def test_panels_without_runs_of_a_value_have_the_same_labels_as_the_others(tmp_p
     assert [entry.get_text() for entry in lines.legends[0].get_texts()] == ["path-vector", "bellman-ford"]
 
 
+def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 3, (0.0, 0.1))
+    for name in ("runs", "series"):
+        table = pd.read_parquet(f"{folder}/{name}.parquet")
+        table.assign(program=table["program"].replace({"path-vector": "_under", "bellman-ford": ""})).to_parquet(f"{folder}/{name}.parquet")
+    for kind in KINDS.values():
+        options = {"metric": "error", "by": "program", **{option[2:]: value for option, value in zip(kind[::2], kind[1::2])}}
+        (_, figure, _), *_ = draw(load(folder), read_options(options))
+        assert [entry.get_text() for legend in figure.legends for entry in legend.get_texts()] == ["_under", ""] * (options.get("kind") != "heat")
+
+
 def test_keys_of_one_zip_share_a_panel(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 2, (0.0, 0.4))
     for name in ("runs", "series"):
