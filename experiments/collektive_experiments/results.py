@@ -73,7 +73,9 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     if not {CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times} <= set(results.runs.columns):
         raise ExperimentError(f"the tables of '{folder}' are from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
-    return replace(results, units=dict(zip(results.metrics, settings["measure"].values())))
+    # The settings may be newer than the tables, and list other metrics. A column may have the prefix `metric.`.
+    return replace(results, units={column: unit for column in results.metrics for name, unit in settings["measure"].items()
+                                   if not column.removesuffix(name).replace("metric.", "")})
 
 
 def _read(folder: str, name: str) -> pd.DataFrame:

@@ -236,6 +236,10 @@ def test_panels_without_runs_of_a_value_have_the_same_labels_as_the_others(tmp_p
     assert [entry.get_text() for entry in lines.legends[0].get_texts()] == ["path-vector", "bellman-ford"]
 
 
+def test_units_belong_to_metrics_although_the_settings_are_newer_than_the_tables(tmp_path: Path) -> None:
+    assert load(write_sweep(tmp_path / "out", 1, measure={"time": "s", "error": "m"})).units == {"error": "m"}
+
+
 def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 3, (0.0, 0.1))
     for name in ("runs", "series"):
