@@ -38,15 +38,17 @@ def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
     if len(a) < 2 or len(b) < 2:
         return dict.fromkeys(EFFECTS, float("nan"))
     random = np.random.default_rng(0)
-    samples_a = a[random.integers(0, len(a), (RESAMPLES, len(a)))]
-    samples_b = b[random.integers(0, len(b), (RESAMPLES, len(b)))]
-    differences = np.quantile(samples_b.mean(axis=1) - samples_a.mean(axis=1), [0.025, 0.975])
-    deltas = np.quantile(np.sign(samples_b[:, None, :] - samples_a[:, :, None]).mean(axis=(1, 2)), [0.025, 0.975])
+    chosen_a, chosen_b = (random.integers(0, len(values), (RESAMPLES, len(values))) for values in (a, b))
+    differences = np.quantile(b[chosen_b].mean(axis=1) - a[chosen_a].mean(axis=1), [0.025, 0.975])
+    signs = np.sign(b[None, :] - a[:, None])
+    # Multiplying by the number of times that each value was chosen needs less memory than the signs of all chosen pairs.
+    counts_a, counts_b = (np.array([np.bincount(row, minlength=chosen.shape[1]) for row in chosen]) for chosen in (chosen_a, chosen_b))
+    deltas = np.quantile(((counts_a @ signs) * counts_b).sum(axis=1) / signs.size, [0.025, 0.975])
     difference = b.mean() - a.mean()
     both = np.concatenate([a, b])
     shuffled = random.permuted(np.tile(both, (RESAMPLES, 1)), axis=1)
     extreme = np.abs(shuffled[:, len(a):].mean(axis=1) - shuffled[:, :len(a)].mean(axis=1)) >= abs(difference) - _slack(a, b)
-    values = (a.mean(), b.mean(), difference, *differences, np.sign(b[None, :] - a[:, None]).mean(), *deltas, (extreme.sum() + 1) / (RESAMPLES + 1))
+    values = (a.mean(), b.mean(), difference, *differences, signs.mean(), *deltas, (extreme.sum() + 1) / (RESAMPLES + 1))
     return dict(zip(EFFECTS, map(float, values)))
 
 

@@ -1,4 +1,5 @@
 """Tests the statistics of experiments."""
+import tracemalloc
 from dataclasses import replace
 
 import numpy as np
@@ -97,6 +98,15 @@ def test_runs_of_equal_seeds_are_paired() -> None:
     paired.runs["seed"] = range(40)
     row = compare(paired, "error", "program").iloc[0]
     assert row["pairs"] == 0 and row["p"] > 0.5
+
+
+def test_comparing_many_unpaired_runs_needs_little_memory() -> None:
+    tracemalloc.start()
+    try:
+        unpaired_effect(np.arange(200.0), np.arange(200.0) + 10)
+        assert tracemalloc.get_traced_memory()[1] < 100e6
+    finally:
+        tracemalloc.stop()
 
 
 def test_few_pairs_have_an_exact_p_value() -> None:
