@@ -257,8 +257,8 @@ def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, opt
             axis.set_major_formatter(PowerFormatter())
             axis.set_minor_formatter(PowerFormatter())
     if options.kind == "line" and options.x != TIME and "x" in options.log:
-        ticks = sorted(data[options.x].unique())
-        axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
+        ticks = _order(data[options.x])
+        axes.set_xticks(ticks, [_value(results, tick) for tick in ticks])
         axes.xaxis.set_minor_formatter(NullFormatter())
     (axes.set_xlim if options.kind == "ecdf" else axes.set_ylim)(*options.range)
     if options.by:
@@ -393,7 +393,7 @@ def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metr
     figure.colorbar(image, ax=axes, label=_axis(results, metric), pad=0.02)
     for (row, column), mean in np.ndenumerate(means.to_numpy(float)):
         if np.isfinite(mean) and means.size <= MAX_CELLS:
-            number = f"{mean:#.2g}".rstrip(".") if abs(mean) < 100 else f"{mean:.0f}"
+            number = f"{mean:#.2g}".rstrip(".") if abs(mean) < 99.5 else f"{mean:.0f}"
             axes.text(column, row, ("≥" if bounds.iat[row, column] else "") + number, ha="center", va="center",
                       fontsize=matplotlib.rcParams["font.size"] - 2, color="white" if norm(mean) < 0.6 else "black")
     return set(groups[VALUE].count())

@@ -240,6 +240,15 @@ def test_units_belong_to_metrics_although_the_settings_are_newer_than_the_tables
     assert load(write_sweep(tmp_path / "out", 1, measure={"time": "s", "error": "m"})).units == {"error": "m"}
 
 
+def test_numbers_on_axes_and_in_cells_are_not_rounded_to_fewer_digits(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 1, (1000001, 1000002), labels={"1000002": "last"})
+    pd.read_parquet(f"{folder}/runs.parquet").assign(error=99.7).to_parquet(f"{folder}/runs.parquet")
+    (_, figure, _), *_ = draw(load(folder), read_options({"metric": "error", "x": "network.loss", "by": "program", "log": "x"}))
+    assert [tick.get_text() for tick in figure.axes[0].get_xticklabels()] == ["1000001", "last"]
+    (_, figure, _), *_ = draw(load(folder), read_options({"metric": "error", "x": "network.loss", "by": "program", "kind": "heat"}))
+    assert {text.get_text() for text in figure.axes[0].texts} == {"100"}
+
+
 def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 3, (0.0, 0.1))
     for name in ("runs", "series"):
