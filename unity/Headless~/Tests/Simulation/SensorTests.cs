@@ -210,6 +210,58 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_body_whose_collider_was_disabled_and_that_moved_has_no_contacts()
+        {
+            MakeBox(new Vector3(0, -0.5f, 0));
+            var ball = MakeBall(new Vector3(0, 0.49f, 0));
+            var sensor = ball.gameObject.AddComponent<Contacts>();
+            Play(10);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            ball.GetComponent<Collider>().enabled = false;
+            ball.isKinematic = true;
+            ball.position = new Vector3(0, 20, 0);
+            Play(2);
+            Assert.That(sensor.Values, Is.Empty);
+            ball.GetComponent<Collider>().enabled = true;
+            Play(2);
+            Assert.That(sensor.Values, Is.Empty);
+        }
+
+        [Test]
+        public void A_node_whose_collider_is_disabled_has_left_all_zones()
+        {
+            MakeBox(Vector3.zero).GetComponent<Collider>().isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            var sensor = ball.gameObject.AddComponent<Zones>();
+            Play(3);
+            ball.GetComponent<Collider>().enabled = false;
+            Play(2);
+            ball.transform.position = new Vector3(5, 0, 0);
+            ball.GetComponent<Collider>().enabled = true;
+            Play(3);
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "in", "left" }));
+        }
+
+        [Test]
+        public void A_zone_that_was_disabled_and_enabled_between_two_rounds_can_be_left()
+        {
+            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
+            zone.isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            var sensor = ball.gameObject.AddComponent<Zones>();
+            Play(2);
+            zone.enabled = false;
+            Physics.Simulate(0.01f);
+            zone.enabled = true;
+            Play(2);
+            ball.transform.position = new Vector3(5, 0, 0);
+            Play(3);
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "in", "in", "in", "left" }));
+        }
+
+        [Test]
         public void Zones_report_entering_staying_and_leaving()
         {
             var zone = MakeBox(new Vector3(5, 0, 0)).GetComponent<Collider>();

@@ -6,8 +6,9 @@ namespace Collektive.Unity
     public readonly struct Contact
     {
         /// <summary>Creates a value.</summary>
-        internal Contact(Collider collider, Vector3 point, Vector3 normal, Vector3 impulse)
+        internal Contact(Collider own, Collider collider, Vector3 point, Vector3 normal, Vector3 impulse)
         {
+            Own = own;
             Collider = collider;
             Point = point;
             Normal = normal;
@@ -16,6 +17,9 @@ namespace Collektive.Unity
 
         /// <summary>The collider that touches the node.</summary>
         public Collider Collider { get; }
+
+        /// <summary>The node's collider.</summary>
+        internal Collider Own { get; }
 
         /// <summary>The body that the collider belongs to; null for static colliders.</summary>
         public Rigidbody Body => Collider.attachedRigidbody;

@@ -61,12 +61,12 @@ namespace Collektive.Unity
         {
             var count = collision.contactCount;
             if (count == 0) return;
-            var normal = collision.GetContact(0).normal;
+            var first = collision.GetContact(0);
             var point = Vector3.zero;
             for (var i = 0; i < count; i++) point += collision.GetContact(i).point;
             var impulse = collision.impulse;
             // Unity reports the impulse with the same sign to both sides of a collision.
-            if (Vector3.Dot(impulse, normal) < 0) impulse = -impulse;
+            if (Vector3.Dot(impulse, first.normal) < 0) impulse = -impulse;
             var index = Find(collision.collider);
             if (index == contacts.Count)
             {
@@ -74,7 +74,8 @@ namespace Collektive.Unity
                 ended.Add(false);
             }
             ended.Items[index] = false;
-            contacts.Items[index] = new Contact(collision.collider, point / count, normal, contacts.Items[index].Impulse + impulse);
+            impulse += contacts.Items[index].Impulse;
+            contacts.Items[index] = new Contact(first.thisCollider, collision.collider, point / count, first.normal, impulse);
         }
 
         private int Find(Collider collider)
@@ -92,7 +93,7 @@ namespace Collektive.Unity
             {
                 var contact = contacts.Items[i];
                 var hasEnded = ended.Items[i];
-                if (contact.Collider.IsGone()) continue;
+                if (contact.Collider.IsGone() || contact.Own.IsGone()) continue;
                 var index = remaining++;
                 for (; index > 0 && ColliderExtensions.IsBefore(contact.Point - centre, contacts.Items[index - 1].Point - centre); index--)
                 {
@@ -113,7 +114,7 @@ namespace Collektive.Unity
             {
                 if (ended.Items[i]) continue;
                 var contact = contacts.Items[i];
-                contacts.Items[remaining] = new Contact(contact.Collider, contact.Point, contact.Normal, Vector3.zero);
+                contacts.Items[remaining] = new Contact(contact.Own, contact.Collider, contact.Point, contact.Normal, Vector3.zero);
                 ended.Items[remaining++] = false;
             }
             contacts.Truncate(remaining);

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Collektive.Bridge;
 using UnityEngine;
 
@@ -11,6 +12,8 @@ namespace Collektive.Unity
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ZoneSensor<TData> : Sensor<TData>
     {
+        private static readonly List<Collider> Found = new List<Collider>();
+
         private readonly GrowingArray<Visit> visits = new GrowingArray<Visit>();
         private Zone[] zones = Array.Empty<Zone>();
 
@@ -48,9 +51,12 @@ namespace Collektive.Unity
             SortNew();
             if (zones.Length < count) zones = new Zone[visits.Items.Length];
             var remaining = 0;
+            var colliders = count > 0 ? CountColliders() : 0;
             for (var i = 0; i < count; i++)
             {
                 var visit = visits.Items[i];
+                // Unity sends no message when a collider of the node or the zone is disabled.
+                visit.Entries = Math.Min(visit.Entries, colliders);
                 var left = visit.Entries == 0 || visit.Zone.IsGone();
                 zones[i] = new Zone(visit.Zone, visit.IsNew, left);
                 visit.IsNew = false;
@@ -104,6 +110,16 @@ namespace Collektive.Unity
                 }
                 visits.Items[index] = visit;
             }
+        }
+
+        /// <summary>Returns the number of enabled colliders of the node.</summary>
+        private int CountColliders()
+        {
+            GetComponentsInChildren(Found);
+            Found.RemoveAll(collider => collider.IsGone());
+            var count = Found.Count;
+            Found.Clear();
+            return count;
         }
 
         private int Find(Collider zone)
