@@ -59,6 +59,37 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(copy.GetComponent<SphereCollider>().radius, Is.EqualTo(0.25f));
         }
 
+        public class State
+        {
+            public int count;
+        }
+
+        public class Memory : MonoBehaviour
+        {
+            public State state = new State();
+            public List<State> states = new List<State>();
+            public HashSet<int> channels = new HashSet<int> { 1, 2 };
+            public Vector3[] places = { };
+            public LayerMask layers;
+        }
+
+        [Test]
+        public void Fields_that_Unity_does_not_serialise_have_their_initial_values_in_a_copy()
+        {
+            var original = Add<Memory>();
+            original.state.count = 3;
+            original.states.Add(original.state);
+            original.channels.Add(3);
+            original.places = new[] { Vector3.up };
+            original.layers = 5;
+            var copy = UnityEngine.Object.Instantiate(original);
+            Assert.That(copy.state.count, Is.EqualTo(0));
+            Assert.That(copy.states, Is.Empty);
+            Assert.That(copy.channels, Is.EquivalentTo(new[] { 1, 2 }));
+            Assert.That(copy.places, Is.EqualTo(original.places));
+            Assert.That(copy.layers.value, Is.EqualTo(5));
+        }
+
         [Test]
         public void A_copy_under_a_parent_keeps_its_local_position()
         {

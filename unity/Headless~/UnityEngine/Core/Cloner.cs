@@ -80,8 +80,20 @@ namespace UnityEngine
 
         static bool IsSerialized(FieldInfo field) =>
             !field.IsInitOnly && !field.IsNotSerialized
-            && (field.IsPublic || field.IsDefined(typeof(SerializeField)) || field.IsDefined(typeof(SerializeReference)))
-            && !typeof(Delegate).IsAssignableFrom(field.FieldType) && !typeof(IDictionary).IsAssignableFrom(field.FieldType);
+            && (field.IsDefined(typeof(SerializeReference))
+                || (field.IsPublic || field.IsDefined(typeof(SerializeField))) && IsSerialized(field.FieldType, true));
+
+        /// As in Unity, types of the class library are not serialised, except for primitive types, strings, and arrays and lists that are not nested.
+        static bool IsSerialized(Type type, bool mayBeList)
+        {
+            if (type.IsPrimitive || type.IsEnum || type == typeof(string) || typeof(Object).IsAssignableFrom(type)) return true;
+            var element = type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>) ? type.GetGenericArguments()[0] : type.GetElementType();
+            if (element != null) return mayBeList && (!type.IsArray || type.GetArrayRank() == 1) && IsSerialized(element, false);
+            if (type.Assembly == typeof(Object).Assembly) return type.IsValueType;
+            var library = type.Assembly.GetName().Name;
+            return type.IsSerializable && !typeof(Delegate).IsAssignableFrom(type) && library != "mscorlib" && library != "System"
+                && !library.StartsWith("System.", StringComparison.Ordinal);
+        }
 
         object CopyValue(object value, bool byReference)
         {
