@@ -59,6 +59,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_body_that_was_added_after_the_components_is_driven_and_measured()
+        {
+            var node = MakeNode(500).Node;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            var sensor = node.gameObject.AddComponent<SensorTests.Velocity>();
+            var body = node.gameObject.AddComponent<Rigidbody>();
+            body.useGravity = false;
+            Play(2);
+            Assert.That(body.linearVelocity.x, Is.EqualTo(2).Within(1e-4f));
+            Assert.That(sensor.Value.x, Is.EqualTo(2).Within(1e-4f));
+            body.linearVelocity = new Vector3(0, 0, 3);
+            Play(1);
+            Assert.That(sensor.Value.z, Is.EqualTo(3).Within(1e-4f));
+        }
+
+        [Test]
         public void A_kinematic_body_is_moved_through_physics()
         {
             var node = MakeNode(500).Node;

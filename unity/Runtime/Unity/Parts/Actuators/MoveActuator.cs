@@ -60,7 +60,9 @@ namespace Collektive.Unity
         {
             if (isChecked || body != null) return;
             isChecked = true;
-            if (TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
+            // Scripts may have added the body after this component.
+            body = GetComponentInParent<Rigidbody>();
+            if (body == null && TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
         }
 
         private void MoveTowards(Vector3 target)

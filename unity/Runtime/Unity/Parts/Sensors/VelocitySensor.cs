@@ -19,7 +19,6 @@ namespace Collektive.Unity
         protected override void OnEnable()
         {
             base.OnEnable();
-            body = GetComponentInParent<Rigidbody>();
             time = -1;
         }
 
@@ -32,6 +31,8 @@ namespace Collektive.Unity
             // A node that was disabled begins again.
             if (joinTick != Node.JoinTick) time = -1;
             joinTick = Node.JoinTick;
+            // Scripts may add the body after this component.
+            if (time < 0) body = GetComponentInParent<Rigidbody>();
             var now = tick.Time;
             var here = Node.Position;
             meanVelocity = time >= 0 && now > time ? (here - lastPosition) / (float)(now - time) : Vector3.zero;
