@@ -3,6 +3,7 @@ paths, or from --folder. Prints a line for each of them, and for the JVM, if it 
 
 Exit code: 0 the results are equal; 1 they differ, the run could not be repeated, or rounds failed."""
 import argparse
+import os
 from pathlib import Path
 
 from build.console import Failure
@@ -24,4 +25,6 @@ def run(arguments: argparse.Namespace) -> int:
     if b'"folder":' not in manifest.read_bytes():
         raise Failure(f"repeat: '{manifest}' is not the manifest of a run; to run a scenario file, use ./collektive run")
     out = arguments.out or f"{manifest.parent.resolve()}-repeated"
+    if os.path.realpath(out) == os.path.realpath(manifest.parent):
+        raise Failure(f"repeat: --out '{out}' contains the run to repeat: name another folder")
     return run_scenario(str(manifest), out=out, overwrite=arguments.overwrite, folder=arguments.folder, trust_jvm=arguments.trust_jvm)

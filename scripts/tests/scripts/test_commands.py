@@ -9,7 +9,8 @@ import pytest
 from checkout import Checkout
 
 from build import graph, lock, maven, processes, projects
-from commands import check, clean, demo, profile
+from build.console import Failure
+from commands import check, clean, demo, profile, repeat
 from commands import run as run_command
 
 
@@ -121,3 +122,12 @@ def test_a_cached_folder_without_its_output_is_built_again(tmp_path: Path) -> No
     (tmp_path / "key/rest").touch()
     jar = projects._cached(tmp_path / "key", "programs.jar", "test", [], lambda work, _: (work / "programs.jar").touch())
     assert jar.exists() and not (tmp_path / "key/rest").exists()
+
+
+def test_a_repetition_does_not_replace_its_original(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(repeat, "run_scenario", lambda *_, **__: 0)
+    (tmp_path / "manifest.json").write_text('{"folder": ""}')
+    (tmp_path / "link").symlink_to(tmp_path)
+    arguments = argparse.Namespace(manifest=tmp_path / "manifest.json", out=str(tmp_path / "link"), overwrite=True, folder=None, trust_jvm=False)
+    with pytest.raises(Failure, match="link' contains the run to repeat: name another folder"):
+        repeat.run(arguments)
