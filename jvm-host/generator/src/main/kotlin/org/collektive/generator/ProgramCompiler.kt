@@ -4,6 +4,7 @@ import java.io.File
 import java.io.IOException
 import java.io.PrintStream
 import java.lang.reflect.InvocationTargetException
+import java.nio.file.FileVisitOption
 import java.nio.file.Files
 import java.nio.file.Path
 import java.nio.file.StandardCopyOption
@@ -128,7 +129,7 @@ internal object ProgramCompiler {
     }
 
     /** Returns the files below [folder], sorted by their paths relative to [folder]. The keys are these paths after [prefix]. */
-    private fun files(folder: Path, prefix: String): Map<String, Path> = Files.walk(folder).use { paths ->
+    private fun files(folder: Path, prefix: String): Map<String, Path> = Files.walk(folder, FileVisitOption.FOLLOW_LINKS).use { paths ->
         paths.filter { it.isRegularFile() }.toList().associateBy { prefix + folder.relativize(it).joinToString("/") }.toSortedMap()
     }
 }

@@ -1,5 +1,6 @@
 package org.collektive.generator
 
+import java.nio.file.FileVisitOption
 import java.nio.file.Files
 import java.nio.file.Path
 import java.security.MessageDigest
@@ -42,8 +43,10 @@ internal object SourceHash {
         }
     }
 
-    private fun files(source: Path): List<Path> =
-        Files.walk(source).use { paths -> paths.filter { it.name.endsWith(".kt") && it.isRegularFile() }.toList() }
+    /** Follows symbolic links, as Unity and the Kotlin compiler do. */
+    private fun files(source: Path): List<Path> = Files.walk(source, FileVisitOption.FOLLOW_LINKS).use { paths ->
+        paths.filter { it.name.endsWith(".kt") && it.isRegularFile() }.toList()
+    }
 
     private fun name(folder: Path, file: Path) = folder.relativize(file).joinToString("/")
 

@@ -1,6 +1,7 @@
 package org.collektive.generator
 
 import kotlin.io.path.appendText
+import kotlin.io.path.createSymbolicLinkPointingTo
 import kotlin.io.path.writeText
 import kotlin.test.Test
 import kotlin.test.assertNotEquals
@@ -18,5 +19,15 @@ internal class SourceHashTest {
             file.appendText("struct A { x: int; }")
             assertNotEquals(before, SourceHash.of(schema, emptyList()))
         }
+    }
+
+    @Test
+    fun `the hash covers programs in linked folders`() {
+        val schema = Fixture.newFolder().resolve("a.fbs").also { it.writeText("namespace a;") }
+        val linked = Fixture.newFolder()
+        val programs = Fixture.newFolder().also { it.resolve("linked").createSymbolicLinkPointingTo(linked) }
+        val before = SourceHash.of(schema, listOf(programs))
+        linked.resolve("A.kt").writeText("fun a() = 1")
+        assertNotEquals(before, SourceHash.of(schema, listOf(programs)))
     }
 }
