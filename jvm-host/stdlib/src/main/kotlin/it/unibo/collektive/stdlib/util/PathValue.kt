@@ -17,6 +17,7 @@ public data class PathValue<ID : Any, Value, Distance : Comparable<Distance>>(
     public val hops: List<ID> = emptyList(),
 ) : Comparable<PathValue<ID, Value, Distance>> {
     @Transient
+    @kotlin.jvm.Transient // MessageSize does not count transient fields.
     internal val path: HopPath<ID> = hops as? HopPath<ID> ?: HopPath.of(hops)
 
     /** The number of hops from the source to the offering device. */

@@ -1,5 +1,6 @@
 package it.unibo.collektive.stdlib.util
 
+import org.collektive.spi.MessageSize
 import org.junit.jupiter.api.Test
 import kotlin.random.Random
 import kotlin.test.assertEquals
@@ -55,5 +56,12 @@ class HopPathTest {
         assertTrue((stem + 3).extends(stem, 3))
         assertFalse((stem + 3).extends(stem, 4))
         assertFalse((path(listOf(1, 2)) + 3).extends(stem, 3), "a path must not extend an equal path that is a different object")
+    }
+
+    @Test
+    fun `hops count once in the size of a message`() {
+        val size = MessageSize()
+        size.add(PathValue(1.0, 2.0, HopPath.of(listOf(3, 4))))
+        assertEquals(MessageSize.PATH_BYTES + 2 * Double.SIZE_BYTES + 3 * Int.SIZE_BYTES, size.bytes)
     }
 }
