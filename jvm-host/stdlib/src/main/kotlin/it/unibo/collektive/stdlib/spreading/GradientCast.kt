@@ -161,21 +161,21 @@ internal class GradientCast<ID : Any, V, D : Comparable<D>>(
             val offer = offers[index++]
             val step = distance.coerceIn(bottom, top)
             if (value !== offer.value || id != offer.id) return false
-            if (!step.isSameAs(offer.step) || !sum(value, step).isSameAs(offer.sum)) return false
+            if (!step.isSameAs(offer.step) || !total(value, step).isSameAs(offer.distance)) return false
         }
         return true
     }
 
-    /** Returns the distance from the source of [value] to this device before it is limited, or [step] if the neighbour offers nothing. */
-    private fun sum(value: PathValue<ID, V, D>?, step: D): D = if (value == null) step else accumulateDistance(value.distance, step)
+    /** Returns the limited distance from the source of [value] to this device, or [step] if the neighbour offers nothing. */
+    private fun total(value: PathValue<ID, V, D>?, step: D): D =
+        if (value == null) step else limitedSum(value.distance, step, accumulateDistance(value.distance, step), bottom, top)
 
     /** Returns the offers of the neighbours, in the field's order. */
     private fun offers(received: Field<ID, PathValue<ID, V, D>?>): List<Offer<ID, V, D>> {
         val offers = ArrayList<Offer<ID, V, D>>(received.neighborCount)
         received.forEachNeighborWith(metric) { id, value, distance ->
             val step = distance.coerceIn(bottom, top)
-            val sum = sum(value, step)
-            offers += Offer(id, step, sum, limitedSum(value?.distance ?: bottom, step, sum, bottom, top), value)
+            offers += Offer(id, step, total(value, step), value)
         }
         return offers
     }
@@ -248,13 +248,12 @@ private class Choice<ID : Any, V, D : Comparable<D>>(
 /**
  * The offer of the neighbour [id], which is [step] away.
  *
- * [value] is `null` if the neighbour offers nothing. [distance] is the limited [sum]: the distance to this device from the source, or
- * from the neighbour if it offers nothing.
+ * [value] is `null` if the neighbour offers nothing. [distance] is the limited distance to this device from the source, or from the
+ * neighbour if it offers nothing.
  */
 private class Offer<ID : Any, V, D : Comparable<D>>(
     val id: ID,
     val step: D,
-    val sum: D,
     val distance: D,
     val value: PathValue<ID, V, D>?,
 ) : Comparable<Offer<ID, V, D>> {

@@ -197,4 +197,13 @@ class GradientCastTest {
             assertEquals(swarm.ids.associateWith { it == 0 || it - 1 <= limit }, seen)
         }
     }
+
+    @Test
+    fun `a settled network reacts to a greater limit of distances`() {
+        val swarm = Swarm(4).line(1.0, 1.0, 1.0)
+        for (top in listOf(1.5, 10.0)) {
+            val seen = swarm.rounds(8) { distanceTo(localId == 0, 0.0, top, with(swarm) { lengths() }, accumulateDistance = Double::plus) }
+            assertEquals(mapOf(0 to 0.0, 1 to 1.0, 2 to 2.0, 3 to minOf(2.0, top) + 1), seen)
+        }
+    }
 }
