@@ -44,9 +44,9 @@ class ProjectionTest {
 
     @Test
     fun `a field is projected wherever it comes from`() {
-        for (program in listOf("property", "pair", "element", "destructured", "delegated", "lazyProperty", "smartCast", "cast")) {
-            assertSeen(program, 0 to setOf(2), 1 to setOf(3))
-        }
+        val programs = listOf("property", "pair", "element", "destructured", "ofDataClass", "hashMap", "delegated", "lazyProperty") +
+            listOf("smartCast", "cast")
+        for (program in programs) assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         for (program in listOf("each", "iterated")) assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
     }
 
@@ -112,6 +112,18 @@ class ProjectionTest {
             fun Aggregate<Int>.destructured(): Set<Int> {
                 val f = neighboring(localId) to 1
                 return if (even) { val (g, _) = f; ids(g) } else { val (g, _) = f; ids(g) }
+            }
+            data class Hop(val field: Field<Int, Int>, val device: Int)
+            fun Aggregate<Int>.ofDataClass(): Set<Int> {
+                val hop = Hop(neighboring(localId), localId)
+                return if (even) { val (f) = hop; ids(f) } else hop.let { (f, _) -> ids(f) }
+            }
+            fun Aggregate<Int>.hashMap(): Set<Int> {
+                val fields = HashMap<Int, Field<Int, Int>>()
+                val all = ArrayList<Field<Int, Int>>()
+                fields[1] = neighboring(localId)
+                all += fields.getValue(1)
+                return if (even) ids(fields[1]!!) else ids(all[0])
             }
             fun Aggregate<Int>.delegated(): Set<Int> { val f by lazy { neighboring(localId) }; f.local; return if (even) ids(f) else ids(f) }
             class Lazily(private val device: Aggregate<Int>) { val field by lazy { device.neighboring(device.localId) } }

@@ -210,11 +210,12 @@ internal class AlignmentTransformer(
 
     /** Whether [call] returns an existing field, for example from a property, a list or a pair. */
     private fun returnsExistingField(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
-        !dsl.isFieldMember(call.symbol.owner) && (isDelegated(call) || !reach.mustAlign(call)) &&
+        !dsl.isFieldMember(call.symbol.owner) && (mayReturnStored(call.symbol.owner) || !reach.mustAlign(call)) &&
         call.arguments.none { it != null && dsl.isField(it.type) }
 
-    /** Whether [call] reads a delegated property, whose delegate may store the field, as `lazy` does. */
-    private fun isDelegated(call: IrCall) = call.symbol.owner.origin == IrDeclarationOrigin.DELEGATED_PROPERTY_ACCESSOR
+    /** Whether an aligned call of [callee] may return a stored field: from a delegate such as `lazy`, a data class, or the JDK. */
+    private fun mayReturnStored(callee: IrFunction) = callee.origin == IrDeclarationOrigin.DELEGATED_PROPERTY_ACCESSOR ||
+        callee.origin == IrDeclarationOrigin.GENERATED_DATA_CLASS_MEMBER || dsl.isPlatform(callee) && !reach.isKotlinBuiltIn(callee)
 
     private fun projected(field: IrExpression, name: String): IrExpression {
         dependsOnPath = true

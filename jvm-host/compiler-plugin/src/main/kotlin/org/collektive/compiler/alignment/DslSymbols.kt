@@ -6,6 +6,7 @@ import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.backend.common.extensions.DeclarationFinder
 import org.jetbrains.kotlin.descriptors.DescriptorVisibilities
 import org.jetbrains.kotlin.ir.declarations.IrClass
+import org.jetbrains.kotlin.ir.declarations.IrDeclaration
 import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
 import org.jetbrains.kotlin.ir.declarations.IrFunction
 import org.jetbrains.kotlin.ir.declarations.IrParameterKind
@@ -57,8 +58,10 @@ internal class DslSymbols private constructor(
     }
 
     /** Whether an object of [type] stores an Aggregate in a property, directly or through other objects. */
-    private fun storesAggregate(type: IrClass): Boolean =
-        PLATFORM.none(type.getPackageFragment().packageFqName::startsWith) && storing.reaches(type)
+    private fun storesAggregate(type: IrClass): Boolean = !isPlatform(type) && storing.reaches(type)
+
+    /** Whether [declaration] belongs to Kotlin or the JDK. */
+    fun isPlatform(declaration: IrDeclaration): Boolean = PLATFORM.any(declaration.getPackageFragment().packageFqName::startsWith)
 
     /**
      * The property in which an object of [type] stores the Aggregate of its program, or `null`. Implementations of Aggregate
