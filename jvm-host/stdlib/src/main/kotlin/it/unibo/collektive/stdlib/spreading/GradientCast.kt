@@ -251,12 +251,8 @@ private class Choice<ID : Any, V, D : Comparable<D>>(
  * [value] is `null` if the neighbour offers nothing. [distance] is the limited distance to this device from the source, or from the
  * neighbour if it offers nothing.
  */
-private class Offer<ID : Any, V, D : Comparable<D>>(
-    val id: ID,
-    val step: D,
-    val distance: D,
-    val value: PathValue<ID, V, D>?,
-) : Comparable<Offer<ID, V, D>> {
+private class Offer<ID : Any, V, D : Comparable<D>>(val id: ID, val step: D, val distance: D, val value: PathValue<ID, V, D>?) :
+    Comparable<Offer<ID, V, D>> {
     val path: HopPath<ID>? get() = value?.path
 
     var considered: Boolean = false
