@@ -1,5 +1,6 @@
 """Runs scenarios with the player."""
 import json
+import os
 import re
 import signal
 import subprocess
@@ -83,6 +84,9 @@ def plan(scenario: str, options: Sequence[str]) -> Plan:
 
     Raises `InvalidScenario` without a message if the scenario is invalid, because the player has printed the error.
     """
+    path = Path(scenario)
+    # The content is read before the player reads it, so that each later change is detected. The player reports unreadable files.
+    content = path.read_bytes() if path.is_file() and os.access(path, os.R_OK) else b""
     command = managed.command("mono-sgen", PLAYER, "plan", scenario, *options)
     result = subprocess.run(command, env=managed.environment("mono-sgen"), stdout=subprocess.PIPE)
     if result.returncode < 0:
@@ -91,7 +95,7 @@ def plan(scenario: str, options: Sequence[str]) -> Plan:
         raise InvalidScenario(1)
     values = json.loads(result.stdout)
     parts = {key: read(Path(values[key])) for key, read in READERS.items() if values.get(key)}
-    return Plan(values, parts, Path(scenario), Path(scenario).read_bytes())
+    return Plan(values, parts, path, content)
 
 
 class InvalidScenario(Failure):
