@@ -17,6 +17,8 @@ from command import WORK
 from build.places import ROOT
 
 # These commands exit with 1 if two runs differ, which is not an error in a tutorial.
+# Other tests cover debugging, profiling and scene builders.
+SLOW = ("tutorial-debugging", "tutorial-profiling", "tutorial-scene-builder")
 COMPARE = ("collektive diff ", "collektive replay ")
 
 
@@ -49,7 +51,8 @@ def run(commands, folder):
     return printed
 
 
-@pytest.mark.parametrize("page", STORIES, ids=lambda page: os.path.basename(page).removesuffix(".md"))
+@pytest.mark.parametrize("page", [
+    pytest.param(page, id=name, marks=[pytest.mark.slow] * (name in SLOW)) for page in STORIES for name in [os.path.basename(page).removesuffix(".md")]])
 def test_tutorials_work_as_written(page, folder) -> None:
     page_blocks, printed = blocks(page), ""
     assert any(block.language == "sh" for block in page_blocks)
