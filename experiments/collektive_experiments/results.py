@@ -1,6 +1,7 @@
 """Loads and compares the tables of a sweep, for notebooks and figures."""
 import itertools
 import os
+import re
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -73,9 +74,10 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     if not {CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times} <= set(results.runs.columns):
         raise ExperimentError(f"the tables of '{folder}' are from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
-    # The settings may be newer than the tables, and list other metrics. A column may have the prefix `metric.`.
-    return replace(results, units={column: unit for column in results.metrics for name, unit in settings["measure"].items()
-                                   if not column.removesuffix(name).replace("metric.", "")})
+    # The settings may be newer than the tables, and list other metrics. Tables add the prefix `metric.` to a name that is already taken.
+    units = settings["measure"]
+    return replace(results, units={column: units[name] for column in results.metrics for name in (re.sub(r"^(metric\.)+", "", column), column)
+                                   if name in units})
 
 
 def _read(folder: str, name: str) -> pd.DataFrame:

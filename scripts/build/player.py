@@ -18,8 +18,8 @@ from build.places import HOST_JAR, PLAYER
 READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "data": inputs.data, "runtimeJars": inputs.jars,
            "runtimePlugin": inputs.jar}
 
-# A decimal number in Java.
-NUMBER = re.compile(r"\s*[+-]?(NaN|Infinity|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?[fFdD]?)\s*", re.ASCII)
+# A number in Java. The host checks the digits of hexadecimal ones.
+NUMBER = re.compile(r"\s*[+-]?(NaN|Infinity|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?[fFdD]?|0[xX].*)\s*", re.ASCII)
 
 
 @dataclass(frozen=True)
@@ -56,11 +56,11 @@ class Plan:
             for name, value in values.items():
                 if name not in known[program]:
                     raise Failure(f"'parameters.{program}.{name}': unknown parameter; the program declares: {', '.join(sorted(known[program])) or 'none'}")
-                default, constants = "".join(known[program][name][:1]), known[program][name][2:]
+                default, _, *constants = known[program][name]
                 text = value if isinstance(value, str) else json.dumps(value)
                 if constants and text not in constants:
                     raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be one of {', '.join(constants)}")
-                if NUMBER.fullmatch(default) and not NUMBER.fullmatch(text) and "x" not in text.lower():
+                if NUMBER.fullmatch(default) and not NUMBER.fullmatch(text):
                     raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be a number like its default {default}")
 
     def require_unchanged(self) -> None:

@@ -84,7 +84,7 @@ def parameters(jar: Path) -> dict[str, dict[str, list[str]]]:
                     kind, name, *rest = [re.sub(r"\\(.)", lambda match: ESCAPES.get(match[1], match[1]), column) for column in line.split("\t")]
                     program = name if kind == "program" else program
                     declared = found.setdefault(program, {})
-                    if kind == "parameter":
+                    if kind == "parameter" and len(rest) >= 2:
                         declared[name] = rest
     # The host reports damaged jars.
     except (zipfile.BadZipFile, OSError, ValueError):
