@@ -44,8 +44,7 @@ class ProjectionTest {
 
     @Test
     fun `a field is projected wherever it comes from`() {
-        val programs = listOf("property", "pair", "element", "destructured", "ofDataClass", "hashMap", "delegated", "lazyProperty") +
-            listOf("smartCast", "cast")
+        val programs = "property pair element destructured ofDataClass hashMap delegated lazyProperty smartCast cast".split(" ")
         for (program in programs) assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         for (program in listOf("each", "iterated")) assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
     }
