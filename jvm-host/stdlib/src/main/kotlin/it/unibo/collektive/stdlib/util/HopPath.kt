@@ -18,6 +18,9 @@ internal class HopPath<ID : Any> private constructor(
 ) : AbstractList<ID>() {
     override fun get(index: Int): ID = toList()[index]
 
+    // The inherited iterator calls get for each hop, which takes quadratic time.
+    override fun iterator(): Iterator<ID> = toList().iterator()
+
     operator fun plus(id: ID): HopPath<ID> = HopPath(this, id, size + 1, mask or bitOf(id))
 
     override fun contains(element: ID): Boolean = prefixUpTo(element) != null
@@ -61,7 +64,15 @@ internal class HopPath<ID : Any> private constructor(
         return true
     }
 
-    fun toList(): List<ID> = generateSequence(this) { it.previous }.mapNotNull { it.hop }.toList().asReversed()
+    fun toList(): List<ID> {
+        val hops = ArrayList<ID>(size)
+        var path: HopPath<ID>? = this
+        while (path != null) {
+            path.hop?.let(hops::add)
+            path = path.previous
+        }
+        return hops.asReversed()
+    }
 
     override fun equals(other: Any?): Boolean =
         this === other || other is HopPath<*> && size == other.size && mask == other.mask && toList() == other.toList()

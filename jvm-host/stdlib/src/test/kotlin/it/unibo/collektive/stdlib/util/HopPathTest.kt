@@ -1,7 +1,9 @@
 package it.unibo.collektive.stdlib.util
 
 import org.collektive.spi.MessageSize
+import org.junit.jupiter.api.Assertions.assertTimeoutPreemptively
 import org.junit.jupiter.api.Test
+import java.time.Duration.ofSeconds
 import kotlin.random.Random
 import kotlin.test.assertEquals
 import kotlin.test.assertFalse
@@ -24,6 +26,12 @@ class HopPathTest {
             assertEquals(path(ids).hashCode(), path.hashCode())
             for (id in 0 until 1000) assertEquals(id in ids, id in path)
         }
+    }
+
+    @Test
+    fun `iterating over a path takes linear time`() {
+        val ids = (0 until 100_000).toList()
+        assertTimeoutPreemptively(ofSeconds(10)) { assertEquals(ids, path(ids).map { it }) }
     }
 
     @Test
