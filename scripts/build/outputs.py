@@ -27,8 +27,8 @@ BACKUP = "earlier.part"
 def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
     """Creates the folder of a run, locks it until this process and its children end, and removes earlier results.
 
-    If the run does not write a manifest, for example because of an invalid seed, restores the earlier results. Raises `Failure` if the folder cannot be
-    used, or if it has earlier results and `overwrite` is false.
+    If the run completes no tick, for example because of an invalid seed or JVM option, restores the earlier results. Raises `Failure` if the folder cannot
+    be used, or if it has earlier results and `overwrite` is false.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -69,7 +69,12 @@ def _end(folder: Path) -> None:
     earlier = folder / BACKUP
     if earlier.is_symlink() or not earlier.is_dir():
         return
-    if not (folder / "manifest.json").exists():
+    manifest = folder / "manifest.json"
+    if _has_no_tick(manifest):
+        # Deletes the manifest last, so that the next command continues if this one is killed.
+        for name in reversed(_existing(folder, RESULTS)):
+            (folder / name).unlink()
+    if not manifest.exists():
         for name in _existing(folder, UNFINISHED):
             (folder / name).unlink()
         # Restores the manifest last, because it shows that a run has begun.
@@ -78,6 +83,14 @@ def _end(folder: Path) -> None:
     for name in _existing(earlier, RESULTS):
         (earlier / name).unlink()
     earlier.rmdir()
+
+
+def _has_no_tick(manifest: Path) -> bool:
+    """Returns whether a run ended before it completed its first tick."""
+    try:
+        return bool(json.loads(manifest.read_bytes())["ticks"] == 0)
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
 
 
 def _is_of_run(folder: Path) -> bool:

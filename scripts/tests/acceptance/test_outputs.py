@@ -77,7 +77,7 @@ class Outputs(Project):
         self.assertEqual(self.run_it().returncode, 0)
         before = self.contents()
         for arguments in [("--seed", "1.5"), ("--seconds", "-1"), ("--set", "lamps=many"), ("--set", "candles=3"), ("--set", "scene=Lamps.Nonesuch"),
-                          ("--set", "outputs.nodes.fields=[\"nonesuch\"]")]:
+                          ("--set", "outputs.nodes.fields=[\"nonesuch\"]"), ("--set", "jvm.flags=[\"-Xss1k\"]")]:
             self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
             self.assertEqual(self.contents(), before, arguments)
 

@@ -42,6 +42,14 @@ def test_results_are_restored_if_the_run_does_not_start(folder: Path) -> None:
     assert contents(folder) == before
 
 
+def test_results_are_restored_if_the_run_completes_no_tick(folder: Path) -> None:
+    before = contents(folder)
+    with outputs.open_folder(folder, True):
+        (folder / "metrics.csv").write_text("second")
+        (folder / "manifest.json").write_text('{"outcome": "failed: the JVM rejects its options", "ticks": 0}')
+    assert contents(folder) == before
+
+
 def test_results_are_restored_by_the_command_after_a_killed_one(folder: Path) -> None:
     before = contents(folder)
     earlier = folder / outputs.BACKUP

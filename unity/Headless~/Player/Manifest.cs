@@ -48,6 +48,13 @@ namespace Collektive.Headless
         /// </summary>
         internal string Outcome { set => Root["outcome"] = value; }
 
+        /// <summary>Sets the outcome of a failed run. After a run without a completed tick, the command keeps the results that it would have replaced.</summary>
+        internal void Fail(string problem, int completedTicks)
+        {
+            Outcome = "failed: " + problem;
+            if (completedTicks == 0) Root["ticks"] = 0;
+        }
+
         /// <summary>Adds the results and the versions.</summary>
         /// <param name="parameters">Parameters of the programs that ran.</param>
         /// <param name="ticks">Number of completed ticks.</param>

@@ -78,12 +78,12 @@ namespace Collektive.Headless
             catch (ThreadAbortException) when (limit?.IsExceeded == true)
             {
                 Thread.ResetAbort();
-                manifest.Outcome = "failed: " + limit.Message;
+                manifest.Fail(limit.Message, completedTicks);
                 throw new ScenarioException(limit.Message + "; the stack trace is above");
             }
             catch (Exception error)
             {
-                manifest.Outcome = "failed: " + error.Message;
+                manifest.Fail(error.Message, completedTicks);
                 throw;
             }
             finally
@@ -140,7 +140,7 @@ namespace Collektive.Headless
         private void GiveUp()
         {
             Console.Error.WriteLine("collektive: " + limit.Message);
-            manifest.Outcome = "failed: " + limit.Message;
+            manifest.Fail(limit.Message, completedTicks);
             manifest.Write();
             Syscall._exit(1);
         }
