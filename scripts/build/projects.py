@@ -108,14 +108,17 @@ def programs_jar(schema: Part, programs: Part, jars: Part | None = None, plugin:
     key = _key(parts, [*visible, BUILD / "stamp/kotlinc", find_jdk() / "release", *([] if runtime else [compiler_plugin()])])
 
     def compile_programs(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
+        options = compilation(schema, programs, work, jars, plugin)
         try:
-            run([*_java(), COMPILE_COMMAND, *compilation(schema, programs, work, jars, plugin)])
+            run([*compiler_jvm(), COMPILE_COMMAND, *options])
         except subprocess.CalledProcessError as error:
             # The compiler has this exit code after an internal error, which a plugin usually causes.
             if error.returncode == 2:
                 version = fetch.pom_value("kotlin.version")
                 raise Failure(f"the Kotlin compiler {version} crashed (see above); the compiler plugin may be built for another version") from error
             raise
+        if (cache := aot_cache()) and not cache.exists():
+            _record_aot_cache(cache, work, options)
 
     return _cached(BUILD / "programs" / key, "programs.jar", "compile-programs", parts, compile_programs)
 
@@ -140,7 +143,7 @@ def compilation(schema: Part, programs: Part, work: Path, jars: Part | None = No
 def compile_server(folder: Path) -> list[str | Path]:
     """Returns the command of a process that handles compilation requests in a folder until this process ends."""
     fetch.fetch("kotlinc")
-    return [*_java(), COMPILE_COMMAND, "--serve", folder, str(os.getpid())]
+    return [*compiler_jvm(), COMPILE_COMMAND, "--serve", folder, str(os.getpid())]
 
 
 def test_classes(schema: Part, tests: Part, class_path: Sequence[Path], plugin: Path) -> Path:
@@ -153,8 +156,8 @@ def test_classes(schema: Part, tests: Part, class_path: Sequence[Path], plugin: 
 
     def compile_tests(work: Path, run: Callable[[Sequence[str | Path]], None]) -> None:
         (work / "classes").mkdir()
-        run([*_java(), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler", "-no-stdlib", "-no-reflect", "-jvm-target", "17", "-cp", ":".join(map(str, class_path)),
-             "-d", work / "classes", f"-Xplugin={plugin}", f"-Xfriend-paths={class_path[-1]}", *tests.files.values()])
+        run([*compiler_jvm(), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler", "-no-stdlib", "-no-reflect", "-jvm-target", "17",
+             "-cp", ":".join(map(str, class_path)), "-d", work / "classes", f"-Xplugin={plugin}", f"-Xfriend-paths={class_path[-1]}", *tests.files.values()])
 
     return _cached(BUILD / "programs" / key, "classes", "compile-tests", [schema, tests], compile_tests)
 
@@ -179,15 +182,39 @@ def scripts_dll(schema: Part, scripts: Part) -> Path:
     return _cached(BUILD / "scripts" / f"{key}-{place}", "Scenario.dll", "compile-scripts", [schema, scripts], compile_scripts)
 
 
-def _java() -> list[str | Path]:
-    """Returns the start of a command line that runs the Kotlin compiler in a JVM, without the main class."""
+def compiler_jvm(*archive: str) -> list[str | Path]:
+    """Returns the start of a command line that runs the Kotlin compiler in a JVM, without the main class. Uses the AOT cache by default."""
     jdk = find_jdk()
-    version = feature_version(jdk)
     # Newer JVMs print warnings about features that the compiler uses.
-    quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if version >= 24 else []
-    archive = ["-XX:+AutoCreateSharedArchive", f"-XX:SharedArchiveFile={BUILD}/compiler-{version}.jsa", "-Xlog:disable"] if version >= 19 else []
-    return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp",
-            f"{BUILD}/kotlinc/*:{GENERATOR_JAR}"]
+    quiet = ["--enable-native-access=ALL-UNNAMED", "--sun-misc-unsafe-memory-access=allow"] if feature_version(jdk) >= 24 else []
+    if not archive and (cache := aot_cache()):
+        # The JVM ignores a missing or unsuitable cache.
+        archive = (f"-XX:AOTCache={cache}", "-Xlog:disable")
+    return [jdk / "bin/java", "-Xmx1g", "-XX:+UseSerialGC", "-XX:TieredStopAtLevel=1", *quiet, *archive, "-cp", f"{BUILD}/kotlinc/*:{GENERATOR_JAR}"]
+
+
+def aot_cache() -> Path | None:
+    """Returns the file of loaded classes and profiles that halves the time of compilations, or None if the JDK does not support it.
+
+    The name depends on the modification times of the jars, like the validity of the cache.
+    """
+    jdk = find_jdk()
+    if feature_version(jdk) < 25:
+        return None
+    jars = (f"{file} {file.stat().st_mtime_ns}" for file in (GENERATOR_JAR, BUILD / "stamp/kotlinc", jdk / "release"))
+    return BUILD / f"compiler-{hashlib.sha256(chr(0).join(jars).encode()).hexdigest()[:16]}.aot"
+
+
+def _record_aot_cache(cache: Path, work: Path, options: Sequence[str | Path]) -> None:
+    """Repeats a compilation in the folder `work`, and stores its classes and profiles. Without a cache, later compilations are slower."""
+    print_progress("compiler-cache ...")
+    new = work / "compiler.aot"
+    subprocess.run([*compiler_jvm(f"-XX:AOTCacheOutput={new}"), COMPILE_COMMAND, *options], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                   stderr=subprocess.DEVNULL)
+    if new.exists():
+        for old in BUILD.glob("compiler-*.aot"):
+            old.unlink(missing_ok=True)
+        new.replace(cache)
 
 
 def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Callable[[Path, Callable[[Sequence[str | Path]], None]], None]) -> Path:

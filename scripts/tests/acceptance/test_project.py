@@ -7,6 +7,8 @@ import subprocess
 import pytest
 from command import Project, collektive, jdk, last_error
 
+from build import projects
+
 
 class ProjectTest(Project):
     """Tests runs of the project."""
@@ -111,6 +113,15 @@ class ProjectTest(Project):
     def test_kotlin_that_does_not_compile_is_shown_with_file_and_line(self) -> None:
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         self.refused("Brightest.kt:", "lightness")
+
+    def test_compilations_after_the_first_use_its_aot_cache(self) -> None:
+        if projects.aot_cache() is None:
+            self.skipTest("this JDK has no AOT cache")
+        self.change("programs/Brightest.kt", "val mine", f"/* {self.folder} */ val mine")
+        self.assertEqual(self.run_it().returncode, 0)
+        # With this option, the JVM ends if it cannot use the cache.
+        result = subprocess.run([*projects.compiler_jvm(), "-XX:AOTMode=on", "-version"], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 0, result.stdout)
 
     def test_paths_that_tools_cannot_read_are_rejected(self) -> None:
         for name, words in [("a\nb", "has a line break or is not UTF-8"), ("\udcff", "is not UTF-8, which the player and the JVM need")]:

@@ -48,7 +48,7 @@ namespace Collektive.Headless
         /// </summary>
         internal string Outcome { set => Root["outcome"] = value; }
 
-        /// <summary>Sets the outcome of a failed run. After a run without a completed tick, the command keeps the results that it would have replaced.</summary>
+        /// <summary>Sets the outcome of a failed run. If it completed no tick, the command keeps the results that it would have replaced.</summary>
         internal void Fail(string problem, int completedTicks)
         {
             Outcome = "failed: " + problem;
