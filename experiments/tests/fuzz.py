@@ -303,10 +303,12 @@ def run_failing(at: int, folder: Path, *words: str) -> tuple[int, int]:
 
 
 def check_folders(out: Path) -> None:
-    """Checks that each folder is complete, marked as unfinished, or absent."""
+    """Checks that each folder is complete, marked as unfinished, empty (after an interrupted deletion or creation), or absent."""
     for folder in [*out.glob("runs/*"), *out.glob("bundle*")]:
+        if not os.listdir(folder):
+            continue
         if folder.name.endswith(".part"):
-            require((folder / MARKER).exists() or not os.listdir(folder), f"{folder} must have a marker")
+            require((folder / MARKER).exists(), f"{folder} must have a marker")
         elif folder.name == "bundle":
             require((folder / "programs.jar").exists() and (folder / "Scenario.dll").exists(), "the bundle must be complete")
         elif not (folder / "run.json").exists():
