@@ -239,7 +239,7 @@ def main() -> None:
             shutil.copytree(os.path.join(folder, "cases", case if case != "all" else ""), saved)
             print(f"{saved}:\n{text}", flush=True)
         seed += 1
-    print(f"Tested {sum(totals)} schemas: {totals[0]} accepted, {totals[1]} rejected, {found} findings")
+    print(f"Done {sum(totals)} runs: {totals[0]} accepted, {totals[1]} rejected, {found} findings")
     sys.exit(found > 0)
 
 
