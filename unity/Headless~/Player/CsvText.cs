@@ -1,3 +1,4 @@
+using System;
 using System.Globalization;
 
 namespace Collektive.Headless
@@ -10,16 +11,15 @@ namespace Collektive.Headless
         /// <summary>Returns the cell of a text, in quotes.</summary>
         internal static string Quoted(string text) => "\"" + text.Replace("\"", "\"\"") + "\"";
 
-        /// <summary>Returns the shortest text that reads back as the same number. Does not use the format "R", which differs between runtimes.</summary>
+        /// <summary>Returns a text that reads back as exactly the same number, with 15 digits if they suffice.</summary>
         internal static string Number(double value)
         {
-            for (var digits = 15; digits < 17; digits++)
-            {
-                var text = value.ToString("G" + digits, CultureInfo.InvariantCulture);
-                // On Mono, a text that rounds beyond the largest number cannot be parsed.
-                if (double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out var read) && read.Equals(value)) return text;
-            }
-            return value.ToString("G17", CultureInfo.InvariantCulture);
+            var text = value.ToString("G15", CultureInfo.InvariantCulture);
+            // Mono parses some texts as a neighbouring number, and "R" relies on that. Within these limits, the conversion from decimal is exact: it divides
+            // a whole number by a power of ten, and both have exact values as double.
+            var isExact = Math.Abs(value) > 1e-7 && Math.Abs(value) < 1e15
+                && (double)decimal.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture) == value;
+            return isExact ? text : value.ToString("G17", CultureInfo.InvariantCulture);
         }
 
         /// <summary>Returns a cell of the header, in quotes if it needs them.</summary>

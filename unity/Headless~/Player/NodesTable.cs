@@ -142,7 +142,7 @@ namespace Collektive.Headless
                     case null: return "";
                     case bool truth: return truth ? "true" : "false";
                     case float number: return number.ToString("R", CultureInfo.InvariantCulture);
-                    case double number: return number.ToString("R", CultureInfo.InvariantCulture);
+                    case double number: return CsvText.Number(number);
                     case string text: return CsvText.Quoted(text);
                     case Enum name: return CsvText.Quoted(name.ToString());
                     default: return Convert.ToString(value, CultureInfo.InvariantCulture);

@@ -159,6 +159,8 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase(double.MaxValue, "1.7976931348623157E+308")]
         [TestCase(0.1, "0.1")]
+        [TestCase(7.8486013961250904, "7.8486013961250904")]
+        [TestCase(0.36735725187107793, "0.36735725187107793")]
         public void Numbers_are_written_exactly(double number, string text) => Assert.That(CsvText.Number(number), Is.EqualTo(text));
 
         [Test]
