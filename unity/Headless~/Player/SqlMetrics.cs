@@ -128,7 +128,7 @@ namespace Collektive.Headless
         private void RequireAggregate(Metric metric)
         {
             clear.Execute(rows, 0);
-            if (Evaluate(metric) == null)
+            if (Evaluate(metric) == null && !ReplaceBySubqueries(metric))
             {
                 throw file.Error(
                     metric.Property,
@@ -149,6 +149,26 @@ namespace Collektive.Headless
             throw file.Error(
                 metric.Property,
                 "'metrics." + metric.Property.Name + "' depends on the order of nodes: write each column in a function over all nodes, such as avg(...)");
+        }
+
+        /// <summary>Evaluates a metric that consists of subqueries without the outer table, so that it has one row. Returns whether this is possible.</summary>
+        private bool ReplaceBySubqueries(Metric metric)
+        {
+            var sql = (string)metric.Property.Value;
+            if (sql.IndexOf("select", StringComparison.OrdinalIgnoreCase) < 0) return false;
+            try
+            {
+                // In WHERE, SQLite rejects aggregates and window functions outside of subqueries.
+                database.PrepareQuery("SELECT 1 WHERE (" + sql + "\n)", null).Dispose();
+                var query = database.PrepareQuery(Before + sql + "\n)", null);
+                metric.Query.Dispose();
+                metric.Query = query;
+                return true;
+            }
+            catch (SqlException)
+            {
+                return false;
+            }
         }
 
         private double? Evaluate(Metric metric)
@@ -190,7 +210,7 @@ namespace Collektive.Headless
 
             internal JProperty Property { get; }
 
-            internal Sqlite.Statement Query { get; }
+            internal Sqlite.Statement Query { get; set; }
         }
     }
 }

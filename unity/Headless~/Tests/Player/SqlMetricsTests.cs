@@ -34,6 +34,9 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("heard", -1, "'metrics.m' is not an aggregate: it needs a function over all nodes")]
         [TestCase("1", -1, "is not an aggregate")]
         [TestCase("count(*) over ()", -1, "is not an aggregate")]
+        [TestCase("(select count(*) from nodes) + count(*) over ()", -1, "is not an aggregate")]
+        [TestCase("(select count(*) from nodes other where other.x < nodes.x)", -1, "is not an aggregate")]
+        [TestCase("(select x from nodes limit 1)", -1, "depends on the order of nodes")]
         [TestCase("avg(heard) + x", -1, "depends on the order of nodes: write each column in a function over all nodes")]
         [TestCase("avg(heard), max(x)", -1, "row value misused")]
         [TestCase("/* isn't */ avg('heard')", 16, "it must not contain texts; write columns without single quotes, at character 17")]
@@ -81,6 +84,7 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Measure("max(x)"), Is.NaN);
             Assert.That(Measure("count(*)"), Is.EqualTo(0));
             Assert.That(Measure("total(heard)"), Is.EqualTo(0));
+            Assert.That(Measure("(select count(*) from nodes)"), Is.EqualTo(0));
         }
 
         // The values of the nodes are 1, NaN and infinity. The fourth node has not run a round.
@@ -107,6 +111,9 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("max(x) + max(position_z)", 5)]
         [TestCase("sum((select count(*) from nodes other where other.x < nodes.x))", 6)]
         [TestCase("avg(id) -- a comment", 1.5)]
+        [TestCase("(select count(*) from nodes) / (select max(id) from nodes) -- a comment", 4.0 / 3)]
+        [TestCase("(select avg(step) from (select x - lag(x) over (order by id) as step from nodes))", 1)]
+        [TestCase("(select id from nodes where id > 9)", double.NaN)]
         public void Metrics_follow_SQL_with_NULL_for_NaN_and_missing_answers(string sql, double expected)
         {
             var values = new[] { 2, 0, 0.5f };
