@@ -22,7 +22,7 @@ from . import files
 from .experiment import Experiment, check_labels, read_figures, text
 from .figure_options import CENSORED, CONVERGED, TIME, Fail, FigureOptions, check_keys, check_metrics
 from .positions import ExperimentError, Located
-from .results import VALUE, Results, compare, label, load
+from .results import VALUE, Results, compare, load
 from .statistics import interval, kaplan_meier
 
 # The palette of Okabe and Ito, which is safe for colour-blind readers. It lacks yellow, which is too pale for lines.
@@ -223,7 +223,7 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
             with matplotlib.rc_context(STYLE), matplotlib.rc_context(STYLES[options.style]):
                 figure = Figure(figsize=options.size, layout="constrained")
                 caption = _draw(figure, results, part, metric, options)
-            yield file_name(metric + ending, names), figure, caption + (f" {label(values, others)}." if others else "")
+            yield file_name(metric + ending, names), figure, caption + (f" {_title(results, values, others)}." if others else "")
 
 
 def _other_keys(results: Results, shown: list[str]) -> list[str]:
@@ -465,7 +465,7 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
     for axes in grid[len(parts):]:
         axes.set_visible(False)
     for axes, (values, _) in zip(grid, parts):
-        axes.set_title(label(values, others), fontsize=9)
+        axes.set_title(_title(results, values, others), fontsize=9)
     return figure, list(grid[:len(parts)]), colour, [group for _, group in parts]
 
 
@@ -518,6 +518,13 @@ def _value(results: Results, value: Any) -> str:
     """Returns the label of a key's value."""
     name = text(value)
     return results.labels.get(name, name)
+
+
+def _title(results: Results, values: tuple[Any, ...], keys: list[str]) -> str:
+    """Formats a configuration: the label of each key, its last part, or the whole key if several have this part, and its value."""
+    ends = [key.split(".")[-1] for key in keys]
+    names = [_text(results, key) if key in results.labels else key if ends.count(end) > 1 else end for key, end in zip(keys, ends)]
+    return ", ".join(f"{name} {_value(results, value.item() if hasattr(value, 'item') else value)}" for name, value in zip(names, values))
 
 
 def _runs(counts: set[int]) -> str:

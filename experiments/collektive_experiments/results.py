@@ -7,7 +7,6 @@ from typing import Any
 
 import pandas as pd
 
-from .experiment import text
 from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
 from .statistics import holm, paired_effect, unpaired_effect
@@ -117,10 +116,3 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
             rows.append({**dict(zip(others, place)), "a": first, "b": second, "n_a": len(a), "n_b": len(b), "pairs": len(seeds), **effect})
     table = pd.DataFrame(rows)
     return table if table.empty else table.assign(p_holm=holm(table["p"].to_numpy(float)))
-
-
-def label(values: tuple[Any, ...], keys: list[str]) -> str:
-    """Formats a configuration for titles, with the last part of each key, or the whole key if several have this part, and its value."""
-    ends = [key.split(".")[-1] for key in keys]
-    names = [key if ends.count(end) > 1 else end for key, end in zip(keys, ends)]
-    return ", ".join(f"{name} {text(value.item() if hasattr(value, 'item') else value)}" for name, value in zip(names, values))

@@ -7,8 +7,7 @@ import pandas as pd
 import pytest
 
 from collektive_experiments import Results, compare, holm, interval, kaplan_meier
-from collektive_experiments.figures import _table, at_end, over_time
-from collektive_experiments.results import label
+from collektive_experiments.figures import _table, _title, at_end, over_time
 from collektive_experiments.statistics import paired_effect, unpaired_effect
 
 
@@ -70,12 +69,17 @@ def test_axes_have_units_and_captions_the_number_of_runs() -> None:
     assert axes.get_ylabel() == "error [m]"
     assert axes.get_xlabel() == "simulated time [s]"
     assert axes.get_title() == "loss 0.1"
+    assert over_time(replace(results(2), labels={"network.loss": "message loss", "0.1": "low"}), "error")[0].axes[0].get_title() == "message loss low"
     assert "95 % bootstrap interval of 20 runs per configuration" in caption
     assert "of 20 runs per configuration" in at_end(results(2), "error")[1]
 
 
 def test_titles_distinguish_keys_with_the_same_last_part() -> None:
-    assert label((1.0, 2, 3), ["converged.a.to", "converged.b.to", "network.loss"]) == "converged.a.to 1, converged.b.to 2, loss 3"
+    some = results(2)
+    values, keys = (1.0, 2, 3), ["converged.a.to", "converged.b.to", "network.loss"]
+    assert _title(some, values, keys) == "converged.a.to 1, converged.b.to 2, loss 3"
+    labelled = replace(some, labels={"network.loss": "message loss [%]", "3": "three", "converged.a.to": "limit"})
+    assert _title(labelled, values, keys) == "limit 1, converged.b.to 2, message loss three"
 
 
 def test_a_caption_counts_the_runs_of_each_time() -> None:
