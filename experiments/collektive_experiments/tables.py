@@ -238,10 +238,9 @@ def _type_of(values: list[Any]) -> pa.DataType:
         return pa.bool_()
     if any(isinstance(value, (bool, str, list)) for value in values) or not values:
         return pa.string()
-    if any(isinstance(value, float) for value in values) or min(values) < -1 << 63 or max(values) >= 1 << 64:
-        return pa.float64()
-    if min(values) < 0 and max(values) >= 1 << 63:
-        return pa.float64()
+    if any(isinstance(value, float) for value in values) or min(values) < -1 << 63 or max(values) >= (1 << 63 if min(values) < 0 else 1 << 64):
+        # Different whole numbers beyond 2^53 could have the same float.
+        return pa.float64() if all(float(value) == value for value in values) else pa.string()
     return pa.uint64() if max(values) >= 1 << 63 else pa.int64()
 
 

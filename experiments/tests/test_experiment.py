@@ -4,11 +4,13 @@ import os
 import tracemalloc
 from pathlib import Path
 
+import pyarrow as pa
 import pytest
 
 from collektive_experiments import ExperimentError, read
 from collektive_experiments.experiment import name_of
 from collektive_experiments.positions import Located
+from collektive_experiments.tables import _type_of, _value
 
 
 def write(folder: Path, text: str) -> str:
@@ -132,3 +134,11 @@ def test_reading_a_large_file_needs_little_memory(tmp_path: Path, text: str) -> 
         assert tracemalloc.get_traced_memory()[1] < 10 * len(text)
     finally:
         tracemalloc.stop()
+
+
+def test_values_of_a_column_stay_different() -> None:
+    large = 2 ** 53
+    for values in [large, large + 1, 0.5], [-1, 2 ** 63, 2 ** 63 + 1], [2 ** 64, 2 ** 64 + 1]:
+        column = pa.array([_value(value, _type_of(values)) for value in values], _type_of(values))
+        assert len(column.unique()) == len(values)
+    assert _type_of([large, 0.5]) == pa.float64()
