@@ -22,7 +22,7 @@ NOT_FOR_RUNS = ("outputs.metrics", "outputs.replay", "outputs.pictures")
 RUNTIME = "runtime"
 """The key of the aggregate runtime. It can vary, because the bundle contains the programs compiled for each runtime."""
 RUNTIMES = ("builtin", "collektive")
-IGNORING_CASE = (RUNTIME, "schedule")
+IGNORING_CASE = (RUNTIME, "schedule", "fields.deployment.kind", "fields.neighbourhood.kind", "fields.movement.kind")
 """Keys whose values the player reads without regard to case."""
 RANGE = re.compile(r"(-?[0-9]{1,20})-(-?[0-9]{1,20})(?::([0-9]{1,20}))?")
 

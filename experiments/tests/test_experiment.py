@@ -39,6 +39,7 @@ def write(folder: Path, text: str) -> str:
     (4, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.a":\n[1,\n"1"]}}', "duplicate runs: 'fields.a=1' occurs twice"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1, 1], "fields.b": [2, 2]}}', "duplicate runs"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"runtime": ["BuiltIn", "builtin"]}}', "duplicate runs: 'runtime=builtin' occurs twice"),
+    (2, '{"version": 1, "scenario": "scenario.json",\n"vary": {"fields.movement.kind": ["None", "none"]}}', "'fields.movement.kind=none' occurs twice"),
     (2, '{"version": 1, "scenario": "scenario.json",\n"zip": {"fields.a": [1], "fields.b": [2, 2]}}', "these must be equal"),
     (3, '{"version": 1, "scenario": "scenario.json", "vary": {"seed": [1]},\n"set": {\n"seed": 2}}', "'seed' is also in 'vary'"),
     (3, '{"version": 1, "scenario": "scenario.json", "vary": {"seed": [1],\n\n"seed": [2]}}', "the key 'seed' is used twice"),
