@@ -4,6 +4,7 @@ import csv
 import json
 import math
 import os
+import statistics
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -61,7 +62,7 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
             if any(math.isnan(value) for value in values):
                 study.tell(trial.number, state=TrialState.FAIL)
             else:
-                study.tell(trial.number, sum(values) / len(values))
+                study.tell(trial.number, statistics.mean(values))
     _write(study, search, os.path.join(store.folder, "trials.csv"))
     done = [trial for trial in _finished(study, search) if trial.value is not None]
     if not done and code >= 128:

@@ -121,13 +121,15 @@ def test_an_interrupted_search_continues_its_trials(project: Project, monkeypatc
 
     monkeypatch.setattr(tuning, "prepare", lambda *_: None)
     monkeypatch.setattr(tuning, "check_search", lambda *_: None)
-    monkeypatch.setattr(tuning, "_value", lambda *_: 1.0)
+    # Their sum is infinite.
+    monkeypatch.setattr(tuning, "_value", lambda *_: 1.5e308)
     assert search(130, resume=False) == 130
     assert search(0, resume=True) == 0
     assert calls[0] == calls[1]
     # After the first trials, failures are results of the search.
     assert [limit for _, limit in calls] == [5, 5, math.inf]
-    assert [line.split(",")[0] for line in (project.folder / "out/trials.csv").read_text().splitlines()] == ["trial", "0", "1", "2"]
+    lines = (project.folder / "out/trials.csv").read_text().splitlines()
+    assert [line.split(",")[:2] for line in lines] == [["trial", "agreeing"], *([str(trial), "1.5e+308"] for trial in range(3))]
 
 
 def test_a_killed_search_continues_with_the_same_trials(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
