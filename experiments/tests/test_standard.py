@@ -65,6 +65,7 @@ DATA = {
         {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [12, 44, 30]}},
         {"type": "Feature", "properties": {}, "geometry": {"type": "MultiPoint", "coordinates": [[12.002, 44], [12.001, 44.001]]}}]}),
     "islands.csv": "lon,lat\n179.9999,0\n-179.9999,0\n",
+    "world.csv": "lon,lat\n-100,0\n-10,0\n90,0\n",
     "ring.csv": "x,z\n" + "".join(f"{3 * math.cos(angle / 10 * math.pi)},{3 * math.sin(angle / 10 * math.pi)}\n" for angle in range(20)),
     "values.csv": "time,id,value\n0,0,5\n1,0,6\n0.5,1,7\n",
     "bad/cells.csv": "x,z\n1,2\n3\n",
@@ -421,6 +422,9 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
      {"sum(abs(x) > 0.4999)": (0, 2), "avg(abs(x))": (0.22, 0.28), "max(abs(x))": (0.45, 0.5), "max(abs(z))": (20, 25)}),
     # The two islands are 22 m apart across the antimeridian.
     ({"deployment": {"kind": "File", "file": "islands.csv"}}, 0.1, {"max(x) - min(x)": (22.2, 22.3), "total(x) filter (where id = 0)": (-11.2, -11.1)}),
+    # The widest gap between longitudes, of 170 degrees, is at the antimeridian.
+    ({"deployment": {"kind": "File", "file": "world.csv"}}, 0.1,
+     {"total(x) filter (where id = 0)": (-1.0564e7, -1.0563e7), "max(x)": (1.0563e7, 1.0564e7)}),
     # The program's target is the origin.
     ({"deployment": {"nodes": 4}, "movement": {"kind": "Target", "speed": 1}}, 2, {f"max({SPEED})": (0.5, 1.01), "max(x)": (1, 2.5)}),
     ({"churn": {"failures": 0.1, "arrivals": 10}}, 5,

@@ -213,25 +213,19 @@ namespace Collektive.Headless
         /// <summary>Converts degrees to metres from the centre of all points, by equirectangular projection. x points east, and z north.</summary>
         private static void Project(List<Track> tracks)
         {
-            double west = double.PositiveInfinity, east = double.NegativeInfinity, south = west, north = east;
+            var longitudes = tracks.SelectMany(track => track.x).Distinct().OrderBy(longitude => longitude).ToList();
+            double south = tracks.Min(track => track.z.Min()), north = tracks.Max(track => track.z.Max());
+            // The area begins east of the widest gap, so it may continue beyond 180 degrees.
+            double west = longitudes[0], east = longitudes[longitudes.Count - 1], gap = west + 360 - east;
+            for (var i = 1; i < longitudes.Count; i++)
+            {
+                if (longitudes[i] - longitudes[i - 1] <= gap) continue;
+                gap = longitudes[i] - longitudes[i - 1];
+                west = longitudes[i];
+                east = longitudes[i - 1] + 360;
+            }
             foreach (var track in tracks)
-            {
-                for (var i = 0; i < track.x.Count; i++)
-                {
-                    west = Math.Min(west, track.x[i]);
-                    east = Math.Max(east, track.x[i]);
-                    south = Math.Min(south, track.z[i]);
-                    north = Math.Max(north, track.z[i]);
-                }
-            }
-            // If the points are on both sides of the antimeridian, western longitudes continue beyond 180 degrees.
-            if (east - west > 180)
-            {
-                foreach (var track in tracks)
-                    for (var i = 0; i < track.x.Count; i++) track.x[i] += track.x[i] < 0 ? 360 : 0;
-                west = tracks.Min(track => track.x.Min());
-                east = tracks.Max(track => track.x.Max());
-            }
+                for (var i = 0; i < track.x.Count; i++) track.x[i] += track.x[i] < west ? 360 : 0;
             const double Radians = Math.PI / 180;
             var metres = EarthRadius * Radians;
             var width = metres * Math.Cos((south + north) / 2 * Radians);
