@@ -63,7 +63,7 @@ def _values(located: Located, key: str, given: Any) -> Any:
     """Checks the values of a key, and returns them."""
     place = ("tune", "parameters", key)
     if isinstance(given, list):
-        if len(given) < 2 or not all(isinstance(value, (str, int, float, bool)) for value in given) or len(set(map(repr, given))) < len(given):
+        if len(given) < 2 or not all(isinstance(value, (str, int, float, bool)) for value in given) or len(set(given)) < len(given):
             raise located.error(f"'tune.parameters.{key}' must be at least two different strings, numbers or booleans", *place)
         return given
     numbers = ("from", "to", "step")

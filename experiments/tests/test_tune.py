@@ -80,7 +80,7 @@ def test_a_search_with_other_runs_is_another_search(project: Project) -> None:
     ({"metric": "agreement"}, "'tune.metric' is 'agreement', which does not exist; existing metrics: agreeing"),
     ({"parameters": {}}, "'tune.parameters' must be an object with the values of each key"),
     ({"parameters": {"seed": [1, 2]}}, "'seed' is in 'tune', and also in 'vary', 'zip' or 'set'"),
-    ({"parameters": {"fields.lamps": [3]}}, "must be at least two different strings, numbers or booleans"),
+    ({"parameters": {"fields.lamps": [3, 3.0]}}, "must be at least two different strings, numbers or booleans"),
     ({"parameters": {"fields.lamps": {"from": 3, "to": 3}}}, "'from' must be below 'to'"),
     ({"parameters": {"fields.lamps": {"from": 3, "too": 5}}}, "must be a list, or an object with the numbers 'from' and 'to'"),
     ({"parameters": {"fields.lmps": [3, 4]}}, "no public field 'lmps'"),
