@@ -40,7 +40,7 @@ def unpaired_effect(a: Floats, b: Floats) -> dict[str, float]:
     random = np.random.default_rng(0)
     chosen_a, chosen_b = (random.integers(0, len(values), (RESAMPLES, len(values))) for values in (a, b))
     differences = np.quantile(b[chosen_b].mean(axis=1) - a[chosen_a].mean(axis=1), [0.025, 0.975])
-    signs = np.sign(b[None, :] - a[:, None])
+    signs = _signs(a[:, None], b[None, :])
     # Multiplying by the number of times that each value was chosen needs less memory than the signs of all chosen pairs.
     counts_a, counts_b = (np.array([np.bincount(row, minlength=chosen.shape[1]) for row in chosen]) for chosen in (chosen_a, chosen_b))
     deltas = np.quantile(((counts_a @ signs) * counts_b).sum(axis=1) / signs.size, [0.025, 0.975])
@@ -59,15 +59,20 @@ def paired_effect(a: Floats, b: Floats) -> dict[str, float]:
     differences = b - a
     count = len(differences)
     random = np.random.default_rng(0)
-    samples = differences[random.integers(0, count, (RESAMPLES, count))]
-    bounds = np.quantile(samples.mean(axis=1), [0.025, 0.975])
-    deltas = np.quantile(np.sign(samples).mean(axis=1), [0.025, 0.975])
+    chosen = random.integers(0, count, (RESAMPLES, count))
+    bounds, deltas = (np.quantile(values[chosen].mean(axis=1), [0.025, 0.975]) for values in (differences, _signs(a, b)))
     is_exact = count <= MAX_EXACT_PAIRS
     signs = ((np.arange(2 ** count)[:, None] >> np.arange(count)) & 1) * 2 - 1 if is_exact else random.choice((-1, 1), (RESAMPLES, count))
     extreme = np.abs((signs * differences).mean(axis=1)) >= abs(differences.mean()) - _slack(a, b)
     p = extreme.mean() if is_exact else (extreme.sum() + 1) / (RESAMPLES + 1)
-    values = (a.mean(), b.mean(), differences.mean(), *bounds, np.sign(differences).mean(), *deltas, p)
+    values = (a.mean(), b.mean(), differences.mean(), *bounds, _signs(a, b).mean(), *deltas, p)
     return dict(zip(EFFECTS, map(float, values)))
+
+
+def _signs(a: Floats, b: Floats) -> Floats:
+    """Returns 1 where `b` is greater than `a`, -1 where it is smaller, and 0 where the values differ only by rounding errors."""
+    differences = b - a
+    return np.sign(differences) * (np.abs(differences) > ROUNDING * np.maximum(np.abs(a), np.abs(b)))
 
 
 def _slack(a: Floats, b: Floats) -> float:

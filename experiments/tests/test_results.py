@@ -177,3 +177,9 @@ def test_values_are_compared_although_other_keys_vary_with_them() -> None:
     table = compare(replace(zipped, keys=[*zipped.keys, "gain"]), "error", "program")
     assert len(table) == 1
     assert "gain" not in table
+
+
+def test_rounding_errors_are_not_effects() -> None:
+    a, b = np.array([0.3, 0.6, 1e300]), np.array([0.1 + 0.2, 0.2 + 0.4, 1e300])
+    assert (b > a).sum() == 2
+    assert paired_effect(a, b)["delta"] == unpaired_effect(a, b)["delta"] == 0
