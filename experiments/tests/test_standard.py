@@ -55,7 +55,7 @@ fun late(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
 DATA = {
     "stations.csv": '\ufeffname,id,x,z\n"A, north",7,1,2\n\nB,3,-1.5,4e0\n',
     "walk.csv": "time,id,x,z\n0,0,0,0\n1,1,0,6\n2,0,4,0\n3,0,4,8\n",
-    "walk.gpx": """<?xml version="1.0"?>
+    "walk%20.gpx": """<?xml version="1.0"?>
 <gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
   <trk><trkseg><trkpt lat="44.0" lon="12.000"><time>2026-01-31T12:00:00Z</time></trkpt>
     <trkpt lat="44.0" lon="12.001"><time>2026-01-31T12:00:04Z</time></trkpt></trkseg></trk>
@@ -301,7 +301,7 @@ def test_a_missing_library_is_reported_with_the_command_that_builds_it(study: St
     {}, {"fields.deployment.kind": "Poisson", "fields.deployment.spacing": 2}, {"fields.deployment.kind": "Disc", "fields.movement.kind": "LevyWalk"},
     {"fields.movement.kind": "Target", "fields.neighbourhood.kind": "LineOfSight"},
     {"fields.movement.kind": "Velocity", "fields.neighbourhood.kind": "Nearest"},
-    {"fields.deployment.kind": "File", "fields.deployment.file": "walk.gpx", "fields.movement.kind": "Trace", "fields.reading.expression": "exp(-x * time)"},
+    {"fields.deployment.kind": "File", "fields.deployment.file": "walk%20.gpx", "fields.movement.kind": "Trace", "fields.reading.expression": "exp(-x * time)"},
 ], ids=lambda settings: json.dumps(settings))
 def test_runs_are_reproducible_in_one_process_and_with_two_threads(study: Study, settings: dict[str, Any], tmp_path: Path) -> None:
     study.write(SCENARIO)
@@ -447,7 +447,7 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
      {"total(x) filter (where id = 0)": (2.19, 2.21), "total(z)": (6, 6), "sum(reading) filter (where id = 0)": (6, 6),
       "sum(reading) filter (where id = 1)": (7, 7)}),
     ({"deployment": {"kind": "File", "file": "walk.csv"}, "movement": {"kind": "Trace"}}, 2.5, {"total(x)": (4, 4), "total(z)": (9.9, 10.1)}),
-    ({"deployment": {"kind": "File", "file": "walk.gpx"}, "movement": {"kind": "Trace"}}, 2,
+    ({"deployment": {"kind": "File", "file": "walk%20.gpx"}, "movement": {"kind": "Trace"}}, 2,
      {"total(x) filter (where id = 0)": (-0.1, 0.1), "total(x) filter (where id = 1)": (-40, -39.9), "max(z) - min(z)": (111.1, 111.2)}),
     ({"deployment": {"nodes": 4}, "reading": {"expression": "iif(id = 3, null, 10 * x + z + time)"}}, 1,
      {"max(reading)": (30.85, 30.95), "sum(reading = 0)": (1, 1)}),

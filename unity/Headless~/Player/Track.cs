@@ -108,7 +108,9 @@ namespace Collektive.Headless
             try
             {
                 XDocument document;
-                using (var reader = XmlReader.Create(file.Path)) document = XDocument.Load(reader, LoadOptions.SetLineInfo);
+                // From a path, XmlReader would make a URI, in which "%20" is a space.
+                using (var stream = System.IO.File.OpenRead(file.Path))
+                using (var reader = XmlReader.Create(stream)) document = XDocument.Load(reader, LoadOptions.SetLineInfo);
                 foreach (var element in document.Root.Elements())
                 {
                     if (element.Name.LocalName != "trk") continue;
