@@ -3,7 +3,6 @@ import itertools
 import os
 import re
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import pandas as pd
 
