@@ -1,12 +1,15 @@
 """Compiles the schema, Kotlin and C# of users' projects. Each output has its own folder in build/, whose name contains a hash of all inputs."""
+import contextlib
+import fcntl
 import hashlib
 import os
 import re
 import shutil
 import subprocess
 import sys
+import uuid
 import zipfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
@@ -224,37 +227,53 @@ def _cached(folder: Path, file: str, name: str, parts: Sequence[Part], make: Cal
     result of the first one is kept.
     """
     if not (folder / file).exists():
-        # An interrupted `clean` may have left a part of the folder.
-        shutil.rmtree(folder, ignore_errors=True)
-        work = folder.with_name(f"{folder.name}.{os.getpid()}")
-        shutil.rmtree(work, ignore_errors=True)
-        work.mkdir(parents=True)
-        log = work / f"{name}.log"
-        print_progress(f"{name} ...")
-        try:
-            with log.open("wb") as output:
-                make(work, lambda command: _run(command, output.fileno()))
-            for part in parts:
-                part.require_unchanged()
-        except (subprocess.CalledProcessError, Failure) as error:
-            # The generator does not support links and has read a copy of the schema. Messages must name the original.
-            messages = log.read_text(encoding="utf-8", errors="replace").replace(f"{work}/schema", str(parts[0].root))
-            print(messages, end="", file=sys.stderr)
-            kept = LOGS / log.name
-            kept.parent.mkdir(parents=True, exist_ok=True)
-            kept.write_text(messages, encoding="utf-8")
-            shutil.rmtree(work)
-            raise error if isinstance(error, Failure) else CompileError(f"{name} failed; the full log is {kept}") from error
-        for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
-            if ": warning: " in line:
-                print(line, file=sys.stderr)
-        try:
-            work.rename(folder)
-        except OSError:
-            shutil.rmtree(work)
-            if not (folder / file).exists():
-                raise
+        with _work_folder(folder, file) as work:
+            log = work / f"{name}.log"
+            print_progress(f"{name} ...")
+            try:
+                with log.open("wb") as output:
+                    make(work, lambda command: _run(command, output.fileno()))
+                for part in parts:
+                    part.require_unchanged()
+            except (subprocess.CalledProcessError, Failure) as error:
+                # The generator does not support links and has read a copy of the schema. Messages must name the original.
+                messages = log.read_text(encoding="utf-8", errors="replace").replace(f"{work}/schema", str(parts[0].root))
+                print(messages, end="", file=sys.stderr)
+                kept = LOGS / log.name
+                kept.parent.mkdir(parents=True, exist_ok=True)
+                kept.write_text(messages, encoding="utf-8")
+                shutil.rmtree(work)
+                raise error if isinstance(error, Failure) else CompileError(f"{name} failed; the full log is {kept}") from error
+            for line in log.read_text(encoding="utf-8", errors="replace").splitlines():
+                if ": warning: " in line:
+                    print(line, file=sys.stderr)
+            try:
+                work.rename(folder)
+            except OSError:
+                shutil.rmtree(work)
+                if not (folder / file).exists():
+                    raise
     return folder / file
+
+
+@contextlib.contextmanager
+def _work_folder(folder: Path, file: str) -> Iterator[Path]:
+    """Creates a folder beside `folder`, to build `file` there. If no other command builds one, first removes those of killed commands."""
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    descriptor = os.open(folder.parent, os.O_RDONLY)
+    try:
+        with contextlib.suppress(OSError):
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            # An interrupted `clean` may have left a part of the folder.
+            for left in [*folder.parent.glob("*.*"), *(() if (folder / file).exists() else (folder,))]:
+                shutil.rmtree(left, ignore_errors=True)
+        fcntl.flock(descriptor, fcntl.LOCK_SH)
+        # The name does not contain the id of this process, because a process in another container may have the same id.
+        work = folder.with_name(f"{folder.name}.{uuid.uuid4().hex}")
+        work.mkdir()
+        yield work
+    finally:
+        os.close(descriptor)
 
 
 def _run(command: Sequence[str | Path], output: int) -> None:

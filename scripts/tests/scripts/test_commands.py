@@ -124,6 +124,21 @@ def test_a_cached_folder_without_its_output_is_built_again(tmp_path: Path) -> No
     assert jar.exists() and not (tmp_path / "key/rest").exists()
 
 
+def test_simultaneous_compilations_have_separate_folders_also_with_equal_process_ids(tmp_path: Path) -> None:
+    def compile_first(work: Path, _: object) -> None:
+        (work / "programs.jar").write_text("first")
+
+    def compile_slowly(work: Path, _: object) -> None:
+        (work / "half").touch()
+        projects._cached(tmp_path / "key", "programs.jar", "test", [], compile_first)
+        assert (work / "half").exists()
+        (work / "programs.jar").touch()
+
+    (tmp_path / "killed.1").mkdir()
+    jar = projects._cached(tmp_path / "key", "programs.jar", "test", [], compile_slowly)
+    assert jar.read_text() == "first" and os.listdir(tmp_path) == ["key"]
+
+
 def test_a_repetition_does_not_replace_its_original(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(repeat, "run_scenario", lambda *_, **__: 0)
     (tmp_path / "manifest.json").write_text('{"folder": ""}')
