@@ -124,8 +124,9 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _start(programs: Path, stack: ExitStack) -> tuple[RuntimeProcess, RuntimeProcess]:
-    if not programs.exists():
-        raise Failure(f"compare-runtimes: '{programs}' does not exist")
+    # Reading a pipe or a device might never end.
+    if not programs.is_file() and not programs.is_dir():
+        raise Failure(f"compare-runtimes: '{programs}' {'is not a file or folder' if programs.exists() else 'does not exist'}")
     source = inputs.programs(programs) if programs.is_dir() else inputs.Part(programs.parent, lambda folder: {programs.name: folder / programs.name})
     schema = inputs.schema(SCHEMA)
     jar = projects.programs_jar(schema, source)

@@ -33,6 +33,10 @@ def run(arguments: argparse.Namespace) -> int:
         if os.path.exists(arguments.out) and os.path.exists(arguments.record) and os.path.samefile(arguments.out, arguments.record):
             raise Failure(f"replay: --out '{arguments.out}' is the record that is read: name another file")
         outputs.require_replaceable(arguments.out, b"CLKREC", "--out")
+    for programs in arguments.programs:
+        # Reading a pipe or a device might never end.
+        if programs.exists() and not programs.is_file() and not programs.is_dir():
+            raise Failure(f"replay: --programs '{programs}' is not a jar or folder")
     graph.build("jvm")
     # The samples' programs may have run in Unity.
     projects.record_own_program(SAMPLES_JAR)

@@ -78,6 +78,10 @@ class Compared(Folder):
         missing = collektive("compare-runtimes", self.path("nowhere"))
         self.assertEqual(missing.returncode, 2)
         self.assertIn("does not exist", missing.stderr)
+        os.mkfifo(self.path("pipe"))
+        pipe = collektive("compare-runtimes", self.path("pipe"))
+        self.assertEqual(pipe.returncode, 2)
+        self.assertIn("is not a file or folder", pipe.stderr)
 
     def test_collektive_gives_the_same_answers(self) -> None:
         if not os.environ.get("COLLEKTIVE_JARS"):

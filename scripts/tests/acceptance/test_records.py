@@ -122,7 +122,8 @@ class Records(Project):
         self.assertIn("9 ticks replayed, all digests equal the record", result.stdout)
 
     def test_a_file_that_is_not_a_record_is_rejected(self) -> None:
-        for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",)]:
+        for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",),
+                          ("replay", self.a, "--programs", "/dev/zero")]:
             result = collektive(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertTrue(last_error(result).startswith("collektive: "), arguments)
