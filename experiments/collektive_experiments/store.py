@@ -141,17 +141,19 @@ class Store:
 
 def _object(path: str) -> dict[str, Any] | None:
     """Returns the JSON object in a file, or None if the file is absent or damaged."""
+    # Opening a pipe would wait for its writer.
+    if not os.path.isfile(path):
+        return None
     try:
         with open(path, "rb") as file:
             value = json.loads(file.read())
-    except (FileNotFoundError, NotADirectoryError, ValueError, RecursionError):
+    except (ValueError, RecursionError):
         return None
     return value if isinstance(value, dict) else None
 
 
 def _hash(path: str) -> str:
-    try:
-        with open(path, "rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-    except (FileNotFoundError, IsADirectoryError):
+    if not os.path.isfile(path):
         return ""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()

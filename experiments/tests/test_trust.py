@@ -13,6 +13,7 @@ from conftest import COLLEKTIVE, EIGHT, Project, processes
 
 from collektive_experiments import read, tables
 from collektive_experiments.__main__ import main
+from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store
 from collektive_experiments.worker import Worker
 
@@ -277,3 +278,22 @@ def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys:
 def test_a_folder_that_is_not_a_sweep_is_a_one_line_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(tmp_path)]) == 1
     assert "is not a sweep folder" in capsys.readouterr().err
+
+
+def test_pipes_instead_of_results_are_damaged_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = tmp_path / "runs/seed=1"
+    folder.mkdir(parents=True)
+    (folder / ".collektive-sweep").touch()
+    for name in ("run.json", "metrics.csv"):
+        (folder / "run.json").unlink(missing_ok=True)
+        (folder / "run.json").write_text('{"name": "seed=1", "status": "complete", "files": {"metrics.csv": "00"}}')
+        (folder / name).unlink(missing_ok=True)
+        os.mkfifo(folder / name)
+        # Reading a pipe would wait for its writer.
+        assert not Store(str(tmp_path)).is_complete(Run("seed=1", {}, {}))
+        assert f"{name}' is damaged" in capsys.readouterr().err
+        folder.mkdir()
+        (folder / ".collektive-sweep").touch()
+    os.mkfifo(tmp_path / "sweep.json")
+    assert main(["plot", str(tmp_path)]) == 1
+    assert "is damaged" in capsys.readouterr().err
