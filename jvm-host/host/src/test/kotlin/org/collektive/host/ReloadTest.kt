@@ -233,6 +233,24 @@ class ReloadTest {
     }
 
     @Test
+    fun `programs that reject a node of the same tick change nothing`() {
+        val body = """return "" + count(aggregate, "kept");"""
+        val other = """
+            @Program(name = "other")
+            public static ActuatorData other(Aggregate<Integer> a, SensorData s, Device d) { return sum(a, s, d); }"""
+        open(body, other)
+        step()
+        fun adding(id: Int) = Step(++tick).also {
+            it.added = listOf(Step.Added(id, "other"))
+            it.due = listOf(1, 2, id)
+        }
+        val answer = session.ok(adding(3).also { it.reload = jar(body) })
+        assertContains(answer.reload()?.error().orEmpty(), "node 3: unknown program 'other'")
+        assertEquals(listOf("2", "2", "1"), session.answers(answer).values.map { it.second })
+        assertEquals("3", text(session.ok(adding(4))))
+    }
+
+    @Test
     fun `classes of previous programs are unloaded`() {
         val jars = List(2) { jar("""return "$it " + count(aggregate, "kept");""") }
         open("""return "" + count(aggregate, "kept");""")

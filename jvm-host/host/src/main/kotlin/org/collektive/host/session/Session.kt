@@ -97,7 +97,14 @@ public class Session internal constructor(
             return PreparedReload(loaded, null, e.message.orEmpty())
         }
         recording { jars(jars) }
-        return reload.prepare(jars, loaded).also { reading { it.loaded.requests.check(frame) } }
+        val prepared = reload.prepare(jars, loaded)
+        return try {
+            reading { prepared.loaded.requests.run { check(frame).also { read() } } }
+            prepared
+        } catch (e: HostException) {
+            // The new programs reject a node of this tick. If the previous ones also reject it, reading the frame again fails.
+            PreparedReload(loaded, null, e.message.orEmpty())
+        }
     }
 
     private fun measure(tick: Tick, deadline: Long): List<MetricOutcome> {
