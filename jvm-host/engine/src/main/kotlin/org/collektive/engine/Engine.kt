@@ -72,7 +72,7 @@ public class Engine @JvmOverloads constructor(
         check(!pool.isClosed) { "the engine is closed" }
         validator.check(tick, clock.tick + 1)
         result.reset(tick.number, tick.due.size)
-        apply(tick)
+        apply(tick, deadline)
         result.nodeCount = nodes.size
         result.linkCount = linkCount
         if (tick.inspected != inspected) inspectedNanos = 0
@@ -124,12 +124,12 @@ public class Engine @JvmOverloads constructor(
         pool.abandon()
     }
 
-    private fun apply(tick: Tick) {
+    private fun apply(tick: Tick, deadline: Long) {
         clock.tick = tick.number
         clock.time = tick.time
         clock.readsBefore = if (isSequential) tick.number + 1 else tick.number
         clock.deltaTime = tick.deltaTime
-        tick.reload?.let(::reload)
+        tick.reload?.let { reload(it, deadline) }
         tick.globals?.let { clock.globals = it }
         removeNodes(tick)
         addNodes(tick)
@@ -162,11 +162,12 @@ public class Engine @JvmOverloads constructor(
         }
     }
 
-    private fun reload(reload: Reload) {
+    private fun reload(reload: Reload, deadline: Long) {
         clock.globals = null
         reload.replacements.forEachIndexed { index, new -> nodes.node(index).reload(new) }
         reloadedCount = nodes.size
-        result.storedValues = runtimes.convert(runtimesOfNodes, reload.conversion)
+        // Runs on a round thread, because the conversion calls users' code.
+        run(deadline, "the conversion of stored values") { result.storedValues = runtimes.convert(runtimesOfNodes, reload.conversion) }
     }
 
     private fun endFirstRounds() {

@@ -2,6 +2,7 @@ package org.collektive.host
 
 import org.collektive.frame.ReloadResponse
 import org.collektive.frame.StepResponse
+import org.collektive.host.shim.HostError
 import org.junit.jupiter.api.AfterEach
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
@@ -230,6 +231,18 @@ class ReloadTest {
             assertEquals("$tick", text(answer))
         }
         assertNull(step().reload())
+    }
+
+    @Test
+    fun `values whose code does not end stop the session at the time limit`() {
+        val body = """return "" + aggregate.alignedOn("state", () -> aggregate.<Item>evolve(new Item(), s -> s));"""
+        val loop = "private Object readResolve() throws InterruptedException { while (true) Thread.sleep(1); }"
+        fun item(code: String) = "static final class Item implements java.io.Serializable { static final long serialVersionUID = 1; $code }"
+        open(body, item(""))
+        step()
+        val frame = Step(++tick).also { it.reload = jar(body, item(loop)) }.bytes()
+        assertEquals(HostError.SESSION_FAILED.code.toLong(), session.step(frame, limitMillis = 500))
+        assertContains(shim.error, "the conversion of stored values did not finish within the time limit of 500 ms")
     }
 
     @Test
