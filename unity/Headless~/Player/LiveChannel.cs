@@ -23,7 +23,7 @@ namespace Collektive.Headless
     {
         private const int CloseOnExec = 1;
 
-        private readonly BlockingCollection<JObject> commands = new BlockingCollection<JObject>();
+        private readonly BlockingCollection<string> commands = new BlockingCollection<string>();
         private readonly object gate = new object();
         private readonly Queue<byte[]> events = new Queue<byte[]>();
         private readonly UnixStream stream;
@@ -40,7 +40,7 @@ namespace Collektive.Headless
 
         /// <summary>Waits for a command and removes it from the queue; false if none has arrived in time.</summary>
         /// <param name="milliseconds">Maximum time to wait.</param>
-        internal bool TryTake(int milliseconds, out JObject command) => commands.TryTake(out command, milliseconds);
+        internal bool TryTake(int milliseconds, out string command) => commands.TryTake(out command, milliseconds);
 
         internal void Send(JObject message)
         {
@@ -84,7 +84,7 @@ namespace Collektive.Headless
         private void ReadCommands()
         {
             var reader = new StreamReader(stream, Encoding.UTF8);
-            for (string line; (line = reader.ReadLine()) != null;) commands.Add(JObject.Parse(line));
+            for (string line; (line = reader.ReadLine()) != null;) commands.Add(line);
             // The command has ended and closed the connection.
             Syscall._exit(1);
         }

@@ -4,6 +4,7 @@ using System.Globalization;
 using System.Linq;
 using Collektive.Bridge;
 using Collektive.Unity;
+using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 using UnityEngine;
 using Object = UnityEngine.Object;
@@ -137,13 +138,14 @@ namespace Collektive.Headless
             }
         }
 
-        private void Execute(JObject command)
+        private void Execute(string line)
         {
             try
             {
+                var command = JObject.Parse(line);
                 if (command["run"] != null) Run((bool)command["run"]);
                 else if (command["step"] != null) Step((int)command["step"]);
-                else if (command["speed"] != null) speed = Math.Min(Math.Max((double)command["speed"], 0.01), 100);
+                else if (command["speed"] != null) speed = Math.Min(Math.Max(Number(command["speed"]), 0.01), 100);
                 else if (command["reload"] != null) manager.ReloadPrograms();
                 else if (command["add"] != null) AddNodes((int)command["add"], (JArray)command["at"]);
                 else if (command["remove"] != null) RemoveNode((int)command["remove"]);
@@ -153,10 +155,19 @@ namespace Collektive.Headless
                 // The page must show the effect of a command even while the simulation is paused.
                 if (!isRunning) recorder.Record(manager.SimulatedTime);
             }
-            catch (Exception error) when (error is ArgumentException || error is InvalidCastException || error is FormatException || error is OverflowException)
+            catch (Exception error) when (error is ArgumentException || error is InvalidCastException || error is FormatException || error is OverflowException
+                || error is JsonException)
             {
                 Notify("a command from the page is invalid: " + error.Message);
             }
+        }
+
+        private static double Number(JToken token)
+        {
+            var number = (double)token;
+            // Positions are floats.
+            if (!(Math.Abs(number) <= float.MaxValue)) throw new ArgumentException(token + " is not a finite number");
+            return number;
         }
 
         private void Run(bool runs)
@@ -184,7 +195,7 @@ namespace Collektive.Headless
                 return;
             }
             var template = manager.Nodes[manager.Nodes.Count - 1];
-            var centre = new Vector3((float)at[0], template.transform.position.y, (float)at[2]);
+            var centre = new Vector3((float)Number(at[0]), template.transform.position.y, (float)Number(at[2]));
             var gap = 2.5f * Mathf.Max(writer.NodeRadius, 0.05f);
             // Copies must not request the id of the template.
             var id = template.RequestedId;

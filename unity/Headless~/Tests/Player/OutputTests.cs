@@ -181,6 +181,18 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(parameters.ToJson().ToString(Formatting.None), Is.EqualTo("{\"scaled\":{\"factor\":[\"3\",\"5\"]}}"));
         }
 
+        [Test]
+        public void A_live_run_reports_invalid_commands()
+        {
+            MakeNode(1);
+            (string, Func<JObject, byte[], bool>) Refused(string command, string reason) =>
+                (command, (message, _) => (string)message["event"] == "warning" && ((string)message["message"]).Contains(reason));
+            PlayLive(
+                (null, (message, _) => (string)message["event"] == "frame"), Refused("{\"speed\":\"NaN\"}", "not a finite number"),
+                Refused("{\"add\":1,\"at\":[1e39,0,0]}", "not a finite number"),
+                Refused("{\"run\"", "invalid"));
+        }
+
         /// <summary>Plays a live run. Sends each command, and waits for a message that answers it. The first command can be null.</summary>
         private void PlayLive(params (string Command, Func<JObject, byte[], bool> IsAnswer)[] steps)
         {
