@@ -86,6 +86,50 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_kinematic_body_pushes_at_its_own_speed_in_each_physics_step()
+        {
+            Configure("double", settings => settings.deltaTime = 0.1f);
+            var node = MakeNode(500).Node;
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            node.gameObject.AddComponent<SphereCollider>();
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            var pushed = GameObject.CreatePrimitive(PrimitiveType.Sphere).AddComponent<Rigidbody>();
+            pushed.transform.position = new Vector3(1.5f, 0, 0);
+            pushed.useGravity = false;
+            Play(5);
+            Assert.That(pushed.linearVelocity.x, Is.EqualTo(2).Within(0.1f));
+        }
+
+        [Test]
+        public void A_target_at_any_distance_gives_a_direction()
+        {
+            var node = MakeNode(1e20f).Node;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            Play(20);
+            Assert.That(node.transform.position.x, Is.EqualTo(2).Within(0.01f));
+        }
+
+        [Test]
+        public void Parts_with_new_parents_use_the_body_of_their_new_node()
+        {
+            var first = MakeNode(500).Node.gameObject.AddComponent<Rigidbody>();
+            var second = MakeNode(500, Vector3.up).Node.gameObject.AddComponent<Rigidbody>();
+            first.useGravity = second.useGravity = false;
+            var arm = new GameObject("Arm");
+            arm.transform.SetParent(first.transform, false);
+            arm.AddComponent<Move>().MaxSpeed = 2;
+            var sensor = arm.AddComponent<SensorTests.Velocity>();
+            Play(2);
+            first.linearVelocity = Vector3.zero;
+            arm.transform.SetParent(second.transform, false);
+            second.linearVelocity = Vector3.forward;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(Vector3.forward));
+            Assert.That(second.linearVelocity.x, Is.EqualTo(2).Within(1e-3f));
+            Assert.That(first.linearVelocity.x, Is.EqualTo(0));
+        }
+
+        [Test]
         public void A_moved_collider_without_a_body_is_warned_about_once()
         {
             var warnings = 0;

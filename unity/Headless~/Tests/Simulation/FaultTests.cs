@@ -388,6 +388,28 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Parts_join_a_node_that_is_added_or_replaced()
+        {
+            Configure("double");
+            var outer = MakeNode(1);
+            var inner = new GameObject("Inner");
+            inner.transform.SetParent(outer.Node.transform);
+            var sensor = inner.AddComponent<ProbeSensor>();
+            sensor.Value = 10;
+            var actuator = inner.AddComponent<ProbeActuator>();
+            Play(1);
+            Assert.That(outer.Answer, Is.EqualTo(20));
+            inner.AddComponent<Node>();
+            Play(1);
+            Assert.That((outer.Answer, actuator.Last.Value), Is.EqualTo((2f, 20f)));
+            UnityEngine.Object.DestroyImmediate(inner.GetComponent<Node>());
+            inner.AddComponent<Node>();
+            sensor.Value = 30;
+            Play(1);
+            Assert.That(actuator.Last.Value, Is.EqualTo(60));
+        }
+
+        [Test]
         public void An_exception_in_a_Logged_handler_stops_no_tick()
         {
             Configure("trouble");

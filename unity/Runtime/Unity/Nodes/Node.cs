@@ -266,6 +266,12 @@ namespace Collektive.Unity
             hasReportedNoManager = false;
         }
 
+        private void Awake()
+        {
+            // Parts that were enabled before this component was added belong to a node above or to a destroyed node.
+            foreach (var part in GetComponentsInChildren<NodePart>()) part.UpdateNode();
+        }
+
         private void OnEnable()
         {
             // This is not done in Awake, because Unity does not call Awake again when scripts are compiled during play.

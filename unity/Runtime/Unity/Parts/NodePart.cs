@@ -33,7 +33,10 @@ namespace Collektive.Unity
         protected virtual void OnDisable() => Detach();
 
         /// <summary>Joins another node if the new parents belong to it.</summary>
-        protected virtual void OnTransformParentChanged()
+        protected virtual void OnTransformParentChanged() => UpdateNode();
+
+        /// <summary>Joins the nearest node if the part belongs to another one.</summary>
+        internal void UpdateNode()
         {
             if (!IsAttached || ReferenceEquals(GetComponentInParent<Node>(), Node)) return;
             Detach();
@@ -80,6 +83,11 @@ namespace Collektive.Unity
                 + ", but the session's schema has " + expected.FullName + ": use a component for this schema, or select the component's schema", this);
         }
 
+        /// <summary>Called after the part was added to the node's list.</summary>
+        internal virtual void Attached()
+        {
+        }
+
         /// <summary>Called after the part was removed from the node's list.</summary>
         internal virtual void Detached()
         {
@@ -97,6 +105,7 @@ namespace Collektive.Unity
             }
             ListOf(Node).Add(this);
             IsAttached = true;
+            Attached();
         }
 
         private void Detach()

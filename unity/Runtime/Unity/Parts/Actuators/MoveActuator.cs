@@ -38,13 +38,6 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
-        protected override void OnEnable()
-        {
-            base.OnEnable();
-            body = GetComponentInParent<Rigidbody>();
-        }
-
-        /// <inheritdoc/>
         protected sealed override void Act(TData data)
         {
             var target = Finite(Read(data));
@@ -55,6 +48,12 @@ namespace Collektive.Unity
 
         /// <summary>Returns the target in the program's answer, in metres.</summary>
         protected abstract Vector3 Read(TData data);
+
+        internal sealed override void Attached()
+        {
+            body = GetComponentInParent<Rigidbody>();
+            isChecked = false;
+        }
 
         internal sealed override void Prepare(TickContext tick)
         {

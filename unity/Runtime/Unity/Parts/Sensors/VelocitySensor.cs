@@ -16,15 +16,10 @@ namespace Collektive.Unity
         private ulong joinTick;
 
         /// <inheritdoc/>
-        protected override void OnEnable()
-        {
-            base.OnEnable();
-            time = -1;
-        }
-
-        /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) =>
             Write(ref data, body != null && !body.isKinematic ? body.linearVelocity : meanVelocity);
+
+        internal sealed override void Attached() => time = -1;
 
         internal sealed override void Prepare(TickContext tick)
         {
