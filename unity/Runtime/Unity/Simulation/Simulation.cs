@@ -298,7 +298,7 @@ namespace Collektive.Unity
             }
             if (!IsOpen) return;
             var actEnd = Stopwatch.GetTimestamp();
-            using (TickMarkers.Physics.Auto()) PhysicsSteps.Advance(this);
+            using (TickMarkers.Physics.Auto()) Context.Steps.Advance(this);
             var end = Stopwatch.GetTimestamp();
             Times = TickTimes.Of(timestamps.Start, timestamps.QueriesEnd, timestamps.RulesEnd, timestamps.SenseEnd, stepEnd, actEnd, end);
         }

@@ -37,6 +37,9 @@ namespace Collektive.Unity
         /// <summary>The physics queries of sensors.</summary>
         internal SensorQueries Queries { get; }
 
+        /// <summary>The physics steps at the end of the tick.</summary>
+        internal PhysicsSteps Steps { get; } = new PhysicsSteps();
+
         /// <summary>Buffer for sensors.</summary>
         internal SensorBuffer SensorData => simulation.SensorData;
 

@@ -42,7 +42,7 @@ namespace Collektive.Unity
         {
             var target = Finite(Read(data));
             if (body == null) MoveTowards(target);
-            else if (body.isKinematic) body.MovePosition(body.position + Node.AnswerInterval * Velocity(target - body.position));
+            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(body, Node.AnswerInterval * Velocity(target - body.position));
             else Drive(target - body.position);
         }
 
