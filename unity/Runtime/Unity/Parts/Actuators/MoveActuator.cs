@@ -82,6 +82,8 @@ namespace Collektive.Unity
         private Vector3 Velocity(Vector3 offset)
         {
             var length = offset.magnitude;
+            // The square of the length overflowed, so only the direction matters.
+            if (float.IsInfinity(length)) return maxSpeed * (1e-20f * offset).normalized;
             return length > 0 ? Mathf.Min(1 / Mathf.Max(reachTime, Node.AnswerInterval), maxSpeed / length) * offset : offset;
         }
     }
