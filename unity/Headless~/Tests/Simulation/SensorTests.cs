@@ -366,6 +366,44 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Value, Is.EqualTo(0), "the value must never be negative");
         }
 
+        [Test]
+        public void A_destroyed_source_has_no_intensity()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
+            MakeSource(Vector3.zero);
+            var source = MakeSource(new Vector3(10, 0, 0));
+            sensor.Source = source;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(90));
+            Object.Destroy(source.gameObject);
+            Play(2);
+            Assert.That(sensor.Value, Is.EqualTo(0));
+            sensor.Source = null;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(100));
+        }
+
+        [Test]
+        public void A_node_on_a_child_is_an_obstacle_of_its_parent()
+        {
+            var child = MakeNode(0, new Vector3(5, 0, 0)).Node;
+            child.gameObject.AddComponent<SphereCollider>();
+            var node = MakeNode(0).Node;
+            child.transform.SetParent(node.transform, true);
+            var rays = node.gameObject.AddComponent<Rays>();
+            rays.Rays = 4;
+            rays.Range = 10;
+            var obstacles = node.gameObject.AddComponent<Obstacles>();
+            obstacles.Reach = 8;
+            // The first round does not use the batch.
+            for (var round = 0; round < 2; round++)
+            {
+                Play(1);
+                Assert.That(Distances(rays), Is.EqualTo("10 4.5 10 10"));
+                Assert.That(obstacles.Values.Count, Is.EqualTo(1));
+            }
+        }
+
         private static string Distances(Rays sensor) =>
             string.Join(" ", sensor.Values.ConvertAll(hit => Math.Round(hit.Distance, 3).ToString(System.Globalization.CultureInfo.InvariantCulture)));
 

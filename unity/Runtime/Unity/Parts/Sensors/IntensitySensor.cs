@@ -10,22 +10,33 @@ namespace Collektive.Unity
         [Tooltip("Source to measure. None: the sum of all enabled sources in the scene.")]
         private IntensitySource source;
 
-        /// <summary>The source to measure; while it is disabled, its intensity is 0. Null: the sum of all enabled sources.</summary>
+        // A destroyed source equals null.
+        private bool hasSource;
+
+        /// <summary>The source to measure; while it is disabled or after it was destroyed, its intensity is 0. Null: the sum of all enabled sources.</summary>
         public IntensitySource Source
         {
             get => source;
-            set => source = value;
+            set
+            {
+                source = value;
+                hasSource = false;
+            }
         }
 
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
             var position = Node.Position;
-            Write(ref data, source == null ? AllAt(position) : source.isActiveAndEnabled ? source.IntensityAt(position) : 0);
+            hasSource |= source != null;
+            Write(ref data, !hasSource ? AllAt(position) : source != null && source.isActiveAndEnabled ? source.IntensityAt(position) : 0);
         }
 
         /// <summary>Writes the intensity.</summary>
         protected abstract void Write(ref TData data, float intensity);
+
+        // The inspector may have cleared the source.
+        private void OnValidate() => hasSource = false;
 
         private static float AllAt(Vector3 position)
         {
