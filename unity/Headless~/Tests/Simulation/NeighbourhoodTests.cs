@@ -148,6 +148,17 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_node_on_a_child_blocks_the_line_of_sight_of_its_parent()
+        {
+            var line = MakeLine(0, 10, 5);
+            AddLineOfSight(line[0], 20);
+            line[2].Node.gameObject.AddComponent<SphereCollider>();
+            line[2].Node.transform.SetParent(line[0].Node.transform, true);
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>2 2>0"));
+        }
+
+        [Test]
         public void Listed_nodes_are_neighbours_while_they_are_active()
         {
             var line = MakeLine(0, 100, 200);

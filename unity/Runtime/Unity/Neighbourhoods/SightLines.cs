@@ -68,11 +68,7 @@ namespace Collektive.Unity
                 }
             }
 
-            internal bool IsForeign(Collider collider)
-            {
-                var hit = collider.transform;
-                return !hit.IsChildOf(From.Body) && !hit.IsChildOf(To.Body);
-            }
+            internal bool IsForeign(Collider collider) => !From.Owns(collider) && !To.Owns(collider);
         }
 
         /// <summary>The rules whose lines are cast in batches.</summary>

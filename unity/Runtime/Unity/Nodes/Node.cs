@@ -195,6 +195,13 @@ namespace Collektive.Unity
             asleepUntil = Simulation.NextTickTime + seconds;
         }
 
+        /// <summary>Returns whether a collider is part of this node, and not of another node on a child.</summary>
+        internal bool Owns(Collider collider)
+        {
+            var place = collider.transform;
+            return ReferenceEquals(place, Body) || place.IsChildOf(Body) && ReferenceEquals(collider.GetComponentInParent<Node>(), this);
+        }
+
         /// <summary>Starts the node's timer if the schedule is asynchronous. Returns the error of the timing, or null.</summary>
         internal string StartTimer()
         {

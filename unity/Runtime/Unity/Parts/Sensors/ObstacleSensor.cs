@@ -88,7 +88,7 @@ namespace Collektive.Unity
 
         private void Take(Collider collider, Obstacle[] obstacles, ref int found)
         {
-            if (collider.transform.IsChildOf(Node.Body)) return;
+            if (Node.Owns(collider)) return;
             var centre = Node.Position;
             var obstacle = new Obstacle(collider, collider.PointClosestTo(centre) - centre);
             var index = found++;

@@ -136,7 +136,7 @@ namespace Collektive.Unity
         {
             var collider = nearest.collider;
             if (collider == null) return new RayHit(direction, range, null);
-            return collider.transform.IsChildOf(Node.Body)
+            return Node.Owns(collider)
                 ? Cast(centre, direction, nearest.distance + Gap) : new RayHit(direction, nearest.distance, collider);
         }
 
@@ -146,7 +146,7 @@ namespace Collektive.Unity
             while ((passed == 0 || passed < range)
                 && Physics.Raycast(centre + passed * direction, direction, out var hit, range - passed, layers, QueryTriggerInteraction.Ignore))
             {
-                if (!hit.collider.transform.IsChildOf(Node.Body)) return new RayHit(direction, passed + hit.distance, hit.collider);
+                if (!Node.Owns(hit.collider)) return new RayHit(direction, passed + hit.distance, hit.collider);
                 passed += hit.distance + Gap;
             }
             return new RayHit(direction, range, null);
