@@ -309,6 +309,44 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Links(), Is.EqualTo(links));
         }
 
+        [Test]
+        public void A_collider_with_a_new_parent_belongs_to_its_new_node()
+        {
+            var zone = MakeNode(1, id: 0);
+            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var arm = new GameObject("Arm");
+            arm.transform.SetParent(MakeNode(2, Vector3.right, id: 1).Node.transform, false);
+            arm.AddComponent<SphereCollider>().radius = 0.1f;
+            arm.AddComponent<Rigidbody>().isKinematic = true;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            var other = MakeNode(2, Vector3.right, id: 2).Node;
+            arm.transform.SetParent(other.transform, true);
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>2 2>0"));
+            Object.DestroyImmediate(other);
+            arm.transform.parent.gameObject.AddComponent<Node>();
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>3 3>0"));
+        }
+
+        [Test]
+        public void Searches_between_ticks_skip_nodes_that_left()
+        {
+            var line = MakeLine(0, 1, 2);
+            Play(1);
+            line[1].Node.enabled = false;
+            Object.DestroyImmediate(line[2].Node.gameObject);
+            var found = new List<Node>();
+            Manager.FindNodes(Vector3.zero, 5, found, new List<float>());
+            Assert.That(found, Is.EqualTo(new[] { line[0].Node }));
+            Manager.FindNearestNodes(Vector3.zero, 3, found, new List<float>());
+            Assert.That(found, Is.EqualTo(new[] { line[0].Node }));
+        }
+
         private static ProbeNode[] MakeLine(params float[] places)
         {
             var line = new ProbeNode[places.Length];

@@ -48,6 +48,9 @@ namespace Collektive.Unity
             {
                 ref var visitor = ref all[i];
                 if (visitor.Collider.IsGone() || visitor.Deactivations != visitor.Owner.Deactivations) continue;
+                // Unity sends no message when a collider gets another parent.
+                if (visitor.Owner == null || !visitor.Owner.Owns(visitor.Collider)) visitor = VisitorOf(visitor.Collider);
+                if (visitor.Owner == null) continue;
                 // A node with several colliders in the zone is added only once.
                 var owner = visitor.Owner;
                 var offset = owner.Position;
@@ -64,11 +67,17 @@ namespace Collektive.Unity
         private void OnTriggerEnter(Collider other)
         {
             if (other.isTrigger) return;
-            var node = other.GetComponentInParent<Node>();
-            if (node == null) return;
+            var visitor = VisitorOf(other);
+            if (visitor.Owner == null) return;
             var index = Find(other);
             if (index == visitors.Count) visitors.Add(default);
-            visitors.Items[index] = new Visitor { Collider = other, Owner = node, Deactivations = node.Deactivations };
+            visitors.Items[index] = visitor;
+        }
+
+        private static Visitor VisitorOf(Collider collider)
+        {
+            var node = collider.GetComponentInParent<Node>();
+            return new Visitor { Collider = collider, Owner = node, Deactivations = node == null ? 0 : node.Deactivations };
         }
 
         private void OnTriggerExit(Collider other)
