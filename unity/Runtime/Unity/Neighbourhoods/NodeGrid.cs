@@ -51,13 +51,14 @@ namespace Collektive.Unity
         internal Span<NearNode> FindNearest(Vector3 centre, int limit, float guess) =>
             MemoryMarshal.Cast<NearPoint, NearNode>(search.Nearest(centre.x, centre.y, centre.z, limit, guess));
 
-        /// <summary>Replaces the content of the lists with the found nodes and their distances.</summary>
+        /// <summary>Replaces the content of the lists with the found nodes and their distances. Skips nodes that left after the grid was built.</summary>
         internal void Copy(Span<NearNode> found, List<Node> to, List<float> distances)
         {
             to.Clear();
             distances.Clear();
             for (var i = 0; i < found.Length; i++)
             {
+                if (NodeAt(found[i]).Id != found[i].Id) continue;
                 to.Add(NodeAt(found[i]));
                 distances.Add(found[i].Distance);
             }
