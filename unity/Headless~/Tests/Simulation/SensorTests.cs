@@ -209,6 +209,23 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Errors, Is.Empty);
         }
 
+        [TestCase(0)]
+        [TestCase(1)]
+        public void A_contact_of_several_colliders_continues_without_one_of_them(int disabled)
+        {
+            MakeBox(new Vector3(0, -0.5f, 0)).transform.localScale = new Vector3(20, 1, 20);
+            var body = MakeBall(new Vector3(0, 0.5f, 0));
+            body.GetComponent<SphereCollider>().center = Vector3.left;
+            body.gameObject.AddComponent<SphereCollider>().center = Vector3.right;
+            var sensor = body.gameObject.AddComponent<Contacts>();
+            Play(5);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * 9.81f * 0.05f).Within(0.05f), "the impulses of both colliders");
+            body.GetComponents<SphereCollider>()[disabled].enabled = false;
+            Play(1);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+        }
+
         [Test]
         public void A_body_whose_collider_was_disabled_and_that_moved_has_no_contacts()
         {

@@ -32,5 +32,9 @@ namespace Collektive.Unity
 
         /// <summary>Impulse on the node since its last round, in newton seconds. It points away from the other collider.</summary>
         public Vector3 Impulse { get; }
+
+        internal bool IsOf(Collider own, Collider collider) => ReferenceEquals(Own, own) && ReferenceEquals(Collider, collider);
+
+        internal Contact WithImpulse(Vector3 impulse) => new Contact(Own, Collider, Point, Normal, impulse);
     }
 }

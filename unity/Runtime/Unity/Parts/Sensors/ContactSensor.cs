@@ -12,6 +12,7 @@ namespace Collektive.Unity
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ContactSensor<TData> : Sensor<TData>
     {
+        // The contacts of each collider of the node. Those with the same other collider are merged in each round.
         private readonly GrowingArray<Contact> contacts = new GrowingArray<Contact>();
         // For each contact, whether it ended since the last round.
         private readonly GrowingArray<bool> ended = new GrowingArray<bool>();
@@ -53,8 +54,8 @@ namespace Collektive.Unity
         /// <summary>Handles the end of a contact.</summary>
         protected virtual void OnCollisionExit(Collision collision)
         {
-            var index = Find(collision.collider);
-            if (index < contacts.Count) ended.Items[index] = true;
+            // Unity does not report which of the node's colliders no longer touches it. The others are reported again in the next step.
+            for (var i = 0; i < contacts.Count; i++) ended.Items[i] |= ReferenceEquals(contacts.Items[i].Collider, collision.collider);
         }
 
         private void Touch(Collision collision)
@@ -67,7 +68,8 @@ namespace Collektive.Unity
             var impulse = collision.impulse;
             // Unity reports the impulse with the same sign to both sides of a collision.
             if (Vector3.Dot(impulse, first.normal) < 0) impulse = -impulse;
-            var index = Find(collision.collider);
+            var index = 0;
+            while (index < contacts.Count && !contacts.Items[index].IsOf(first.thisCollider, collision.collider)) index++;
             if (index == contacts.Count)
             {
                 contacts.Add(default);
@@ -76,13 +78,6 @@ namespace Collektive.Unity
             ended.Items[index] = false;
             impulse += contacts.Items[index].Impulse;
             contacts.Items[index] = new Contact(first.thisCollider, collision.collider, point / count, first.normal, impulse);
-        }
-
-        private int Find(Collider collider)
-        {
-            var index = 0;
-            while (index < contacts.Count && !ReferenceEquals(contacts.Items[index].Collider, collider)) index++;
-            return index;
         }
 
         private void RemoveStale()
@@ -105,6 +100,25 @@ namespace Collektive.Unity
             }
             contacts.Truncate(remaining);
             ended.Truncate(remaining);
+            if (remaining > 1) Merge();
+        }
+
+        /// <summary>Adds the impulses of contacts with the same other collider to the nearest of them.</summary>
+        private void Merge()
+        {
+            var remaining = 0;
+            for (var i = 0; i < contacts.Count; i++)
+            {
+                var contact = contacts.Items[i];
+                var index = 0;
+                while (index < remaining && !ReferenceEquals(contacts.Items[index].Collider, contact.Collider)) index++;
+                var isFirst = index == remaining;
+                if (isFirst) remaining++;
+                contacts.Items[index] = isFirst ? contact : contacts.Items[index].WithImpulse(contacts.Items[index].Impulse + contact.Impulse);
+                ended.Items[index] = ended.Items[i] && (isFirst || ended.Items[index]);
+            }
+            contacts.Truncate(remaining);
+            ended.Truncate(remaining);
         }
 
         private void BeginRound()
@@ -114,7 +128,7 @@ namespace Collektive.Unity
             {
                 if (ended.Items[i]) continue;
                 var contact = contacts.Items[i];
-                contacts.Items[remaining] = new Contact(contact.Own, contact.Collider, contact.Point, contact.Normal, Vector3.zero);
+                contacts.Items[remaining] = contact.WithImpulse(Vector3.zero);
                 ended.Items[remaining++] = false;
             }
             contacts.Truncate(remaining);
