@@ -8,6 +8,8 @@ namespace Collektive.Unity
     /// <summary>
     /// Detects the trigger zones that the node is in, entered or left since its last round. A trigger zone is a trigger collider that belongs to no node.
     /// As for all triggers in Unity, the node or the zone needs a Rigidbody, and the sensor must be on the GameObject with the node's collider or body.
+    /// The node's own trigger colliders, for example of a <see cref="TriggerNeighbourhood"/>, enter zones too: put them on a child whose layer does not
+    /// collide with the layer of the zones.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Sensor{TData}"/>.</typeparam>
     public abstract class ZoneSensor<TData> : Sensor<TData>
