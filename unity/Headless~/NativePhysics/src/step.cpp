@@ -108,7 +108,9 @@ void physics_world::apply(const physics_command &command) {
             if (!kinematic) body->putToSleep();
             break;
         case PHYSICS_KINEMATIC:
+            switches_kinematic = true;
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
+            switches_kinematic = false;
             if (value[0] == 0.0f) body->wakeUp();
             marks[command.actor] |= PLACED;
             break;
@@ -239,7 +241,7 @@ PxFilterFlags physics_world::pairFound(PxU32 pair, PxFilterObjectAttributes, PxF
     overlap.b = int32_t(intptr_t(shape1->userData));
     if (data0.word1 > data1.word1) std::swap(overlap.a, overlap.b);
     const auto known = lost_overlaps.find(Ignored::key(data0.word1, data1.word1));
-    if (known != lost_overlaps.end()) {
+    if (known != lost_overlaps.end() && !known->second.ends) {
         overlap.touching = true;
         lost_overlaps.erase(known);
     }
@@ -249,12 +251,13 @@ PxFilterFlags physics_world::pairFound(PxU32 pair, PxFilterObjectAttributes, PxF
 void physics_world::pairLost(PxU32 pair, PxFilterObjectAttributes, PxFilterData data0, PxFilterObjectAttributes, PxFilterData data1,
                              bool removed) {
     Overlap &overlap = overlaps[pair];
-    if (overlap.touching && !removed) lost_overlaps[Ignored::key(data0.word1, data1.word1)] = {overlap.a, overlap.b};
+    if (overlap.touching && (!removed || switches_kinematic))
+        lost_overlaps[Ignored::key(data0.word1, data1.word1)] = {overlap.a, overlap.b, switches_kinematic};
     overlap = Overlap();
 }
 
 void physics_world::collect_overlaps() {
-    for (const auto &entry : lost_overlaps) add_touch(entry.second.first, entry.second.second, PHYSICS_EXIT, true);
+    for (const auto &entry : lost_overlaps) add_touch(entry.second.a, entry.second.b, PHYSICS_EXIT, true);
     lost_overlaps.clear();
     for (Overlap &overlap : overlaps) {
         if (overlap.a == PHYSICS_NONE) continue;

@@ -207,7 +207,7 @@ void physics_world::drop_shape(int32_t handle) {
     dying = Shape();
     free_shapes.push_back(handle);
     for (auto entry = lost_overlaps.begin(); entry != lost_overlaps.end();) {
-        if (entry->second.first == handle || entry->second.second == handle)
+        if (entry->second.a == handle || entry->second.b == handle)
             entry = lost_overlaps.erase(entry);
         else
             ++entry;

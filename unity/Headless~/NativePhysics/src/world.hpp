@@ -71,6 +71,12 @@ struct Overlap {
     bool tested = false;
 };
 
+// A touching pair that PhysX no longer reports. If a body became kinematic or dynamic, the touch ends, and begins again if the pair is found, as in Unity.
+struct LostOverlap {
+    int32_t a, b;
+    bool ends;
+};
+
 // The words of PxFilterData of a simulated shape.
 enum FilterBits : PxU32 {
     LAYER = 31,
@@ -125,7 +131,8 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
 
     std::vector<collektive::Overlap> overlaps; // by PhysX's number of the pair
     // Touching pairs whose bounds separated, or that wait for a new filtering, by identities.
-    std::map<uint64_t, std::pair<int32_t, int32_t>> lost_overlaps;
+    std::map<uint64_t, collektive::LostOverlap> lost_overlaps;
+    bool switches_kinematic = false; // while a body becomes kinematic or dynamic
 
     std::vector<physics_touch> touches;
     std::vector<physics_contact> contacts;

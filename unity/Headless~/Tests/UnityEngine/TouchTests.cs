@@ -48,6 +48,19 @@ namespace Collektive.Headless.Tests.Engine
             Physics.Simulate(Step);
         }
 
+        [TestCase(0.4f, "zone exit mover, zone enter mover, zone stay mover")]
+        [TestCase(5f, "zone exit mover")]
+        public void A_body_that_becomes_dynamic_leaves_its_triggers_and_enters_them_again(float place, string notes)
+        {
+            Zone();
+            var mover = Mover(Vector3.zero);
+            StepAt(mover, 0f);
+            Notes.Clear();
+            mover.isKinematic = false;
+            StepAt(mover, place);
+            Assert.That(string.Join(", ", Notes), Is.EqualTo(notes));
+        }
+
         [Test]
         public void A_trigger_sends_enter_once_and_stay_in_every_step_then_exit()
         {
