@@ -44,18 +44,15 @@ class ProjectionTest {
 
     @Test
     fun `a field is projected wherever it comes from`() {
-        val programs = "property pair element destructured ofDataClass hashMap delegated lazyProperty smartCast cast".split(" ")
-        for (program in programs) assertSeen(program, 0 to setOf(2), 1 to setOf(3))
+        val programs = "property reference pair element chosenElement destructured ofDataClass hashMap delegated lazyProperty " +
+            "smartCast cast fromFunction fromGeneric fromLambda"
+        for (program in programs.split(" ")) assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         for (program in listOf("each", "iterated")) assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
     }
 
     @Test
     fun `a lambda reads a field as at the place where the lambda is written`() =
         assertSeen("lambdaFromOutside", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
-
-    @Test
-    fun `a field that a function reads from its arguments is not projected`() =
-        assertSeen("takenOut", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test
     fun `a field may be read in a loop inside an arm`() = assertSeen("loop", 0 to setOf(2), 1 to setOf(3), plainToo = false)
@@ -106,8 +103,16 @@ class ProjectionTest {
             }
             class Frame(val field: Field<Int, Int>)
             fun Aggregate<Int>.property(): Set<Int> { val f = Frame(neighboring(localId)); return if (even) ids(f.field) else ids(f.field) }
+            fun Aggregate<Int>.reference(): Set<Int> {
+                val f = Frame(neighboring(localId))::field
+                return if (even) ids(f.get()) else ids(f())
+            }
             fun Aggregate<Int>.pair(): Set<Int> { val f = neighboring(localId) to 1; return if (even) ids(f.first) else ids(f.first) }
             fun Aggregate<Int>.element(): Set<Int> { val f = listOf(neighboring(localId)); return if (even) ids(f[0]) else ids(f.first()) }
+            fun Aggregate<Int>.chosenElement(): Set<Int> {
+                val f = listOf(neighboring(localId))
+                return if (even) ids(f.maxBy { ids(it).size }) else ids(f.first { ids(it).size < 9 })
+            }
             fun Aggregate<Int>.destructured(): Set<Int> {
                 val f = neighboring(localId) to 1
                 return if (even) { val (g, _) = f; ids(g) } else { val (g, _) = f; ids(g) }
@@ -156,7 +161,20 @@ class ProjectionTest {
                 return if (even) look() else look()
             }
             fun first(of: List<Field<Int, Int>>): Field<Int, Int> = of.first()
-            fun Aggregate<Int>.takenOut(): Set<Int> { val f = listOf(neighboring(localId)); return if (even) ids(first(f)) else ids(first(f)) }
+            fun Aggregate<Int>.fromFunction(): Set<Int> {
+                val f = listOf(neighboring(localId))
+                return if (even) ids(first(f)) else ids(first(f))
+            }
+            fun Aggregate<Int>.fromLambda(): Set<Int> {
+                val f = neighboring(localId)
+                val look = { f }
+                return if (even) ids(look()) else ids(look())
+            }
+            class Holder<T>(private val value: T) { fun get() = value }
+            fun Aggregate<Int>.fromGeneric(): Set<Int> {
+                val f = Holder(neighboring(localId))
+                return if (even) ids(f.get()) else ids(f.get())
+            }
 
             fun Aggregate<Int>.elvis(): Set<Int> {
                 val f = neighboring(localId)

@@ -208,10 +208,10 @@ internal class AlignmentTransformer(
         return projected(expression, nameOf(read))
     }
 
-    /** Whether [call] returns an existing field, for example from a property, a list or a pair. */
-    private fun returnsExistingField(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
-        !dsl.isFieldMember(call.symbol.owner) && (mayReturnStored(call.symbol.owner) || !reach.mustAlign(call)) &&
-        call.arguments.none { it != null && dsl.isField(it.type) }
+    /** Whether [call] may return an existing field, for example from a property, a list, a pair, or a function of these. */
+    private fun mayReturnExistingField(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
+        !dsl.isFieldMember(call.symbol.owner) && call.arguments.none { it != null && dsl.isField(it.type) } &&
+        (call.arguments.none { it != null && dsl.isAggregate(it.type) } || mayReturnStored(call.symbol.owner) || !reach.mustAlign(call))
 
     /** Whether an aligned call of [callee] may return a stored field: from a delegate such as `lazy`, a data class, or the JDK. */
     private fun mayReturnStored(callee: IrFunction) = callee.origin == IrDeclarationOrigin.DELEGATED_PROPERTY_ACCESSOR ||
@@ -242,7 +242,7 @@ internal class AlignmentTransformer(
             functionArguments(expression).forEach { alignedBodies += it.function }
         }
         if (dsl.isManualAlignment(callee)) dependsOnPath = true
-        val needsProjection = returnsExistingField(expression)
+        val needsProjection = mayReturnExistingField(expression)
         val result = visitAccess(expression)
         return if (needsProjection) projected(result, callName(expression)) else result
     }
