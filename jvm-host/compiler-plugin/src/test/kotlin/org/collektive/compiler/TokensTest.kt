@@ -26,6 +26,13 @@ class TokensTest {
     }
 
     @Test
+    fun `a new call keeps the tokens of calls with other names`() {
+        val calls = "share(1) { it.local.value } + if (localId == 0) neighboring(2).local.value else 0"
+        val before = tokens(Compilation.of("fun Aggregate<Int>.main(): Int = $calls"))
+        assertEquals(before, tokens(Compilation.of("fun Aggregate<Int>.main(): Int = evolve(1) { it } + $calls")).drop(1))
+    }
+
+    @Test
     fun `each call has its own token`() {
         val places = tokens(compiled).flatten()
         // The tokens belong to the calls of `first` and `twice` in main, of `first` in the lambda, and of `neighboring` in both overloads.

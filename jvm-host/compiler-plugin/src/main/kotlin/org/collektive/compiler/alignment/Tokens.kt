@@ -10,7 +10,8 @@ import org.jetbrains.kotlin.ir.util.render
 
 /**
  * Creates the tokens of one [file], such as `share@Swarm.kt:12#9c1d3a5e7f00b2d4`: the called function or chosen arm, its location, and a
- * 64-bit hash of module, file, enclosing declarations with their parameters, and the token's number inside these.
+ * 64-bit hash of module, file, enclosing declarations with their parameters, and the token's number among those for the same name inside
+ * these.
  *
  * An entry is a lambda with an Aggregate receiver that is not inside other aggregate code, such as the lambda passed to
  * `Collektive.aggregate`. Inside an entry, tokens have no location, and the hash covers only declarations inside the entry. Two entries
@@ -26,7 +27,8 @@ internal class Tokens(private val module: String, private val file: IrFile) {
     /** Returns a new token for [what] at [offset] of the file. It is inside [owner], which is inside [entry] unless that is `null`. */
     fun next(what: String, offset: Int, owner: IrDeclaration, entry: IrDeclaration?): String {
         val signature = signature(owner, entry)
-        val place = placesIn.merge(entry to signature, 1, Int::plus)
+        // In named functions, a new call must not change the tokens of calls with other names: a reload would lose their state.
+        val place = placesIn.merge(entry to (if (entry == null) "$signature\n$what" else signature), 1, Int::plus)
         if (entry != null) return "$what@#${hashed("$signature\n$place")}"
         val line = file.fileEntry.getLineNumber(offset) + 1
         return "$what@${file.shortName()}:$line#${hashed("$module\n${file.kotlinFqNameAndName()}\n$signature\n$place")}"
