@@ -16,9 +16,9 @@ from command import WORK
 
 from build.places import ROOT
 
-# These commands exit with 1 if two runs differ, which is not an error in a tutorial.
 # Other tests cover debugging, profiling and scene builders.
 SLOW = ("tutorial-debugging", "tutorial-profiling", "tutorial-scene-builder")
+# These commands exit with 1 if two runs differ, which is not an error in a tutorial.
 COMPARE = ("collektive diff ", "collektive replay ")
 
 
