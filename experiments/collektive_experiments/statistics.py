@@ -56,16 +56,16 @@ def paired_effect(a: Floats, b: Floats) -> dict[str, float]:
     """Compares two samples whose values at equal indices are pairs. The p-value comes from a sign permutation test of the mean difference."""
     if len(a) < 2:
         return dict.fromkeys(EFFECTS, float("nan"))
-    differences = b - a
+    differences, order = b - a, _signs(a, b)
     count = len(differences)
     random = np.random.default_rng(0)
     chosen = random.integers(0, count, (RESAMPLES, count))
-    bounds, deltas = (np.quantile(values[chosen].mean(axis=1), [0.025, 0.975]) for values in (differences, _signs(a, b)))
+    bounds, deltas = (np.quantile(values[chosen].mean(axis=1), [0.025, 0.975]) for values in (differences, order))
     is_exact = count <= MAX_EXACT_PAIRS
     signs = ((np.arange(2 ** count)[:, None] >> np.arange(count)) & 1) * 2 - 1 if is_exact else random.choice((-1, 1), (RESAMPLES, count))
     extreme = np.abs((signs * differences).mean(axis=1)) >= abs(differences.mean()) - _slack(a, b)
     p = extreme.mean() if is_exact else (extreme.sum() + 1) / (RESAMPLES + 1)
-    values = (a.mean(), b.mean(), differences.mean(), *bounds, _signs(a, b).mean(), *deltas, p)
+    values = (a.mean(), b.mean(), differences.mean(), *bounds, order.mean(), *deltas, p)
     return dict(zip(EFFECTS, map(float, values)))
 
 
