@@ -204,8 +204,8 @@ def aot_cache() -> Path | None:
     jdk = find_jdk()
     if feature_version(jdk) < 25:
         return None
-    jars = (f"{file} {file.stat().st_mtime_ns}" for file in (GENERATOR_JAR, BUILD / "stamp/kotlinc", jdk / "release"))
-    return BUILD / f"compiler-{hashlib.sha256(chr(0).join(jars).encode()).hexdigest()[:16]}.aot"
+    key = fetch.key_of(f"{file} {file.stat().st_mtime_ns}" for file in (GENERATOR_JAR, BUILD / "stamp/kotlinc", jdk / "release"))
+    return BUILD / f"compiler-{key[:16]}.aot"
 
 
 def _record_aot_cache(cache: Path, work: Path, options: Sequence[str | Path]) -> None:
