@@ -99,7 +99,10 @@ public class Session internal constructor(
         recording { jars(jars) }
         val prepared = reload.prepare(jars, loaded)
         return try {
-            reading { prepared.loaded.requests.run { check(frame).also { read() } } }
+            reading {
+                prepared.loaded.requests.check(frame)
+                prepared.loaded.requests.read()
+            }
             prepared
         } catch (e: HostException) {
             // The new programs reject a node of this tick. If the previous ones also reject it, reading the frame again fails.
