@@ -49,11 +49,13 @@ export class Swarm {
     this.textures = [0, 1].map(() => new DataTexture(null, TEXELS, rows, RGBAFormat, FloatType));
     this.uniforms = { here: { value: null }, next: { value: null }, share: { value: 0 }, radius: { value: 1 }, halfLength: { value: 0 } };
 
-    const body = new MeshLambertMaterial();
+    // A half sphere that faces the light has no back side.
+    const body = new MeshLambertMaterial({ shadowSide: FrontSide });
     for (const material of [body, materials.outline, materials.halo]) this.placeNodes(material);
     for (const material of [materials.link, materials.accentLine]) this.placeLines(material);
     const slotsShown = new InstancedBufferAttribute(new Float32Array(Math.max(slots, 1)), 1).setUsage(DynamicDrawUsage);
-    const shape = this.detailed ? new SphereGeometry(1, 20, 12) : hemisphere();
+    const [sides, rings] = this.detailed ? [20, 4] : [12, 2];
+    const shape = hemisphere(sides, rings);
     this.nodes = new Mesh(instanced(shape, slotsShown), body);
     if (this.detailed) {
       this.nodes.castShadow = true;
@@ -63,8 +65,8 @@ export class Swarm {
     const above = this.placeNodes(new MeshLambertMaterial({ depthTest: false, transparent: true }));
     this.selectedNode = new Mesh(instanced(shape, new InstancedBufferAttribute(new Float32Array(1), 1)), above);
     this.selectedNode.renderOrder = 3;
-    if (!this.detailed) materials.outline.side = FrontSide;
-    const outline = this.detailed ? shape.clone().scale(OUTLINE, OUTLINE, OUTLINE) : disc();
+    // A disc behind the half sphere.
+    const outline = new CircleGeometry(OUTLINE, sides).translate(0, 0, -0.1);
     this.outlines = new Mesh(instanced(outline, slotsShown), materials.outline);
     const halo = (size) => new Mesh(
       instanced(new SphereGeometry(1.5 * size, 20, 12), new InstancedBufferAttribute(new Float32Array(0), 1)), materials.halo);
@@ -192,12 +194,8 @@ export function neighboursOf({ pairs, ways }, slot) {
 }
 
 /** The visible half of a sphere. */
-function hemisphere() {
-  return new SphereGeometry(1, 12, 2, 0, 2 * Math.PI, 0, Math.PI / 2).rotateX(Math.PI / 2);
-}
-
-function disc() {
-  return new CircleGeometry(OUTLINE, 12).translate(0, 0, -0.1);
+function hemisphere(sides, rings) {
+  return new SphereGeometry(1, sides, rings, 0, 2 * Math.PI, 0, Math.PI / 2).rotateX(Math.PI / 2);
 }
 
 function instanced(shape, slots) {

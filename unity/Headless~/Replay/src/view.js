@@ -68,7 +68,7 @@ export class View {
       border: new LineBasicMaterial(),
       shape: new MeshLambertMaterial(),
       edge: new LineBasicMaterial(),
-      outline: new MeshBasicMaterial({ side: BackSide }),
+      outline: new MeshBasicMaterial(),
       link: new LineBasicMaterial({ transparent: true, depthWrite: false }),
       accent: new MeshBasicMaterial({ side: DoubleSide }),
       markerLine: new LineBasicMaterial(),
