@@ -21,7 +21,7 @@ from collektive import run_command
 
 ASSEMBLIES = ("Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "Collektive.Bridge.pdb", "Collektive.Unity.dll", "Collektive.Unity.pdb",
               "UnityEngine.dll", "UnityEngine.pdb", "Newtonsoft.Json.dll", "libcollektive_physics.so", "libcollektive_sqlite.so",
-              "Collektive.Player.exe", "Collektive.Player.pdb")
+              "Collektive.Player.exe", "Collektive.Player.exe.so", "Collektive.Player.pdb")
 
 
 def run(arguments: argparse.Namespace) -> int:
