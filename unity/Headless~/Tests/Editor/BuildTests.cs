@@ -13,7 +13,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>Tests the menu Tools &gt; Collektive with the real flatc, generator, javac and Kotlin compiler.</summary>
-    [Category("Mono")]
+    [Category("Mono"), Category("AnyPlacement")]
     public sealed class BuildTests : ProjectFixture
     {
         internal const string Schema = "namespace swarm;\ntable SensorData { intensity: float; }\nstruct ActuatorData { hops: float; }\n";

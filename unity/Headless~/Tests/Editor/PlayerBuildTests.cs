@@ -17,7 +17,7 @@ namespace Collektive.Headless.Tests.Editor
     /// <summary>
     /// Tests that a build of a player packages the files of its simulations, and that the player finds them. The tests write scenes in Unity's format.
     /// </summary>
-    [Category("Mono")]
+    [Category("Mono"), Category("AnyPlacement")]
     public sealed class PlayerBuildTests : ProjectFixture
     {
         private const string Manager = "de7f1c418113b5c64bd5634bfb1c00c4";

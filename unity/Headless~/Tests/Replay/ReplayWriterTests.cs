@@ -9,7 +9,7 @@ using NUnit.Framework;
 
 namespace Collektive.Headless.Tests
 {
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class ReplayWriterTests
     {
         /// <summary>The resolution of positions in the default arena of 20 m.</summary>
