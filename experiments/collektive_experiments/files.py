@@ -8,6 +8,8 @@ MARKER = ".collektive-sweep"
 """The name of the marker file in folders that a sweep has created and may delete."""
 PART = ".part"
 """The suffix of unfinished files and folders."""
+RECORD = "run.json"
+"""The name of the file that makes the folder of a run a finished one."""
 
 
 def make(folder: str) -> None:
@@ -30,12 +32,16 @@ def is_marked(folder: str) -> bool:
 
 
 def remove(folder: str) -> None:
-    """Deletes a marked or empty folder if it exists. Deletes the marker last, so that an interrupted deletion can be repeated."""
+    """
+    Deletes a marked or empty folder if it exists.
+
+    Deletes the record first, so that no folder with a record is incomplete, and the marker last, so that an interrupted deletion can be repeated.
+    """
     if not os.path.lexists(folder):
         return
     if os.path.islink(folder) or not os.path.isdir(folder) or (os.listdir(folder) and not is_marked(folder)):
         raise OSError(f"'{folder}' was not created by a sweep; move it, or name another folder with --out")
-    for entry in os.scandir(folder):
+    for entry in sorted(os.scandir(folder), key=lambda entry: entry.name != RECORD):
         if entry.is_dir(follow_symlinks=False):
             shutil.rmtree(entry.path)
         elif entry.name != MARKER:

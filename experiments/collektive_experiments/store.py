@@ -95,7 +95,7 @@ class Store:
         if not os.path.lexists(folder):
             return False
         record = self.record(run)
-        damaged = ["run.json"] if record is None else [name for name, digest in record["files"].items() if _hash(os.path.join(folder, name)) != digest]
+        damaged = [files.RECORD] if record is None else [name for name, digest in record["files"].items() if _hash(os.path.join(folder, name)) != digest]
         if record is None or damaged:
             print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged; repeating the run", file=sys.stderr)
             files.remove(folder)
@@ -104,7 +104,7 @@ class Store:
 
     def record(self, run: Run) -> dict[str, Any] | None:
         """Returns the content of run.json, or None if the run is not finished."""
-        record = _object(os.path.join(self.runs, run.name, "run.json"))
+        record = _object(os.path.join(self.runs, run.name, files.RECORD))
         if record is None or record.get("name") != run.name or not isinstance(record.get("files"), dict) or "status" not in record:
             return None
         return record
@@ -124,7 +124,7 @@ class Store:
         if outcome.status == "complete" and not set(RESULTS) <= results.keys():
             outcome = Outcome("failed", f"the run did not write {' and '.join(name for name in RESULTS if name not in results)}")
         record = {"name": run.name, "values": run.values, "status": outcome.status, "message": outcome.message, "seconds": round(seconds, 3), "files": results}
-        files.write_part(os.path.join(part, "run.json"), json.dumps(record, indent=2) + "\n")
+        files.write_part(os.path.join(part, files.RECORD), json.dumps(record, indent=2) + "\n")
         files.remove(folder)
         files.publish(folder)
 

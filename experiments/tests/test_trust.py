@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 from conftest import COLLEKTIVE, EIGHT, Project, processes
 
-from collektive_experiments import read, tables
+from collektive_experiments import files, read, tables
 from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store
@@ -297,3 +297,21 @@ def test_pipes_instead_of_results_are_damaged_files(tmp_path: Path, capsys: pyte
     os.mkfifo(tmp_path / "sweep.json")
     assert main(["plot", str(tmp_path)]) == 1
     assert "is damaged" in capsys.readouterr().err
+
+
+def test_an_interrupted_deletion_leaves_no_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "run"
+    files.make_marked(str(folder))
+    for name in ("metrics.csv", files.RECORD, "nodes.csv"):
+        (folder / name).touch()
+    delete, left = os.unlink, iter([True])
+
+    def once(path: str) -> None:
+        if next(left, None) is None:
+            raise OSError("no more")
+        delete(path)
+
+    monkeypatch.setattr(os, "unlink", once)
+    with pytest.raises(OSError, match="no more"):
+        files.remove(str(folder))
+    assert {path.name for path in folder.iterdir()} == {"metrics.csv", "nodes.csv", files.MARKER}
