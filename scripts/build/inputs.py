@@ -26,6 +26,9 @@ class Part:
         for file in self.files.values():
             if re.search(r"[\n\r\udc80-\udcff]", str(file)):
                 raise Failure(f"the path {str(file)!r} has a line break or is not UTF-8, which compilers cannot read: rename the file or its folders")
+            # Reading a pipe or a device might never end.
+            if file.exists() and not file.is_file():
+                raise Failure(f"'{file}' is not a file: remove or rename it")
         self.digest = _digest(self.files)
         self._list_files = list_files
 

@@ -141,6 +141,10 @@ class Runtimes(Project):
         stranger = collektive("replay", self.path("b.clkrec"), "--programs", self.collektive_jar())
         self.assertEqual(stranger.returncode, 2, stranger.stdout)
         self.assertIn("uses the runtime jars in", stranger.stderr)
+        os.mkfifo(self.path("project", "collektive", "pipe.jar"))
+        refused = collektive("replay", record, *other)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("pipe.jar cannot be read: java.io.IOException: it is not a file", refused.stderr)
 
     def test_an_error_in_a_round_names_node_and_position(self) -> None:
         self.change("programs/Brightest.kt", "val heard", 'check(localId != 3) { "three is too dark" }\n    val heard')

@@ -75,6 +75,13 @@ def test_an_included_pipe_is_rejected(tmp_path: Path) -> None:
         inputs.schema(schema)
 
 
+def test_pipes_among_jars_are_rejected(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.jar")
+    for read, path in ((inputs.jars, tmp_path), (inputs.jar, tmp_path / "a.jar")):
+        with pytest.raises(Failure, match=r"a\.jar' is not a file"):
+            read(path)
+
+
 @pytest.mark.parametrize("include, words", [("a\\\\b.fbs", "backslash"), ("link/../b.fbs", "linked folder")])
 def test_ambiguous_includes_are_rejected(tmp_path: Path, include: str, words: str) -> None:
     write(tmp_path / "other/b.fbs")

@@ -17,6 +17,7 @@ import java.security.MessageDigest
 import java.util.EnumMap
 import java.util.ServiceLoader
 import java.util.zip.ZipFile
+import kotlin.io.path.exists
 import kotlin.io.path.isDirectory
 import kotlin.io.path.isRegularFile
 import kotlin.io.path.listDirectoryEntries
@@ -128,6 +129,8 @@ public class AggregateLibrary private constructor(
 
         /** Returns a key that changes when [jar] is replaced. */
         private fun state(jar: Path): Any = try {
+            // Opening a pipe would wait for its writer.
+            if (jar.exists() && !jar.isRegularFile()) throw IOException("it is not a file")
             // Class loaders silently ignore unreadable jars, so this opens the jar.
             ZipFile(jar.toFile()).close()
             Triple(jar, Files.getLastModifiedTime(jar), Files.size(jar))
