@@ -99,6 +99,9 @@ def _study(search: Search, store: Store) -> optuna.Study:
     if former != search.identity:
         raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or varied values differ; "
                               "name another folder with --out")
+    if _finished(study, search) and not os.listdir(store.runs):
+        # The bundle was created again, and its inputs may differ from those of the deleted runs.
+        raise ExperimentError(f"'{path}' has trials whose runs were deleted: delete this file, too, or name another folder with --out")
     study.set_user_attr("search", search.identity)
     for trial in study.get_trials(states=(TrialState.RUNNING,)):
         # The search was killed while it proposed this trial.

@@ -4,6 +4,8 @@ import contextlib
 import csv
 import json
 import math
+import os
+import shutil
 import subprocess
 from typing import Any, cast
 
@@ -49,6 +51,16 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
                   and end["scenario"]["network"]["loss"] == float(row["network.loss"])]
         assert len(values) == 2
         assert float(row["agreeing"]) == pytest.approx(sum(values) / 2)
+
+
+def test_trials_without_runs_are_not_continued_with_other_inputs(project: Project) -> None:
+    assert tune(project, "--trials", "1").returncode == 0
+    shutil.rmtree(project.folder / "out/runs")
+    again = tune(project, "--trials", "1")
+    assert again.returncode == 1
+    assert "study.db' has trials whose runs were deleted" in again.stderr
+    (project.folder / "out/study.db").unlink()
+    assert tune(project, "--trials", "1").returncode == 0
 
 
 def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
@@ -136,9 +148,15 @@ def test_a_killed_search_continues_with_the_same_trials(project: Project, monkey
     steps = {"from": 0, "to": 9, "step": 4}
     experiment = read(project.experiment(vary={"seed": "1-2"}, tune={**TUNE, "trials": 12, "parameters": {"network.loss": {"from": 0, "to": 1}, "x": steps}}))
     options = argparse.Namespace(resume=True, trust_jvm=False, trials=None, jobs=3, keep_going=False)
+
+    def drive(store: Store, *_: Any) -> int:
+        for folder in (store.bundle, os.path.join(store.runs, "run")):
+            os.makedirs(folder, exist_ok=True)
+        return 0
+
     monkeypatch.setattr(tuning, "prepare", lambda *_: None)
     monkeypatch.setattr(tuning, "check_search", lambda *_: None)
-    monkeypatch.setattr(tuning, "drive", lambda *_: 0)
+    monkeypatch.setattr(tuning, "drive", drive)
     monkeypatch.setattr(tuning, "_value", lambda store, run, metric: run.values["network.loss"] * (run.values["x"] + 1))
 
     def search(out: str, method: str, kill_at: int) -> list[list[str]]:
