@@ -6,6 +6,7 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from types import TracebackType
 from typing import Any
 
@@ -99,6 +100,10 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
                     first = {"run": run.name, **columns.values(run)}
                     for row in columns.node_rows(run):
                         node_table.add({**first, **row})
+    else:
+        # The user may have deleted the runs of an earlier sweep in this folder.
+        for ending in (".parquet", ".csv"):
+            Path(store.folder, "nodes" + ending).unlink(missing_ok=True)
     columns.warn()
     return _count_rows(experiment, store, columns.rows)
 

@@ -3,6 +3,7 @@ import fcntl
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -105,6 +106,14 @@ def test_csv_tables_do_not_become_outdated(project: Project) -> None:
     assert project.sweep("--csv", vary={"seed": [1]}).returncode == 0
     assert project.sweep("--resume", vary={"seed": [1, 2]}).returncode == 0
     assert list(pd.read_csv(project.folder / "out/runs.csv")["seed"]) == list(project.table()["seed"]) == [1, 2]
+
+
+def test_a_table_of_deleted_runs_does_not_remain(project: Project) -> None:
+    assert project.sweep("--csv", vary={"seed": [1]}, set={"outputs.nodes": {"fields": ["position"]}}).returncode == 0
+    shutil.rmtree(project.folder / "out/runs")
+    result = project.sweep(vary={"seed": [1]})
+    assert result.returncode == 0, result.stderr
+    assert list((project.folder / "out").glob("nodes.*")) == []
 
 
 def test_changed_scripts_are_not_mixed_with_earlier_runs(project: Project) -> None:
