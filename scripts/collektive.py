@@ -83,7 +83,7 @@ def main(words: list[str]) -> int:
         parser_for(None).print_help()
         return 0
     if words[0] not in COMMANDS:
-        print(f"collektive: unknown command '{words[0]}'", file=sys.stderr)
+        report(Failure(f"unknown command '{words[0]}'"))
         parser_for(None).print_help(sys.stderr)
         return 2
     try:
@@ -95,6 +95,8 @@ def main(words: list[str]) -> int:
         return run_in_group(lambda: run_command(arguments))
     except Failure as failure:
         return report(failure)
+    except FileNotFoundError:
+        return report(Failure("the current folder was deleted: change to another folder"))
     except OSError as error:
         return report(Failure(f"cannot start a process: {error.strerror}"))
 
@@ -118,9 +120,9 @@ def run_command(arguments: argparse.Namespace) -> int:
 
 
 def report(failure: Failure, otherwise: int = 1) -> int:
-    """Prints why a command failed and returns the exit code."""
-    if str(failure):
-        print(f"collektive: {failure}", file=sys.stderr)
+    """Prints why a command failed and returns the exit code. Escapes control characters, which a terminal would execute."""
+    if message := re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", lambda found: repr(found[0])[1:-1], str(failure)):
+        print(f"collektive: {message}", file=sys.stderr)
     return failure.code or otherwise
 
 

@@ -1,6 +1,7 @@
 """Tests the messages about invalid input and invalid environments."""
 import os
 import subprocess
+import sys
 
 from command import Project, collektive, last_error
 
@@ -73,6 +74,12 @@ class Messages(Project):
         self.change("lamps.json", '"scripts": "scene"', '"scripts": "/usr"')
         self.assertIn("the folder '/usr' has more than 10,000 files", last_error(self.run_it()))
 
+    def test_control_characters_are_escaped(self) -> None:
+        for command in ("run", "repeat", "\x1b[2J"):
+            result = collektive(command, self.path("a\x1b[2J\x9b"))
+            self.assertIn("\\x1b[2J", result.stderr)
+            self.assertNotRegex(result.stderr, "[\x1b\x9b]")
+
     def test_folder_names_can_contain_any_characters_in_any_locale(self) -> None:
         odd = self.path("ünïcödé 雪 \"quo'te")
         os.rename(self.path("project"), odd)
@@ -94,6 +101,9 @@ class Messages(Project):
         small = subprocess.run(["bash", "-c", f"ulimit -s 64; {COLLEKTIVE} run {self.path('project', 'lamps.json')}"], capture_output=True, text=True)
         self.assertEqual(small.returncode, 1)
         self.assertIn("the stack limit is 64 KB, and the tools need 1024 KB: run ulimit -s 8192", small.stderr)
+        deleted = subprocess.run(["bash", "-c", f"mkdir gone; cd gone; rmdir ../gone; {sys.executable} {ROOT}/scripts/collektive.py check ."],
+                                 cwd=self.folder, capture_output=True, text=True)
+        self.assertIn("the current folder was deleted: change to another folder", deleted.stderr)
         closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run nowhere.json 2>&-"], capture_output=True, text=True)
         self.assertIn("'nowhere.json' is not a file", closed.stdout)
         closed = subprocess.run(["bash", "-c", f"{COLLEKTIVE} run {self.path('project', 'lamps.json')} --out {self.path('out')} <&- >&- 2>&-"])

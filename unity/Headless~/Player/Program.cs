@@ -1,5 +1,6 @@
 using System;
 using System.IO;
+using System.Text.RegularExpressions;
 using Collektive.Bridge;
 using Mono.Unix.Native;
 using Newtonsoft.Json.Linq;
@@ -71,7 +72,8 @@ namespace Collektive.Headless
         /// <returns>The exit code.</returns>
         internal static int Report(Exception error)
         {
-            Console.Error.WriteLine("collektive: " + Describe(error));
+            // A terminal would execute control characters.
+            Console.Error.WriteLine("collektive: " + Regex.Replace(Describe(error), @"[\p{Cc}-[\n\t]]", found => "\\x" + ((int)found.Value[0]).ToString("x2")));
             return error is IOException || error is UnauthorizedAccessException ? FileError : 1;
         }
 
