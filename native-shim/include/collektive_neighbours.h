@@ -83,7 +83,10 @@ typedef struct clk_neighbour {
     float attenuation; /* attenuation of the link */
 } clk_neighbour;
 
-/* A link. If rules and scripts set different values, the last values count. */
+/*
+ * A link. If rules and scripts set different values, those of the last call of clk_neighbours_take() count, because it confirms the values of all links
+ * of its rule. Searches and scripts set values only when they change, and searches also after another rule or a script has released links.
+ */
 typedef struct clk_link {
     int32_t from;      /* id of the sender */
     int32_t to;        /* id of the receiver */

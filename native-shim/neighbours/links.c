@@ -123,6 +123,18 @@ bool links_set(struct links *links, reference link, float length, float attenuat
            (!(link & DOWN) || set(links, index, &pair->down, length, attenuation));
 }
 
+static bool is_confirmed(const clk_direction *direction, float length, float attenuation, float tolerance) {
+    float difference = direction->length < length ? length - direction->length : direction->length - length;
+    return direction->attenuation == attenuation && difference <= 2 * tolerance;
+}
+
+bool links_confirm(struct links *links, reference link, float length, float attenuation, float tolerance) {
+    const clk_pair *pair = &links->pairs[link >> 2];
+    bool is_up_confirmed = !(link & UP) || is_confirmed(&pair->up, length, attenuation, tolerance);
+    bool is_down_confirmed = !(link & DOWN) || is_confirmed(&pair->down, length, attenuation, tolerance);
+    return (is_up_confirmed && is_down_confirmed) || links_set(links, link, length, attenuation);
+}
+
 bool links_release(struct links *links, reference link) {
     int32_t index = link >> 2;
     clk_pair *pair = &links->pairs[index];

@@ -37,6 +37,8 @@ enum { UP = 1, DOWN = 2, DIRECTIONS = 3 };
 /* Adds a reference to a link, or to both links of a pair, and sets their values. Returns the reference, or a negative number if out of memory. */
 reference links_add(struct links *links, int32_t from, int32_t to, bool both, float length, float attenuation);
 bool links_set(struct links *links, reference link, float length, float attenuation);
+/* Sets the values of a link unless it has the same attenuation and a length that two rules with this tolerance may have set. */
+bool links_confirm(struct links *links, reference link, float length, float attenuation, float tolerance);
 bool links_release(struct links *links, reference link);
 
 /* Loads a link into the cache. */

@@ -29,11 +29,13 @@ struct rule {
     int32_t count, capacity;
     int32_t next_free; /* number + 1 of the next removed rule; -1 if the rule is in use */
     int32_t centre;    /* id */
+    bool is_taken;     /* the caller determines the links, not a search */
+    float tolerance;   /* tolerance of lengths in the last update of the rule */
     uint32_t update;   /* number of the last update that contained the rule */
     float reach;       /* distance of the farthest point that the last search for nearest points found */
 };
 
-enum change_kind { ADD, ADD_BOTH, SET, RELEASE };
+enum change_kind { ADD, ADD_BOTH, SET, CONFIRM, RELEASE };
 
 /* Number of items by which prefetches are ahead. Links and rules are far apart in memory, so loading them takes long. */
 enum { AHEAD = 8 };
@@ -78,6 +80,7 @@ struct clk_neighbours {
     const clk_search *searches;
     int32_t search_count;
     uint32_t update;
+    bool confirms; /* searches set the values of links again, because other rules or scripts released some */
     atomic_int next;
     atomic_int new_links;
     atomic_bool is_out_of_memory;
@@ -201,6 +204,7 @@ void clk_neighbours_remove_rule(clk_neighbours *neighbours, int32_t number) {
     for (int32_t i = 0; i < rule->count; i++) {
         if (rule->held[i].link >= 0) links_release(&neighbours->links, rule->held[i].link);
     }
+    neighbours->confirms |= rule->is_taken;
     free(rule->held);
     *rule = (struct rule){.next_free = neighbours->free_rule};
     neighbours->free_rule = number + 1;
@@ -214,13 +218,14 @@ static bool add_change(struct thread_memory *memory, enum change_kind kind, int3
 
 static bool is_beyond(float a, float b, float tolerance) { return a - b > tolerance || b - a > tolerance; }
 
-/* Updates a link that the rule keeps. */
-static bool keep(struct thread_memory *memory, struct held *held, float length, float attenuation, float tolerance) {
+/* Updates a link that the rule keeps. With `confirms`, also sets unchanged values again, in case another rule or a script has set others. */
+static bool keep(struct thread_memory *memory, struct held *held, float length, float attenuation, float tolerance, bool confirms) {
     bool is_longer = is_beyond(length, held->length, tolerance);
-    if (!is_longer && attenuation == held->attenuation) return true;
+    bool is_same = !is_longer && attenuation == held->attenuation;
+    if (is_same && !confirms) return true;
     if (is_longer) held->length = length;
     held->attenuation = attenuation;
-    return add_change(memory, SET, held->link, held->length, attenuation);
+    return add_change(memory, is_same ? CONFIRM : SET, held->link, held->length, attenuation);
 }
 
 /*
@@ -228,12 +233,13 @@ static bool keep(struct thread_memory *memory, struct held *held, float length, 
  * later, so several threads can run this function for different rules.
  */
 static bool merge(struct thread_memory *memory, struct rule *rule, const clk_neighbour *requested, int32_t count, float tolerance,
-                  bool both) {
+                  bool both, bool confirms) {
     struct held *held = rule->held;
     int32_t same = 0;
+    rule->tolerance = tolerance;
     /* This loop handles the beginning, because usually most links are the same as before. */
     while (same < count && same < rule->count && held[same].id == requested[same].id) {
-        if (!keep(memory, &held[same], requested[same].length, requested[same].attenuation, tolerance)) return false;
+        if (!keep(memory, &held[same], requested[same].length, requested[same].attenuation, tolerance, confirms)) return false;
         same++;
     }
     if (same == count && same == rule->count) return true;
@@ -244,7 +250,7 @@ static bool merge(struct thread_memory *memory, struct rule *rule, const clk_nei
             continue;
         }
         if (h < rule->count && held[h].id == requested[r].id) {
-            if (!keep(memory, &held[h], requested[r].length, requested[r].attenuation, tolerance)) return false;
+            if (!keep(memory, &held[h], requested[r].length, requested[r].attenuation, tolerance, confirms)) return false;
             memory->merged[r] = held[h++];
         } else {
             memory->merged[r] = (struct held){requested[r].id, requested[r].length, requested[r].attenuation, -1};
@@ -266,6 +272,9 @@ static bool apply(clk_neighbours *neighbours, struct rule *rule, const struct ch
         if (end - change > AHEAD && change[AHEAD].kind >= SET) links_prefetch(links, change[AHEAD].target);
         if (change->kind == RELEASE) {
             if (!links_release(links, change->target)) return false;
+            neighbours->confirms |= rule->is_taken;
+        } else if (change->kind == CONFIRM) {
+            if (!links_confirm(links, change->target, change->length, change->attenuation, rule->tolerance)) return false;
         } else if (change->kind == SET) {
             if (!links_set(links, change->target, change->length, change->attenuation)) return false;
         } else {
@@ -302,7 +311,7 @@ static bool search(clk_neighbours *neighbours, struct thread_memory *memory, con
         memory->requested[count] = (clk_neighbour){grid->points[index].id, hit_distance(hits->keys[i]), 0};
         count += index != search->centre;
     }
-    return merge(memory, rule, memory->requested, count, search->tolerance, search->both != 0);
+    return merge(memory, rule, memory->requested, count, search->tolerance, search->both != 0, neighbours->confirms);
 }
 
 /* Runs searches until none are left, or until MAX_NEW_LINKS is reached. */
@@ -364,6 +373,7 @@ int32_t clk_neighbours_update(clk_neighbours *neighbours, const clk_search *sear
         if (neighbours->links.count > max_links) return exceeding;
         done = end;
     }
+    neighbours->confirms = false;
     return count;
 }
 
@@ -387,8 +397,9 @@ int32_t clk_neighbours_take(clk_neighbours *neighbours, int32_t number, int32_t 
     }
     struct rule *rule = &neighbours->rules[number];
     rule->centre = centre;
+    rule->is_taken = true;
     memory->change_count = 0;
-    if (!merge(memory, rule, memory->requested, requested, tolerance, both != 0)) return CLK_NEIGHBOURS_MEMORY;
+    if (!merge(memory, rule, memory->requested, requested, tolerance, both != 0, true)) return CLK_NEIGHBOURS_MEMORY;
     return apply(neighbours, rule, memory->changes, memory->change_count, memory->changes + memory->change_count) ? 0
                                                                                                                   : CLK_NEIGHBOURS_MEMORY;
 }
@@ -402,6 +413,7 @@ int32_t clk_neighbours_hold(clk_neighbours *neighbours, const clk_link *link) {
 
 int32_t clk_neighbours_release(clk_neighbours *neighbours, int32_t from, int32_t to) {
     int32_t released = links_release_script(&neighbours->links, from, to);
+    neighbours->confirms |= released > 0;
     return released < 0 ? CLK_NEIGHBOURS_MEMORY : released;
 }
 

@@ -384,6 +384,27 @@ static void lengths_are_sent_when_they_leave_the_tolerance(void) {
     clk_neighbours_destroy(neighbours);
 }
 
+static void rules_of_the_caller_determine_the_values_of_shared_links(void) {
+    clk_neighbours *neighbours = clk_neighbours_create();
+    clk_changes changes;
+    int32_t search = clk_neighbours_add_rule(neighbours), taken = clk_neighbours_add_rule(neighbours);
+    CHECK(clk_neighbours_know(neighbours, 4, 1) == 0 && clk_neighbours_know(neighbours, 9, 1) == 0);
+    float places[] = {1, 2, 2, 2.2f, 2.2f, 2.2f};
+    float attenuations[] = {5, 5, 5, 5, 0, 0};
+    float sent[] = {1, 2, 0, 0, 2, 0};
+    for (int32_t i = 0; i < 6; i++) {
+        clk_point now[] = {{0, 0, 0, 4}, {0, 0, places[i], 9}};
+        CHECK(clk_neighbours_place(neighbours, now, 2, 0) == 0);
+        if (i == 4) clk_neighbours_remove_rule(neighbours, taken);
+        CHECK(clk_neighbours_update(neighbours, &(clk_search){search, 0, -1, 0, 3, 0.25f, 1}, 1, 1, 99) == 1);
+        if (i < 4) CHECK(clk_neighbours_take(neighbours, taken, 4, &(clk_neighbour){9, places[i], 5}, 1, 0.25f, 1) == 0);
+        CHECK(clk_neighbours_flush(neighbours, &changes) == 0);
+        CHECK(changes.set_count == (sent[i] > 0 ? 2 : 0));
+        if (sent[i] > 0) CHECK(changes.set[1].length == sent[i] && changes.set[1].attenuation == attenuations[i]);
+    }
+    clk_neighbours_destroy(neighbours);
+}
+
 /* Returns the size of this process's address space in bytes, or 0 on systems without /proc. */
 static uint64_t memory_used(void) {
     unsigned long long pages = 0;
@@ -515,6 +536,7 @@ int main(int count, char **words) {
         CASE(wrong_arguments_are_refused),
         CASE(links_exist_while_referenced_and_changes_are_sent_once),
         CASE(lengths_are_sent_when_they_leave_the_tolerance),
+        CASE(rules_of_the_caller_determine_the_values_of_shared_links),
         CASE(links_between_the_largest_ids_need_little_memory),
         CASE(any_number_of_threads_has_equal_results),
         CASE(an_update_stops_at_the_limit_of_links),

@@ -310,6 +310,31 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_rule_that_is_called_determines_the_values_of_links_that_other_rules_also_keep()
+        {
+            Configure("double");
+            var nodes = MakeLine(0, 2);
+            nodes[0].Node.gameObject.AddComponent<RadiusNeighbourhood>().LengthTolerance = 0;
+            var rule = nodes[0].Node.gameObject.AddComponent<Attenuating>();
+            rule.LengthTolerance = 1;
+            Play(2);
+            Assert.That(Value(), Is.EqualTo((2f, 5f)));
+            nodes[1].Node.transform.position = new Vector3(2.5f, 0, 0);
+            Play(1);
+            Assert.That(Value(), Is.EqualTo((2f, 5f)));
+            rule.enabled = false;
+            Play(1);
+            Assert.That(Value(), Is.EqualTo((2.5f, 0f)));
+
+            (float, float) Value()
+            {
+                var links = new List<LinkRecord>();
+                Manager.CopyLinks(links);
+                return (links[0].Length, links[0].Attenuation);
+            }
+        }
+
+        [Test]
         public void A_collider_with_a_new_parent_belongs_to_its_new_node()
         {
             var zone = MakeNode(1, id: 0);
@@ -454,6 +479,14 @@ namespace Collektive.Headless.Tests.Simulation
                 if (MakeAt >= 0) Others.Add(MakeNode(1, new Vector3(1, 0, 0), MakeAt).Node);
                 MakeAt = -1;
                 foreach (var other in Others) neighbours.Add(other, Length, Attenuation);
+            }
+        }
+
+        public sealed class Attenuating : NeighbourhoodRule
+        {
+            protected override void FindNeighbours(NeighbourCollector neighbours)
+            {
+                foreach (ref readonly var near in neighbours.FindWithin(9)) neighbours.Add(near, 5);
             }
         }
 
