@@ -310,6 +310,29 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_body_in_a_trigger_is_linked_when_it_becomes_a_node()
+        {
+            var trigger = MakeNode(1).Node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            trigger.gameObject.AddComponent<TriggerNeighbourhood>();
+            var visitor = new GameObject("Visitor");
+            visitor.transform.position = Vector3.right;
+            visitor.AddComponent<SphereCollider>().radius = 0.1f;
+            visitor.AddComponent<Rigidbody>().isKinematic = true;
+            Play(2);
+            var node = visitor.AddComponent<Node>();
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            Object.DestroyImmediate(node);
+            Play(1);
+            Assert.That(Links(), Is.Empty);
+            visitor.AddComponent<Node>();
+            Play(1);
+            Assert.That(Links(), Is.EqualTo("0>2 2>0"));
+        }
+
+        [Test]
         public void A_rule_that_is_called_determines_the_values_of_links_that_other_rules_also_keep()
         {
             Configure("double");

@@ -23,6 +23,7 @@ namespace Collektive.Unity
         private struct Visitor
         {
             internal Collider Collider;
+            // Null for a collider without a node.
             internal Node Owner;
             // The owner's number of deactivations when the collider entered. Unity sends no exit message for them, but another enter message afterwards.
             internal int Deactivations;
@@ -47,19 +48,19 @@ namespace Collektive.Unity
             for (var i = 0; i < visitors.Count; i++)
             {
                 ref var visitor = ref all[i];
-                if (visitor.Collider.IsGone() || visitor.Deactivations != visitor.Owner.Deactivations) continue;
-                // Unity sends no message when a collider gets another parent.
-                if (visitor.Owner == null || !visitor.Owner.Owns(visitor.Collider)) visitor = VisitorOf(visitor.Collider);
-                if (visitor.Owner == null) continue;
-                // A node with several colliders in the zone is added only once.
                 var owner = visitor.Owner;
+                if (visitor.Collider.IsGone() || !(owner is null) && visitor.Deactivations != owner.Deactivations) continue;
+                // Unity sends no message when a collider gets another parent or node.
+                if (owner == null || !owner.Owns(visitor.Collider)) owner = (visitor = VisitorOf(visitor.Collider)).Owner;
+                if (remaining < i) all[remaining] = visitor;
+                remaining++;
+                if (owner is null) continue;
+                // A node with several colliders in the zone is added only once.
                 var offset = owner.Position;
                 offset.x -= here.x;
                 offset.y -= here.y;
                 offset.z -= here.z;
                 neighbours.Add(owner.Id, (float)Math.Sqrt(offset.x * offset.x + offset.y * offset.y + offset.z * offset.z), 0);
-                if (remaining < i) all[remaining] = visitor;
-                remaining++;
             }
             visitors.Truncate(remaining);
         }
@@ -67,11 +68,9 @@ namespace Collektive.Unity
         private void OnTriggerEnter(Collider other)
         {
             if (other.isTrigger) return;
-            var visitor = VisitorOf(other);
-            if (visitor.Owner == null) return;
             var index = Find(other);
             if (index == visitors.Count) visitors.Add(default);
-            visitors.Items[index] = visitor;
+            visitors.Items[index] = VisitorOf(other);
         }
 
         private static Visitor VisitorOf(Collider collider)
