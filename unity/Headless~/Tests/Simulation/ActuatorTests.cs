@@ -1,3 +1,4 @@
+using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
 using probe;
@@ -75,6 +76,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_body_that_was_added_after_the_first_round_is_driven_and_measured()
+        {
+            var node = MakeNode(500).Node;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            var sensor = node.gameObject.AddComponent<SensorTests.Velocity>();
+            Play(2);
+            var body = node.gameObject.AddComponent<Rigidbody>();
+            body.useGravity = false;
+            Play(2);
+            Assert.That(body.linearVelocity.x, Is.EqualTo(2).Within(1e-4f));
+            body.linearVelocity = new Vector3(0, 0, 3);
+            Play(1);
+            Assert.That(sensor.Value.z, Is.EqualTo(3).Within(1e-4f));
+        }
+
+        [Test]
         public void A_kinematic_body_is_moved_through_physics()
         {
             var node = MakeNode(500).Node;
@@ -98,6 +115,29 @@ namespace Collektive.Headless.Tests.Simulation
             pushed.useGravity = false;
             Play(5);
             Assert.That(pushed.linearVelocity.x, Is.EqualTo(2).Within(0.1f));
+        }
+
+        [TestCase(false, 0.5f)]
+        [TestCase(true, 0.05f)]
+        public void A_kinematic_body_moves_in_all_ticks_between_its_answers_until_the_part_is_disabled(bool disabled, float end)
+        {
+            Configure("double", settings =>
+            {
+                settings.schedule = Schedule.Asynchronous;
+                settings.timing.period = 0.5f;
+                settings.timing.phase = 0;
+            });
+            var node = MakeNode(500).Node;
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            var move = node.gameObject.AddComponent<Move>();
+            move.MaxSpeed = 1;
+            Play(10);
+            var start = node.transform.position.x;
+            Play(1);
+            Assert.That(node.transform.position.x - start, Is.EqualTo(0.05f).Within(1e-4f));
+            move.enabled = !disabled;
+            Play(9);
+            Assert.That(node.transform.position.x - start, Is.EqualTo(end).Within(1e-4f));
         }
 
         [Test]

@@ -7,10 +7,29 @@ namespace Collektive.Unity
     /// <summary>Advances physics by one tick, in steps of equal length that do not exceed the physics step in the settings.</summary>
     internal sealed class PhysicsSteps
     {
-        private readonly GrowingArray<(Rigidbody Body, Vector3 Offset)> moves = new GrowingArray<(Rigidbody Body, Vector3 Offset)>();
+        private readonly GrowingArray<Movement> moves = new GrowingArray<Movement>();
 
-        /// <summary>Moves a kinematic body in the next tick's worth of steps, by an equal part of the offset in each step.</summary>
-        internal void Move(Rigidbody body, Vector3 offset) => moves.Add() = (body, offset);
+        private struct Movement
+        {
+            internal NodePart Part;
+            internal ulong Answer;
+            internal Rigidbody Body;
+            internal Vector3 OffsetPerTick;
+            internal int Ticks;
+
+            /// <summary>Whether the body is still to be moved. The next answer of the node replaces the movement.</summary>
+            internal bool IsValid => Body != null && Body.isKinematic && Part.IsAttached && Part.Node.AnswerTick == Answer;
+        }
+
+        /// <summary>
+        /// Moves a kinematic body by an equal part of the offset in each physics step of the next ticks, as many ticks as the interval of the node's answers
+        /// has. The movement ends early at the node's next answer, or when the part is disabled.
+        /// </summary>
+        internal void Move(NodePart part, Rigidbody body, Vector3 offset)
+        {
+            var ticks = Math.Max(1, (int)Math.Round(part.Node.AnswerInterval / part.Node.Simulation.Settings.deltaTime));
+            moves.Add() = new Movement { Part = part, Answer = part.Node.AnswerTick, Body = body, OffsetPerTick = offset / ticks, Ticks = ticks };
+        }
 
         /// <summary>Runs the steps, unless a physics message ends the simulation.</summary>
         internal void Advance(Simulation simulation)
@@ -23,7 +42,12 @@ namespace Collektive.Unity
                 if (moves.Count > 0) MoveBodies(steps);
                 Physics.Simulate(step);
             }
-            moves.Clear();
+            var remaining = 0;
+            for (var i = 0; i < moves.Count; i++)
+            {
+                if (--moves.Items[i].Ticks > 0 && moves.Items[i].IsValid) moves.Items[remaining++] = moves.Items[i];
+            }
+            moves.Truncate(remaining);
         }
 
         private void MoveBodies(int steps)
@@ -32,8 +56,8 @@ namespace Collektive.Unity
             Physics.SyncTransforms();
             for (var i = 0; i < moves.Count; i++)
             {
-                var (body, offset) = moves.Items[i];
-                if (body != null && body.isKinematic) body.MovePosition(body.position + offset / steps);
+                ref var move = ref moves.Items[i];
+                if (move.IsValid) move.Body.MovePosition(move.Body.position + move.OffsetPerTick / steps);
             }
         }
     }

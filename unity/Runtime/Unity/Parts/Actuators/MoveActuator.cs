@@ -42,7 +42,7 @@ namespace Collektive.Unity
         {
             var target = Finite(Read(data));
             if (body == null) MoveTowards(target);
-            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(body, Node.AnswerInterval * Velocity(target - body.position));
+            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, Node.AnswerInterval * Velocity(target - body.position));
             else Drive(target - body.position);
         }
 
@@ -57,9 +57,9 @@ namespace Collektive.Unity
 
         internal sealed override void Prepare(TickContext tick)
         {
-            if (isChecked || body != null) return;
-            isChecked = true;
             // Scripts may have added the body after this component.
+            if (body != null || Node.TryGetComponent(out body) || isChecked) return;
+            isChecked = true;
             body = GetComponentInParent<Rigidbody>();
             if (body == null && TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
         }
