@@ -238,9 +238,11 @@ namespace Collektive.Headless
         {
             if (parameter.Type == ParameterType.Enum)
                 return parameter.Values.Contains(value) ? null : "must be one of " + string.Join(", ", parameter.Values);
-            var isNumber = parameter.Type == ParameterType.Number || parameter.Type == ParameterType.Integer;
-            return !isNumber || double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out _) ? null : "must be a number";
+            // In contrast to C#, the JVM accepts numbers with a suffix for the type.
+            return !IsNumber(parameter.DefaultValue.TrimEnd('d', 'D', 'f', 'F')) || IsNumber(value) ? null : "must be a number";
         }
+
+        private static bool IsNumber(string text) => double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out _);
 
         private void RemoveNode(int id)
         {

@@ -181,9 +181,10 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("LINE", "CIRCLE", "must be one of LINE, RING")]
         [TestCase("2", "-1e3", null)]
         [TestCase("2", "many", "must be a number")]
+        [TestCase("2d", "many", "must be a number")]
         public void A_live_run_refuses_values_of_parameters_that_would_end_it(string byDefault, string value, string problem)
         {
-            var parameter = new ProgramParameter("shape", byDefault, "", byDefault == "2" ? new string[0] : new[] { "LINE", "RING" });
+            var parameter = new ProgramParameter("shape", byDefault, "", byDefault[0] == '2' ? new string[0] : new[] { "LINE", "RING" });
             Assert.That(LiveRun.FindProblem(parameter, value), Is.EqualTo(problem));
         }
 
