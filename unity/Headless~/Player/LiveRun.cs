@@ -236,6 +236,7 @@ namespace Collektive.Headless
         /// <summary>Returns the reason why the engine would reject a value and end the simulation, or null.</summary>
         internal static string FindProblem(ProgramParameter parameter, string value)
         {
+            if (value == null) return "must have a value";
             if (parameter.Type == ParameterType.Enum)
                 return parameter.Values.Contains(value) ? null : "must be one of " + string.Join(", ", parameter.Values);
             // In contrast to C#, the JVM accepts numbers with a suffix for the type.
