@@ -230,7 +230,7 @@ fun Aggregate<Int>.smartCasts(): Any? {
     return list
 }
 class Frame(a: Aggregate<Int>) { val near = a.neighboring(a.localId); lateinit var later: Field<Int, Int>; val size by lazy { near.neighbors.size } }
-// = [[1, 2], [0, 1], [2], [1]]
+// = [[1, 2], [0, 1], [1], [1]]
 fun Aggregate<Int>.propertiesOfFields(): Any? {
     val frame = Frame(this)
     frame.later = frame.near.mapValues { it + 1 }

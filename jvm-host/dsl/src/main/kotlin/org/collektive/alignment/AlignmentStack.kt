@@ -17,14 +17,20 @@ public interface AlignmentStack {
     /** Pushes [token] and returns the depth before the push, for [popTo]. */
     public fun pushToken(token: String): Int
 
+    /** Like [pushToken], for the token of a branch, which begins a [region]. */
+    public fun pushBranch(token: String): Int
+
     /**
-     * Pushes the id of an entry of a field without values, and returns the depth before the push, for [popTo]. Primitives are aligned on
-     * the id, but [projected] ignores it.
+     * Pushes the id of an entry of a field, and returns the depth before the push, for [popTo]. Primitives are aligned on the id. If the
+     * field [isConstant], [projected] ignores it.
      */
-    public fun pushEntry(id: Any): Int
+    public fun pushEntry(id: Any, isConstant: Boolean): Int
 
     /** Pops tokens until the depth is [depth]. */
     public fun popTo(depth: Int)
+
+    /** Identifies the running execution of the innermost branch or `alignedOn` body; 0 outside these. */
+    public val region: Int
 
     /**
      * Returns [field] restricted to the neighbours that reached the current path in their last round, and announces to neighbours that this

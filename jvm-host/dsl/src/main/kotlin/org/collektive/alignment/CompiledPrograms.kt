@@ -9,12 +9,16 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.InMemory
 
-/** Called before an aligned call or branch. Returns the depth to pass to [popToken]. */
+/** Called before an aligned call. Returns the depth to pass to [popToken]. */
 public fun pushToken(aggregate: Aggregate<*>?, token: String): Int {
     if (aggregate is AlignmentStack) return aggregate.pushToken(token)
     aggregate?.align(token)
     return 0
 }
+
+/** [pushToken] for a branch. */
+public fun pushBranchToken(aggregate: Aggregate<*>?, token: String): Int =
+    if (aggregate is AlignmentStack) aggregate.pushBranch(token) else pushToken(aggregate, token)
 
 /**
  * Called at the beginning of a lambda that is written outside aggregate functions, with a token that identifies the lambda.
@@ -37,21 +41,31 @@ public fun recordFailure(aggregate: Aggregate<*>?, failure: Throwable) {
 }
 
 /**
- * Restricts [field], created outside a branch or an `alignedOn` body, to the neighbours that are aligned inside. Called where it is read.
+ * Restricts [field], if it was created outside the running branch or `alignedOn` body, to the neighbours that are aligned inside. Called
+ * where it is read. [isInside] is whether the source shows a branch around the read and the field outside it. It replaces
+ * [AlignmentStack.region] on devices without [AlignmentStack].
  */
-public fun <ID : Any, T> project(field: Field<ID, T>?, token: String): Field<ID, T>? {
+public fun <ID : Any, T> project(field: Field<ID, T>?, token: String, isInside: Boolean): Field<ID, T>? {
     if (field == null) return null
     val aggregate = field.context
-    val depth = pushToken(aggregate, token)
+    if (aggregate !is AlignmentStack) return if (isInside) restricted(aggregate, field, token) else field
+    val region = aggregate.region
+    if (region == 0 || region == field.region) return field
+    val depth = aggregate.pushToken(token)
     try {
-        return if (aggregate is AlignmentStack) aggregate.projected(field) else restricted(aggregate, field)
+        return aggregate.projected(field).inRegion(region)
     } finally {
-        popToken(aggregate, depth)
+        aggregate.popTo(depth)
     }
 }
 
-private fun <ID : Any, T> restricted(aggregate: Aggregate<ID>, field: Field<ID, T>): Field<ID, T> {
-    val aligned = aggregate.neighboring(Unit, InMemory).neighbors.list.mapTo(HashSet()) { it.id }
+private fun <ID : Any, T> restricted(aggregate: Aggregate<ID>, field: Field<ID, T>, token: String): Field<ID, T> {
+    aggregate.align(token)
+    val aligned = try {
+        aggregate.neighboring(Unit, InMemory).neighbors.list.mapTo(HashSet()) { it.id }
+    } finally {
+        aggregate.dealign()
+    }
     val alignedEntries = field.neighbors.list.filter { it.id in aligned }
     if (alignedEntries.size == field.neighbors.size) return field
     return Field.make(

@@ -27,7 +27,7 @@ class CompiledProgramsTest {
     fun `a projected field contains the devices that are aligned at the token`() {
         val device = FakeDevice(1, aligned = listOf(3, 4))
         val field = device.field(listOf(2, 3, 4), listOf(20, 30, 40), local = 10)
-        assertEquals(mapOf(3 to 30, 4 to 40, 1 to 10), project(field, "branch")?.all?.toMap())
+        assertEquals(mapOf(3 to 30, 4 to 40, 1 to 10), project(field, "branch", true)?.all?.toMap())
         assertEquals(emptyList(), device.path)
     }
 
@@ -35,7 +35,7 @@ class CompiledProgramsTest {
     fun `a field whose devices are all aligned is not copied`() {
         val device = FakeDevice(1, aligned = listOf(2, 3))
         val field = device.field(listOf(2, 3), listOf(20, 30), local = 10)
-        assertSame(field, project(field, "branch"))
-        assertNull(project<Int, Int>(null, "branch"))
+        assertSame(field, project(field, "branch", true))
+        assertNull(project<Int, Int>(null, "branch", true))
     }
 }

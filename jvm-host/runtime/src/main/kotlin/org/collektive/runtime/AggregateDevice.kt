@@ -115,6 +115,10 @@ internal class AggregateDevice<ID : Any>(
 
     override fun markEntry() = stack.markEntry()
 
+    override fun beginRegion() = stack.beginRegion()
+
+    override val region: Int get() = ownStack?.region ?: 0
+
     override fun popTo(depth: Int) = stack.popTo(depth)
 
     override fun tokens(): List<Any?> = ownStack?.tokens().orEmpty()

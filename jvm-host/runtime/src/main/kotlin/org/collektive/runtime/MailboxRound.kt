@@ -28,6 +28,10 @@ internal class MailboxRound<ID : Any>(
 
     // The stack depths at which ids of entries were pushed.
     private val entries = ArrayList<Int>(0)
+
+    // The stack depths at which regions began, and the regions.
+    private val regions = ArrayList<Pair<Int, Int>>(0)
+    private var lastRegion = 0
     private val visited = HashSet<Path>()
     private val newState = LinkedHashMap<Path, Any?>()
     private val outbound = Envelope(localId)
@@ -53,11 +57,18 @@ internal class MailboxRound<ID : Any>(
         entries += stack.size
     }
 
+    override fun beginRegion() {
+        regions += stack.size to ++lastRegion
+    }
+
+    override val region: Int get() = regions.lastOrNull()?.second ?: 0
+
     override fun tokens(): List<Any?> = stack.toList()
 
     override fun popTo(depth: Int) {
         while (stack.size > depth) stack.removeLast()
         while (entries.isNotEmpty() && entries.last() > depth) entries.removeLast()
+        while (regions.isNotEmpty() && regions.last().first > depth) regions.removeLast()
     }
 
     override fun reservePath(value: Any?): Path {

@@ -17,6 +17,15 @@ internal class PathStack(private val tree: PathTree) {
     private var entries = IntArray(2)
     private var entryCount = 0
 
+    // The stack depths at which regions began, ascending, and the regions.
+    private var regionDepths = IntArray(INITIAL_DEPTH)
+    private var regions = IntArray(INITIAL_DEPTH)
+    private var regionCount = 0
+    private var lastRegion = 0
+
+    /** The innermost region, or 0. */
+    val region get() = regions[regionCount]
+
     fun push(token: Any?) {
         if (depth == tokens.size) {
             tokens = tokens.copyOf(2 * depth)
@@ -31,11 +40,23 @@ internal class PathStack(private val tree: PathTree) {
         entries[entryCount++] = depth
     }
 
+    /** Begins a region, which ends when the last token is popped. */
+    fun beginRegion() {
+        if (++regionCount == regions.size) {
+            regionDepths = regionDepths.copyOf(2 * regionCount)
+            regions = regions.copyOf(2 * regionCount)
+        }
+        if (++lastRegion == 0) lastRegion = 1
+        regionDepths[regionCount] = depth
+        regions[regionCount] = lastRegion
+    }
+
     /** Pops tokens until the depth is [depth], and clears their references for the garbage collector. */
     fun popTo(depth: Int) {
         while (this.depth > depth) tokens[--this.depth] = null
         while (resolved > depth) nodes[resolved--] = null
         while (entryCount > 0 && entries[entryCount - 1] > depth) entryCount--
+        while (regionDepths[regionCount] > depth) regionCount--
     }
 
     /** Returns a copy of the tokens on the stack. */

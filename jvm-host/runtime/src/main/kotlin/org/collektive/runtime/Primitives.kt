@@ -29,6 +29,9 @@ internal abstract class Primitives<ID : Any, Path : Any> :
     /** Marks the last token as the id of an entry, which paths of projections omit. */
     protected abstract fun markEntry()
 
+    /** Begins a [region], which ends when the last token is popped. */
+    protected abstract fun beginRegion()
+
     /**
      * Reserves the current path for a primitive that starts from [value], and returns it.
      *
@@ -116,7 +119,7 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     override fun <R> alignedOn(pivot: Any?, body: () -> R): R {
         val before = depth
-        push(pivot)
+        align(pivot)
         try {
             return rejectField(body(), "alignedOn")
         } catch (failure: Throwable) {
@@ -127,7 +130,10 @@ internal abstract class Primitives<ID : Any, Path : Any> :
         }
     }
 
-    override fun align(pivot: Any?) = push(pivot)
+    override fun align(pivot: Any?) {
+        push(pivot)
+        beginRegion()
+    }
 
     override fun dealign() {
         check(depth > 0) { withPlace("dealign() was called without align()") }
@@ -136,9 +142,11 @@ internal abstract class Primitives<ID : Any, Path : Any> :
 
     override fun pushToken(token: String): Int = depth.also { push(token) }
 
-    override fun pushEntry(id: Any): Int = depth.also {
+    override fun pushBranch(token: String): Int = depth.also { align(token) }
+
+    override fun pushEntry(id: Any, isConstant: Boolean): Int = depth.also {
         push(id)
-        markEntry()
+        if (isConstant) markEntry()
     }
 
     private fun <T> rejectField(result: T, primitive: String): T {

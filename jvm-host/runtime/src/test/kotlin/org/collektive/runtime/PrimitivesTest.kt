@@ -195,7 +195,7 @@ class PrimitivesTest {
         val program: Aggregate<Int>.() -> Any? = {
             val now = alignedOn("now") { listOf(neighborhood()) }.single()
             alignedOn("then") {
-                evolving(now) { then -> now.yielding { project(then, "then@Test.kt:1#0123456789abcdef")?.neighbors?.ids?.list } }
+                evolving(now) { then -> now.yielding { project(then, "then@Test.kt:1#0123456789abcdef", true)?.neighbors?.ids?.list } }
             }
         }
         repeat(3) { network.round(program) }

@@ -60,7 +60,8 @@ public class RandomPrograms(private val random: Random) {
                 val field = neighboring<Int, Int?>(k)
                 val branch = (localId + (alignedOn("condition") { a() } ?: 1)) % 2
                 alignedOn(branch) {
-                    project(field, "field@Test.kt:1#0123456789abcdef")?.all?.list?.fold(null as Int?) { s, e -> mix(mix(s, e.id), e.value) }
+                    val entries = project(field, "field@Test.kt:1#0123456789abcdef", true)?.all?.list
+                    entries?.fold(null as Int?) { s, e -> mix(mix(s, e.id), e.value) }
                 }
             }
 

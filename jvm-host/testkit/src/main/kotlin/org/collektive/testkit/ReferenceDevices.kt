@@ -168,6 +168,12 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
     // The stack depths at which ids of entries were pushed.
     private val entries = ArrayList<Int>()
 
+    // The stack depths at which regions began, and the regions.
+    private val regions = ArrayList<Pair<Int, Int>>()
+    private var lastRegion = 0
+
+    override val region: Int get() = regions.lastOrNull()?.second ?: 0
+
     override val place: ProgramPlace get() = ProgramPlace(localId, stack.toList())
 
     override fun recordFailure(failure: Throwable) {
@@ -179,14 +185,30 @@ public class AlignedDevice internal constructor(id: Int, ignoresClashes: Boolean
         pushed += token
     }
 
-    override fun pushEntry(id: Any): Int = stack.size.also {
+    override fun pushBranch(token: String): Int = pushToken(token).also { beginRegion() }
+
+    override fun align(pivot: Any?) {
+        super.align(pivot)
+        beginRegion()
+    }
+
+    override fun dealign() {
+        popTo(stack.size - 1)
+    }
+
+    private fun beginRegion() {
+        regions += stack.size to ++lastRegion
+    }
+
+    override fun pushEntry(id: Any, isConstant: Boolean): Int = stack.size.also {
         stack += id
-        entries += stack.size
+        if (isConstant) entries += stack.size
     }
 
     override fun popTo(depth: Int) {
         super.popTo(depth)
         entries.removeIf { it > depth }
+        regions.removeIf { it.first > depth }
     }
 
     override fun <ID : Any, T> projected(field: Field<ID, T>): Field<ID, T> {

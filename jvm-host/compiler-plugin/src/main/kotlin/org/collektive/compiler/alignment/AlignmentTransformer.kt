@@ -12,6 +12,7 @@ import org.jetbrains.kotlin.ir.IrStatement
 import org.jetbrains.kotlin.ir.builders.IrBlockBuilder
 import org.jetbrains.kotlin.ir.builders.declarations.buildVariable
 import org.jetbrains.kotlin.ir.builders.irBlock
+import org.jetbrains.kotlin.ir.builders.irBoolean
 import org.jetbrains.kotlin.ir.builders.irCall
 import org.jetbrains.kotlin.ir.builders.irGet
 import org.jetbrains.kotlin.ir.builders.irGetField
@@ -56,6 +57,7 @@ import org.jetbrains.kotlin.ir.types.IrSimpleType
 import org.jetbrains.kotlin.ir.types.isNothing
 import org.jetbrains.kotlin.ir.types.starProjectedType
 import org.jetbrains.kotlin.ir.types.typeOrNull
+import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.hasAnnotation
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isNullable
@@ -69,7 +71,7 @@ import org.jetbrains.kotlin.name.Name
  * - A call that can reach a primitive runs between the push and the pop of its token. Its arguments are evaluated before the push.
  * - An arm of a branch that contains such a call or reads a field also gets a token.
  * - A lambda with an Aggregate that is written outside aggregate functions runs below its own token, unless it is the whole program.
- * - Inside an arm or the body of `alignedOn`, each read of a field from outside goes through `project`.
+ * - Each read of a field goes through `project`, unless the region that reads it also made it.
  *
  * Pops are in `finally` blocks, so that no exit from a call (return, break, a caught exception) leaves a token on the stack. A `catch`
  * before each `finally` records the path of the failure while the stack still contains it.
@@ -89,15 +91,15 @@ internal class AlignmentTransformer(
     /** An Aggregate that is the [parameter] itself, or is stored in the parameter's [property]. */
     private class Source(val parameter: IrValueParameter, val property: IrProperty? = null)
 
-    /** A part of the program in which the aligned neighbours stay the same: an arm, or the body of a function or `alignedOn`. */
-    private class Region(val outer: Region?)
+    /** An arm, a function body or code between `align` and `dealign`. Different neighbours may be aligned inside it. */
+    private class Region(val outer: Region?, val isBranch: Boolean)
 
     private var region: Region? = null
     private val regionOf = HashMap<IrValueDeclaration, Region?>()
     private val alignedBodies = HashSet<IrFunction>()
 
-    /** Lambdas passed to the standard library, for example to `map`. Their parameters come from outside the region. */
-    private val stdlibLambdas = HashSet<IrFunction>()
+    /** Lambdas passed to primitives. Their parameters are new fields. */
+    private val primitiveLambdas = HashSet<IrFunction>()
 
     /** Whether the current arm needs a token, because it contains an aligned call or a projected field. */
     private var dependsOnPath = false
@@ -135,8 +137,8 @@ internal class AlignmentTransformer(
             entry = declaration
             dependsOnPath = false
         }
-        if (declaration in alignedBodies) region = Region(outerRegion)
-        if (declaration !in stdlibLambdas) for (parameter in declaration.parameters) regionOf[parameter] = region
+        region = Region(outerRegion, isBranch = declaration in alignedBodies)
+        if (declaration in primitiveLambdas) for (parameter in declaration.parameters) regionOf[parameter] = region
         val result = super.visitFunctionNew(declaration)
         if (isEntry) {
             if (dependsOnPath) alignEntry(declaration)
@@ -170,7 +172,7 @@ internal class AlignmentTransformer(
             container.statements[index] = statement
             val callee = (statement as? IrCall)?.symbol?.owner ?: continue
             if (source == null || !dsl.isManualAlignment(callee)) continue
-            region = if (callee.name == DslNames.align) Region(region) else region?.outer ?: outer
+            region = if (callee.name == DslNames.align) Region(region, isBranch = true) else region?.outer ?: outer
         }
         region = outer
     }
@@ -184,7 +186,7 @@ internal class AlignmentTransformer(
             branch.condition = branch.condition.transform(this, null)
             depends = depends || dependsOnPath
             dependsOnPath = false
-            region = Region(outerRegion)
+            region = Region(outerRegion, isBranch = true)
             val arm = branch.result.transform(this, null)
             branch.result = if (dependsOnPath) aligned(arm, armName(expression, index)) else arm
             depends = depends || dependsOnPath
@@ -196,20 +198,20 @@ internal class AlignmentTransformer(
     }
 
     override fun visitGetValue(expression: IrGetValue): IrExpression {
-        val isOutside = source != null && region != null && regionOf[expression.symbol.owner] !== region
-        return if (isOutside && dsl.isField(expression.type)) projected(expression, nameOf(expression)) else expression
+        val declared = regionOf[expression.symbol.owner]
+        val isInside = declared != null && declared === region || expression.origin == IrStatementOrigin.INITIALIZE_PROPERTY_FROM_PARAMETER
+        return if (!isInside && dsl.isField(expression.type)) projected(expression, nameOf(expression), declared) else expression
     }
 
     /** Projects a variable of another type that is read as a field, after `is` or with `as`. */
     override fun visitTypeOperator(expression: IrTypeOperatorCall): IrExpression {
         val read = expression.argument as? IrGetValue
         val becomesField = read != null && dsl.isField(expression.type) && !dsl.isField(read.type)
-        if (!becomesField || source == null || region == null) return super.visitTypeOperator(expression)
-        return projected(expression, nameOf(read))
+        return if (becomesField) projected(expression, nameOf(read)) else super.visitTypeOperator(expression)
     }
 
     /** Whether [call] may return an existing field, for example from a property, a list, a pair, or a function of these. */
-    private fun mayReturnExistingField(call: IrCall) = source != null && region != null && dsl.isField(call.type) &&
+    private fun mayReturnExistingField(call: IrCall) = dsl.isField(call.type) &&
         !dsl.isFieldMember(call.symbol.owner) && call.arguments.none { it != null && dsl.isField(it.type) } &&
         (call.arguments.none { it != null && dsl.isAggregate(it.type) } || mayReturnStored(call.symbol.owner) || !reach.mustAlign(call))
 
@@ -217,14 +219,16 @@ internal class AlignmentTransformer(
     private fun mayReturnStored(callee: IrFunction) = callee.origin == IrDeclarationOrigin.DELEGATED_PROPERTY_ACCESSOR ||
         callee.origin == IrDeclarationOrigin.GENERATED_DATA_CLASS_MEMBER || dsl.isPlatform(callee) && !reach.isKotlinBuiltIn(callee)
 
-    private fun projected(field: IrExpression, name: String): IrExpression {
+    private fun projected(field: IrExpression, name: String, declared: Region? = null): IrExpression {
         dependsOnPath = true
+        val isInside = generateSequence(region) { it.outer }.takeWhile { it !== declared }.any { it.isBranch }
         return builderAt(field).run {
             irCall(dsl.project, field.type).apply {
                 val given = (field.type as? IrSimpleType)?.arguments.orEmpty()
                 for (index in typeArguments.indices) typeArguments[index] = given.getOrNull(index)?.typeOrNull ?: plugin.irBuiltIns.anyType
                 arguments[0] = field
                 arguments[1] = irString(token(name, field))
+                arguments[2] = irBoolean(isInside)
             }
         }
     }
@@ -233,13 +237,14 @@ internal class AlignmentTransformer(
 
     override fun visitCall(expression: IrCall): IrExpression {
         val callee = expression.symbol.owner
-        if (source == null) return super.visitCall(expression)
         if (isLocalEntry(callee)) {
             // Projection does not change this device's entry.
             (expression.dispatchReceiver as? IrGetValue)?.let { return expression }
         }
         if (callee.name == DslNames.alignedOn && dsl.isAggregateMember(callee)) {
             functionArguments(expression).forEach { alignedBodies += it.function }
+        } else if (callee.getPackageFragment().packageFqName == DslNames.apiPackage) {
+            functionArguments(expression).forEach { primitiveLambdas += it.function }
         }
         if (dsl.isManualAlignment(callee)) dependsOnPath = true
         val needsProjection = mayReturnExistingField(expression)
@@ -247,14 +252,12 @@ internal class AlignmentTransformer(
         return if (needsProjection) projected(result, callName(expression)) else result
     }
 
-    override fun visitConstructorCall(expression: IrConstructorCall): IrExpression =
-        if (source == null) super.visitConstructorCall(expression) else visitAccess(expression)
+    override fun visitConstructorCall(expression: IrConstructorCall): IrExpression = visitAccess(expression)
 
     private fun functionArguments(call: IrFunctionAccessExpression) = call.arguments.filterIsInstance<IrFunctionExpression>()
 
     private fun visitAccess(call: IrFunctionAccessExpression): IrExpression {
-        val mustAlign = reach.mustAlign(call)
-        if (reach.isKotlinBuiltIn(call.symbol.owner)) functionArguments(call).forEach { stdlibLambdas += it.function }
+        val mustAlign = source != null && reach.mustAlign(call)
         call.transformChildren(this, null)
         return if (mustAlign) aligned(call) else call
     }
@@ -277,7 +280,7 @@ internal class AlignmentTransformer(
     }
 
     private fun aligned(arm: IrExpression, name: String): IrExpression =
-        builderAt(arm).irBlock(resultType = arm.type) { align(arm, token(name, arm)) { current() } }
+        builderAt(arm).irBlock(resultType = arm.type) { align(arm, token(name, arm), dsl.pushBranchToken) { current() } }
 
     /** Runs the body of [lambda] below its own token, so that different lambdas called at one place are not aligned. */
     private fun alignEntry(lambda: IrFunction) {
@@ -379,7 +382,7 @@ internal class AlignmentTransformer(
     }
 
     private fun isLocalEntry(callee: IrSimpleFunction) = dsl.isFieldMember(callee) &&
-        callee.correspondingPropertySymbol?.owner?.name.let { it == DslNames.local || it == DslNames.context }
+        callee.correspondingPropertySymbol?.owner?.name.let { it == DslNames.local || it == DslNames.localValue || it == DslNames.context }
 
     private fun isIgnored(declaration: IrAnnotationContainer) = declaration.hasAnnotation(DslNames.ignore)
 

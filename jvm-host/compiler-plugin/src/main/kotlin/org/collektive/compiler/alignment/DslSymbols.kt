@@ -37,6 +37,7 @@ internal class DslSymbols private constructor(
     val field: IrClassSymbol,
     val fieldContext: IrSimpleFunctionSymbol,
     val pushToken: IrSimpleFunctionSymbol,
+    val pushBranchToken: IrSimpleFunctionSymbol,
     val pushLambdaToken: IrSimpleFunctionSymbol,
     val popToken: IrSimpleFunctionSymbol,
     val recordFailure: IrSimpleFunctionSymbol,
@@ -53,11 +54,11 @@ internal class DslSymbols private constructor(
 
     private val storing = Reachability<IrClass> { type ->
         aggregateProperty(type) != null || type.properties.any { property ->
-            property.backingField?.type?.getClass()?.let(::storesAggregate) == true
+            property.backingField?.type?.let(::containsDslType) == true
         } || type.isInner && storesAggregate(type.parentAsClass)
     }
 
-    /** Whether an object of [type] stores an Aggregate in a property, directly or through other objects. */
+    /** Whether an object of [type] stores an Aggregate or a Field in a property, directly or through other objects. */
     private fun storesAggregate(type: IrClass): Boolean = !isPlatform(type) && storing.reaches(type)
 
     /** Whether [declaration] belongs to Kotlin or the JDK. */
@@ -113,6 +114,7 @@ internal class DslSymbols private constructor(
                 field = field,
                 fieldContext = field.getPropertyGetter(DslNames.context.asString()) ?: return null,
                 pushToken = finder.findFunctions(DslNames.pushToken).singleOrNull() ?: return null,
+                pushBranchToken = finder.findFunctions(DslNames.pushBranchToken).singleOrNull() ?: return null,
                 pushLambdaToken = finder.findFunctions(DslNames.pushLambdaToken).singleOrNull() ?: return null,
                 popToken = finder.findFunctions(DslNames.popToken).singleOrNull() ?: return null,
                 recordFailure = finder.findFunctions(DslNames.recordFailure).singleOrNull() ?: return null,

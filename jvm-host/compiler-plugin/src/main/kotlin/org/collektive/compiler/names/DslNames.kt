@@ -23,8 +23,10 @@ internal object DslNames {
     val yielding = Name.identifier("yielding")
     val context = Name.identifier("context")
     val local = Name.identifier("local")
+    val localValue = Name.identifier("localValue")
 
     val pushToken = CallableId(alignmentPackage, Name.identifier("pushToken"))
+    val pushBranchToken = CallableId(alignmentPackage, Name.identifier("pushBranchToken"))
     val pushLambdaToken = CallableId(alignmentPackage, Name.identifier("pushLambdaToken"))
     val popToken = CallableId(alignmentPackage, Name.identifier("popToken"))
     val recordFailure = CallableId(alignmentPackage, Name.identifier("recordFailure"))

@@ -35,6 +35,8 @@ public class Field<ID : Any, out T> private constructor(
     private val neighborValues: Array<out Any?>?,
     /** The value for this device. */
     public val localValue: T,
+    /** The [AlignmentStack.region] to which this field is restricted. */
+    internal val region: Int,
 ) {
     /** The local entry. */
     public val local: FieldEntry<ID, T> get() = FieldEntry(context.localId, localValue)
@@ -87,7 +89,7 @@ public class Field<ID : Any, out T> private constructor(
     /** Returns a field with the same devices, in which each value is [singleton]. */
     public fun <R> mapToConstant(singleton: R): Field<ID, R> {
         rejectField(context, singleton)
-        return Field(context, ids, null, singleton)
+        return Field(context, ids, null, singleton, region)
     }
 
     /**
@@ -236,6 +238,9 @@ public class Field<ID : Any, out T> private constructor(
 
     override fun toString(): String = "Field(local=${context.localId}: $localValue, neighbors=${neighbors.toMap()})"
 
+    internal fun inRegion(region: Int): Field<ID, T> =
+        if (region == this.region) this else Field(context, ids, neighborValues, localValue, region)
+
     internal fun idAt(index: Int): ID = if (index == ids.size) context.localId else neighborId(index)
 
     internal fun valueAt(index: Int): T = if (index == ids.size) localValue else neighborValue(index)
@@ -245,12 +250,12 @@ public class Field<ID : Any, out T> private constructor(
     private inline fun <R> build(value: (Int) -> R): Field<ID, R> {
         val values = arrayOfNulls<Any?>(ids.size)
         for (index in ids.indices) values[index] = alignedAt(index, value)
-        return make(context, ids, values, alignedAt(ids.size, value))
+        return make(context, ids, values, alignedAt(ids.size, value), region)
     }
 
     private inline fun <R> alignedAt(index: Int, value: (Int) -> R): R {
-        val stack = if (isConstant) context as? AlignmentStack else null
-        val depth = stack?.pushEntry(idAt(index)) ?: 0
+        val stack = context as? AlignmentStack
+        val depth = stack?.pushEntry(idAt(index), isConstant) ?: 0
         if (stack == null) context.align(idAt(index))
         try {
             return value(index)
@@ -291,10 +296,19 @@ public class Field<ID : Any, out T> private constructor(
          * @throws IllegalStateException when a value is itself a [Field].
          */
         @DelicateCollektiveApi
-        public fun <ID : Any, T> make(context: Aggregate<ID>, ids: Array<out Any>, values: Array<out Any?>, local: T): Field<ID, T> {
+        public fun <ID : Any, T> make(context: Aggregate<ID>, ids: Array<out Any>, values: Array<out Any?>, local: T): Field<ID, T> =
+            make(context, ids, values, local, (context as? AlignmentStack)?.region ?: 0)
+
+        private fun <ID : Any, T> make(
+            context: Aggregate<ID>,
+            ids: Array<out Any>,
+            values: Array<out Any?>,
+            local: T,
+            region: Int,
+        ): Field<ID, T> {
             for (value in values) rejectField(context, value)
             rejectField(context, local)
-            return Field(context, ids, values, local)
+            return Field(context, ids, values, local, region)
         }
 
         /**
