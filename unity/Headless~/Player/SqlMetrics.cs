@@ -29,7 +29,7 @@ namespace Collektive.Headless
         private readonly Sqlite.Statement clear, insert, insertMany;
         private readonly double[] rows;
 
-        /// <summary>Prepares all metrics, and checks them on an empty table and on a table with two nodes.</summary>
+        /// <summary>Prepares all metrics, and checks them on an empty table and on tables with two nodes.</summary>
         /// <param name="limitMs">Milliseconds that a metric may take.</param>
         internal SqlMetrics(JsonFile file, JObject root, DataSchema schema, int limitMs)
         {
@@ -134,21 +134,29 @@ namespace Collektive.Headless
                     metric.Property,
                     "'metrics." + metric.Property.Name + "' is not an aggregate: it needs a function over all nodes, such as avg(...), sum(...) or count(*)");
             }
+            // Conditions such as sum(flag) = 1 or sum(category = id) = 1 hold in the second or third table only.
+            if (IsSymmetric(metric, column => column + 1, column => 3 * column + 5) && IsSymmetric(metric, column => 0, column => 1)
+                && IsSymmetric(metric, column => 0, column => column + 1)) return;
+            throw file.Error(
+                metric.Property,
+                "'metrics." + metric.Property.Name + "' depends on the order of nodes: write each column in a function over all nodes, such as avg(...)");
+        }
+
+        /// <summary>Returns whether a metric has the same value for both orders of two nodes.</summary>
+        private bool IsSymmetric(Metric metric, params Func<int, double>[] nodes)
+        {
             var value = new double[2];
             for (var order = 0; order < 2; order++)
             {
                 clear.Execute(rows, 0);
                 for (var node = 0; node < 2; node++)
                 {
-                    for (var column = 0; column < columns.Width; column++) rows[column] = (node ^ order) == 0 ? column + 1 : 3 * column + 5;
+                    for (var column = 0; column < columns.Width; column++) rows[column] = nodes[node ^ order](column);
                     insert.Execute(rows, columns.Width);
                 }
                 value[order] = Evaluate(metric) ?? double.NaN;
             }
-            if (value[0].Equals(value[1])) return;
-            throw file.Error(
-                metric.Property,
-                "'metrics." + metric.Property.Name + "' depends on the order of nodes: write each column in a function over all nodes, such as avg(...)");
+            return value[0].Equals(value[1]);
         }
 
         /// <summary>Evaluates a metric that consists of subqueries without the outer table, so that it has one row. Returns whether this is possible.</summary>

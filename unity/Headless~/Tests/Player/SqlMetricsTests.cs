@@ -37,6 +37,8 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("(select count(*) from nodes) + count(*) over ()", -1, "is not an aggregate")]
         [TestCase("(select count(*) from nodes other where other.x < nodes.x)", -1, "is not an aggregate")]
         [TestCase("(select x from nodes limit 1)", -1, "depends on the order of nodes")]
+        [TestCase("iif(sum(heard) = 1, id, -1)", -1, "depends on the order of nodes")]
+        [TestCase("iif(sum(heard = id) = 1, id, -1)", -1, "depends on the order of nodes")]
         [TestCase("avg(heard) + x", -1, "depends on the order of nodes: write each column in a function over all nodes")]
         [TestCase("avg(heard), max(x)", -1, "row value misused")]
         [TestCase("/* isn't */ avg('heard')", 16, "it must not contain texts; write columns without single quotes, at character 17")]
