@@ -464,6 +464,17 @@ def test_fields_set_node_positions(study: Study, fields: dict[str, Any], seconds
         assert least <= end[sql] <= greatest, f"{sql}: {end}"
 
 
+@pytest.mark.parametrize("kind", ["RandomWaypoint", "LevyWalk"])
+def test_random_walks_do_not_depend_on_the_schedule(study: Study, kind: str, tmp_path: Path) -> None:
+    study.write({**SCENARIO, "fields": {"movement": {"kind": kind, "speed": 9}}, "metrics": {"x": "sum(x)", "z": "sum(z)"}, "converged": {}})
+    ends = []
+    for schedule in ("Lockstep", "Asynchronous"):
+        outcome = study.worker.run({"schedule": schedule, "timing.period": 0.3}, "{}", str(tmp_path / schedule), 300, is_repeated=False)
+        assert outcome.status == "complete", outcome.message
+        ends.append(json.loads((tmp_path / schedule / "manifest.json").read_text())["end"])
+    assert ends[0] == ends[1]
+
+
 @pytest.mark.parametrize(("fields", "message"), [
     ({"deployment": {"kind": "Poisson", "nodes": 100, "spacing": 20}}, "the area has no room for 100 nodes: "),
     ({"deployment": {"kind": "Uniform", "polygon": [[0, 0], [1, 0], [2, 0]]}}, "the area has no room for 100 nodes: 0 were placed"),

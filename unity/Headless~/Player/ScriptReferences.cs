@@ -53,8 +53,8 @@ namespace Collektive.Headless
             "System.Text.StringBuilder", "System.Globalization.NumberStyles", "System.Reflection.MemberInfo", "System.Collections.IEnumerator",
             "System.Diagnostics.DebuggableAttribute+DebuggingModes", "System.Security.Permissions.SecurityAction",
             "System.Collections.Generic.List`1+Enumerator", "Collektive.Headless.DataFile", "Collektive.Headless.Track", "Collektive.Headless.ValueSeries",
-            "Collektive.Headless.PlaceExpression", "Collektive.Headless.ScenarioException", "System.ComponentModel.EditorBrowsableAttribute",
-            "System.ComponentModel.EditorBrowsableState",
+            "Collektive.Headless.PlaceExpression", "Collektive.Headless.RandomWalk", "Collektive.Headless.ScenarioException",
+            "System.ComponentModel.EditorBrowsableAttribute", "System.ComponentModel.EditorBrowsableState",
         };
 
         private static readonly HashSet<string> ForbiddenTypes = new HashSet<string>

@@ -1,4 +1,5 @@
 using Collektive.Bridge;
+using Collektive.Headless;
 using Collektive.Unity;
 using standard;
 using UnityEngine;
@@ -41,9 +42,10 @@ namespace Collektive.Standard
         protected override Vector3 Read(ActuatorData data) => data.Target;
     }
 
-    /// <summary>Moves a node without a body along a random path. The path depends on the node's random numbers.</summary>
+    /// <summary>Moves a node without a body along a random path. The path depends only on the movement, the seed and the node's id.</summary>
     public sealed class Walker : MonoBehaviour
     {
+        private RandomStream random;
         private Vector3 target;
         private Vector3 direction;
         private float left;
@@ -52,11 +54,12 @@ namespace Collektive.Standard
 
         internal void Walk(Node node, Movement movement, Area area, float seconds)
         {
-            if (movement.kind == MovementKind.RandomWaypoint) GoToWaypoint(node, movement, area, seconds);
-            else Roam(node.Random, movement, area, movement.speed * seconds);
+            random ??= RandomWalk.StreamOf(node);
+            if (movement.kind == MovementKind.RandomWaypoint) GoToWaypoint(movement, area, seconds);
+            else Roam(movement, area, movement.speed * seconds);
         }
 
-        private void GoToWaypoint(Node node, Movement movement, Area area, float seconds)
+        private void GoToWaypoint(Movement movement, Area area, float seconds)
         {
             // A fast node may pass several waypoints in a tick.
             while (seconds > 0)
@@ -68,7 +71,7 @@ namespace Collektive.Standard
                     seconds -= waited;
                     continue;
                 }
-                if (!hasTarget) target = area.Uniform(node.Random) ?? transform.position;
+                if (!hasTarget) target = area.Uniform(random) ?? transform.position;
                 hasTarget = true;
                 var offset = target - transform.position;
                 var reach = movement.speed * seconds;
@@ -85,7 +88,7 @@ namespace Collektive.Standard
             }
         }
 
-        private void Roam(RandomStream random, Movement movement, Area area, float reach)
+        private void Roam(Movement movement, Area area, float reach)
         {
             while (reach > 0)
             {

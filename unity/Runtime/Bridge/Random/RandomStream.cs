@@ -13,6 +13,8 @@ namespace Collektive.Bridge
         Scene = 2,
         /// <summary>The times of a node's rounds.</summary>
         Schedule = 3,
+        /// <summary>The random walk of a node in the standard scene. The numbers 4 and 5 are in use by the network on the JVM.</summary>
+        Movement = 6,
     }
 
     /// <summary>
