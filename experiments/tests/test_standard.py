@@ -411,6 +411,9 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
     # Walls along a polygon reach 0.05 m beyond it.
     ({"deployment": {"kind": "Uniform", "nodes": 200, "size": [3, 3]}, "obstacles": [{"polygon": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}]}, 0.1,
      {"count(*) filter (where abs(x) < 1.049 and abs(z) <= 1)": (0, 0)}),
+    # Rounding errors of positions do not remove links. A grid of 20 by 20 nodes has 760 pairs of neighbours.
+    ({"deployment": {"nodes": 400, "spacing": 1.1}, "neighbourhood": {"radius": 1.1}}, 0.1, {"sum(degree)": (1520, 1520)}),
+    ({"deployment": {"nodes": 400, "spacing": 100.3}, "neighbourhood": {"radius": 100.3}}, 0.1, {"sum(degree)": (1520, 1520)}),
     ({"deployment": {"nodes": 9, "spacing": 2}, "neighbourhood": {"kind": "Nearest", "count": 3}}, 0.1, {"min(degree)": (3, 3)}),
     ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"}}, 0.1, {"sum(degree)": (2, 2)}),
     ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"},

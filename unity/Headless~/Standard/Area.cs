@@ -35,6 +35,12 @@ namespace Collektive.Standard
         /// <summary>The number of columns of a grid.</summary>
         internal int Columns => deployment.columns > 0 ? deployment.columns : Mathf.CeilToInt(Mathf.Sqrt(deployment.nodes));
 
+        /// <summary>
+        /// Returns the largest distance that two nodes can have if it would be <paramref name="radius"/> without rounding errors. The error of a coordinate
+        /// is at most 2^-24 of it. Otherwise, nodes of a grid would miss many of their neighbours if the radius is the spacing, for example 1.1.
+        /// </summary>
+        internal float Rounded(float radius) => radius + Mathf.Max(-x[0], x[1], -z[0], z[1]) / (1 << 23) + radius / (1 << 22);
+
         /// <summary>Returns a free place with a uniform random distribution; null if almost no place is free.</summary>
         internal Vector3? Uniform(RandomStream random)
         {

@@ -291,9 +291,9 @@ namespace Collektive.Standard
 
         private void AddRule(GameObject holder)
         {
-            if (neighbourhood.kind == NeighbourhoodKind.Radius) holder.AddComponent<RadiusNeighbourhood>().Radius = neighbourhood.radius;
+            if (neighbourhood.kind == NeighbourhoodKind.Radius) holder.AddComponent<RadiusNeighbourhood>().Radius = area.Rounded(neighbourhood.radius);
             else if (neighbourhood.kind == NeighbourhoodKind.Nearest) holder.AddComponent<KNearestNeighbourhood>().Count = neighbourhood.count;
-            else holder.AddComponent<LineOfSightNeighbourhood>().Radius = neighbourhood.radius;
+            else holder.AddComponent<LineOfSightNeighbourhood>().Radius = area.Rounded(neighbourhood.radius);
         }
 
         private void FillSets()
