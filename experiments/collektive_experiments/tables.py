@@ -196,7 +196,7 @@ class _Columns:
     def node_rows(self, run: Run) -> Iterator[dict[str, Any]]:
         """Yields the rows of nodes.csv."""
         convert: dict[str, Callable[[str], Any]] = {
-            name: (lambda cell: cell == "true") if kind == pa.bool_() else _finite if kind == pa.float64() else str if kind == pa.string() else int
+            name: (lambda cell: cell == "true") if kind == pa.bool_() else float if kind == pa.float64() else str if kind == pa.string() else int
             for name, kind in self.nodes.items()}
         if not os.path.exists(os.path.join(self._store.runs, run.name, "nodes.csv")):
             return

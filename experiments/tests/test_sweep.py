@@ -1,6 +1,7 @@
 """Tests whole sweeps, including crashes, full disks and invalid input."""
 import fcntl
 import json
+import math
 import os
 import re
 import shutil
@@ -172,6 +173,14 @@ def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) 
     last = project.table(name="nodes").tail(10)
     assert list(last["node"]) == list(range(10))
     assert set(last["field.node"]) == {10.0}
+
+
+def test_infinite_values_of_nodes_differ_from_missing_answers(project: Project) -> None:
+    program = project.folder / "project/programs/Brightest.kt"
+    program.write_text(program.read_text().replace("ActuatorData(brightest = best,", "ActuatorData(brightest = -1f / 0f,"))
+    result = project.sweep(vary={"seed": [1]}, set={"outputs.nodes.fields": ["brightest"]})
+    assert result.returncode == 0, result.stderr
+    assert set(pq.read_table(project.folder / "out/nodes.parquet")["brightest"].to_pylist()) == {None, -math.inf}
 
 
 def test_large_whole_numbers_keep_their_digits(project: Project) -> None:
