@@ -90,6 +90,7 @@ DATA = {
     "bad/type.geojson": '{"type": []}',
     "bad/all.csv": "value,id\n5,-1\n",
     "bad/value.csv": "id\n0\n",
+    "thirds.csv": "time,value\n1,5\n",
     "file.txt": "x,z\n1,2\n",
 }
 SCENARIO: dict[str, Any] = {
@@ -393,6 +394,18 @@ def test_a_set_has_its_members_from_one_tick_to_another(study: Study, tmp_path: 
         active = {row["sensed"] for row in csv.DictReader(file) if row["sources"] == "1"}
     # The set is active at 0.3 s, because 0.3 is slightly greater as a float than as a double.
     assert active == {"0.3", "0.4", "0.5", "0.6", "0.7"}
+
+
+def test_sets_and_readings_change_at_times_that_ticks_meet_with_rounding_errors(study: Study, tmp_path: Path) -> None:
+    study.write({**SCENARIO, "fields": {"sets": [{"name": "source", "ids": [0], "from": 1, "until": 2}], "reading": {"file": "thirds.csv"}},
+                 "outputs": {"interval": 0.3333333}, "metrics": {"sources": "total(source)", "reading": "max(reading)"}, "converged": {}})
+    outcome = study.worker.run({"seconds": 3, "deltaTime": 0.3333333}, "{}", str(tmp_path / "out"), 300, is_repeated=False)
+    assert outcome.status == "complete", outcome.message
+    with (tmp_path / "out/metrics.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    # A row shows the sensor data of the tick that ends at its second.
+    assert [row["sources"] for row in rows] == ["0", "0", "0", "0", "1", "1", "1", "0", "0", "0"]
+    assert [row["reading"] for row in rows[1:]] == ["0"] * 3 + ["5"] * 6
 
 
 SPEED = "sqrt(pow(sensor_velocity_x, 2) + pow(sensor_velocity_z, 2))"

@@ -64,7 +64,7 @@ namespace Collektive.Standard
         internal double ReadingOf(Node node)
         {
             var place = node.Position;
-            var value = series?.ValueAt(node.Id, manager.SimulatedTime)
+            var value = series?.ValueAt(node.Id, Now)
                 ?? expression?.Evaluate(node.Id, manager.SimulatedTime, place.x, place.y, place.z) ?? double.NaN;
             return double.IsNaN(value) ? 0 : value;
         }
@@ -178,6 +178,9 @@ namespace Collektive.Standard
             }
             return null;
         }
+
+        /// <summary>Simulated time plus a thousandth of a tick, because three ticks of 0.3333333 are a second.</summary>
+        private double Now => manager.SimulatedTime + 1e-3 * manager.Settings.deltaTime;
 
         private int Count => tracks.Count > 0 ? tracks.Count : deployment.nodes;
 
@@ -336,7 +339,7 @@ namespace Collektive.Standard
             active = 0;
             for (var i = 0; i < sets.Count; i++)
             {
-                if (manager.SimulatedTime >= sets[i].from && manager.SimulatedTime < sets[i].until) active |= 1u << i;
+                if (Now >= sets[i].from && Now < sets[i].until) active |= 1u << i;
             }
         }
 
