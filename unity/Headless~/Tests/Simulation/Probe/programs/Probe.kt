@@ -2,6 +2,7 @@ package probe
 
 import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
+import it.unibo.collektive.aggregate.api.CollektiveIgnore
 import it.unibo.collektive.aggregate.api.neighborhood
 import it.unibo.collektive.aggregate.api.neighboring
 import it.unibo.collektive.aggregate.api.share
@@ -75,8 +76,11 @@ private fun Aggregate<Int>.clash(): Int = share(0) { it.local.value }
 
 private fun Aggregate<Int>.deeper(depth: Int): Int = if (depth < 0) neighboring(depth).local.value else deeper(depth + 1) + 1
 
-/** Combines a field of the current branch with a field of all neighbours, which is in a list and therefore not projected to the branch. */
-private fun Aggregate<Int>.misaligned(all: List<Field<Int, *>>): Int = all.single().alignedMap(neighboring(1)) { _, _, b -> b }.local.value
+private fun Aggregate<Int>.misaligned(all: List<Field<Int, *>>): Int = combined(all, neighboring(1))
+
+/** Combines a field of the current branch with a field of all neighbours, which the plugin does not project to the branch here. */
+@CollektiveIgnore("fields in compiled libraries are not projected either")
+private fun combined(all: List<Field<Int, *>>, near: Field<Int, Int>): Int = all.single().alignedMap(near) { _, _, b -> b }.local.value
 
 /** Fails in the way that a value of 13 or more selects. With other values, counts rounds like "count". */
 @Suppress("AGGREGATE_CALL_IN_LOOP", "CONSTANT_NEIGHBORING")
