@@ -76,14 +76,17 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_body_that_was_added_after_the_first_round_is_driven_and_measured()
+        public void A_body_that_was_added_after_the_first_round_is_used_after_enabling_the_parts_again()
         {
             var node = MakeNode(500).Node;
-            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            var move = node.gameObject.AddComponent<Move>();
+            move.MaxSpeed = 2;
             var sensor = node.gameObject.AddComponent<SensorTests.Velocity>();
             Play(2);
             var body = node.gameObject.AddComponent<Rigidbody>();
             body.useGravity = false;
+            move.enabled = sensor.enabled = false;
+            move.enabled = sensor.enabled = true;
             Play(2);
             Assert.That(body.linearVelocity.x, Is.EqualTo(2).Within(1e-4f));
             body.linearVelocity = new Vector3(0, 0, 3);

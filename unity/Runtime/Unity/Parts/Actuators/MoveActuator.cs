@@ -57,9 +57,9 @@ namespace Collektive.Unity
 
         internal sealed override void Prepare(TickContext tick)
         {
-            // Scripts may have added the body after this component.
-            if (body != null || Node.TryGetComponent(out body) || isChecked) return;
+            if (isChecked || body != null) return;
             isChecked = true;
+            // Scripts may have added the body after this component.
             body = GetComponentInParent<Rigidbody>();
             if (body == null && TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
         }

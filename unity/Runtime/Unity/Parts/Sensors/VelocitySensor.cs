@@ -28,7 +28,6 @@ namespace Collektive.Unity
             joinTick = Node.JoinTick;
             // Scripts may add the body after this component.
             if (time < 0) body = GetComponentInParent<Rigidbody>();
-            else if (body == null) Node.TryGetComponent(out body);
             var now = tick.Time;
             var here = Node.Position;
             meanVelocity = time >= 0 && now > time ? (here - lastPosition) / (float)(now - time) : Vector3.zero;
