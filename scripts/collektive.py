@@ -87,7 +87,7 @@ def main(words: list[str]) -> int:
         parser_for(None).print_help(sys.stderr)
         return 2
     try:
-        for text in [os.getcwd(), *words]:
+        for text in [_current_folder(), *words]:
             if re.search("[\udc80-\udcff]", text):
                 raise Failure(f"{text!r} is not UTF-8, which the player and the JVM need: rename the file or folder")
         arguments = parser_for(words[0]).parse_args(words)
@@ -95,10 +95,15 @@ def main(words: list[str]) -> int:
         return run_in_group(lambda: run_command(arguments))
     except Failure as failure:
         return report(failure)
-    except FileNotFoundError:
-        return report(Failure("the current folder was deleted: change to another folder"))
     except OSError as error:
         return report(Failure(f"cannot start a process: {error.strerror}"))
+
+
+def _current_folder() -> str:
+    try:
+        return os.getcwd()
+    except FileNotFoundError as error:
+        raise Failure("the current folder was deleted: change to another folder") from error
 
 
 def run_command(arguments: argparse.Namespace) -> int:
