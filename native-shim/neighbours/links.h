@@ -34,6 +34,9 @@ struct links {
 typedef int32_t reference;
 enum { UP = 1, DOWN = 2, DIRECTIONS = 3 };
 
+/* Returns whether two lengths differ by more than a tolerance. */
+static inline bool is_beyond(float a, float b, float tolerance) { return a - b > tolerance || b - a > tolerance; }
+
 /* Adds a reference to a link, or to both links of a pair, and sets their values. Returns the reference, or a negative number if out of memory. */
 reference links_add(struct links *links, int32_t from, int32_t to, bool both, float length, float attenuation);
 bool links_set(struct links *links, reference link, float length, float attenuation);

@@ -216,8 +216,6 @@ static bool add_change(struct thread_memory *memory, enum change_kind kind, int3
     return true;
 }
 
-static bool is_beyond(float a, float b, float tolerance) { return a - b > tolerance || b - a > tolerance; }
-
 /* Updates a link that the rule keeps. With `confirms`, also sets unchanged values again, in case another rule or a script has set others. */
 static bool keep(struct thread_memory *memory, struct held *held, float length, float attenuation, float tolerance, bool confirms) {
     bool is_longer = is_beyond(length, held->length, tolerance);
