@@ -90,7 +90,9 @@ def assemble_roslyn() -> None:
 
 def precompile(assemblies: Sequence[Path]) -> None:
     """Compiles assemblies to machine code in ASSEMBLY.so. Mono then starts faster, and ignores the file if its assembly has changed."""
-    subprocess.run(["mono-sgen", "--aot", *assemblies], check=True, stdout=subprocess.DEVNULL)
+    result = subprocess.run(["mono-sgen", "--aot", *assemblies], capture_output=True, text=True, errors="replace", check=False)
+    if result.returncode:  # otherwise it only lists methods that it leaves to the JIT compiler
+        sys.exit(result.stdout + result.stderr)
 
 
 def main(words: list[str]) -> None:
