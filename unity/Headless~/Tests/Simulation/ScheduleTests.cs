@@ -229,6 +229,44 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_node_that_rejoins_during_the_sensor_phase_has_no_round_in_that_tick()
+        {
+            Configure("count");
+            var node = MakeNode(0);
+            var other = MakeNode(0);
+            var rejoiner = node.Node.gameObject.AddComponent<RejoiningSensor>();
+            var last = node.Node.gameObject.AddComponent<RejoiningSensor>();
+            Play(2);
+            foreach (var one in new[] { node, other })
+            {
+                rejoiner.Of = one;
+                var calls = (last.Calls, other.Actuator.Calls);
+                Play(1);
+                Assert.That(Manager.Simulation.DueCount, Is.EqualTo(1));
+                Assert.That((last.Calls, other.Actuator.Calls), Is.EqualTo(one == node ? (calls.Item1, calls.Item2 + 1) : (calls.Item1 + 1, calls.Item2)));
+                rejoiner.Of = null;
+                Play(1);
+                Expect(one, 1, Manager.Tick);
+            }
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
+        public void Later_actuators_of_a_node_that_leaves_are_not_called()
+        {
+            var node = MakeNode(0).Node;
+            var rejoiner = node.gameObject.AddComponent<Rejoiner>();
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            node.gameObject.AddComponent<ActuatorTests.Move>();
+            var last = node.gameObject.AddComponent<ProbeActuator>();
+            Play(2);
+            rejoiner.Leaving = node;
+            Play(1);
+            Assert.That(last.Calls, Is.EqualTo(2));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void A_restarted_simulation_has_no_previous_answers()
         {
             Configure("count", Asynchronous(0.2f));
@@ -407,9 +445,24 @@ namespace Collektive.Headless.Tests.Simulation
         public sealed class Rejoiner : Actuator<ActuatorData>
         {
             public ProbeNode Of;
+            public Node Leaving;
 
             protected override void Act(ActuatorData data)
             {
+                if (Of != null) Rejoin(Of);
+                if (Leaving != null) Leaving.enabled = false;
+            }
+        }
+
+        /// <summary>A sensor that lets a node rejoin.</summary>
+        public sealed class RejoiningSensor : Sensor<SensorData>
+        {
+            public ProbeNode Of;
+            public int Calls;
+
+            protected override void Sense(ref SensorData data)
+            {
+                Calls++;
                 if (Of != null) Rejoin(Of);
             }
         }

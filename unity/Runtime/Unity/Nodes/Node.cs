@@ -213,6 +213,9 @@ namespace Collektive.Unity
             return problem;
         }
 
+        /// <summary>Whether the node has been in the simulation since the current tick began.</summary>
+        internal bool IsInTick => Id >= 0 && JoinTick < Simulation.TickInProgress;
+
         /// <summary>Whether the node has a round in this tick.</summary>
         internal bool IsDue { get; private set; }
 

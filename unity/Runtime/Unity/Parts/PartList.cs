@@ -40,7 +40,9 @@ namespace Collektive.Unity
             parts[Count] = null;
         }
 
-        /// <summary>Calls the parts in a tick. Parts that an earlier part disabled, destroyed or added are skipped.</summary>
+        /// <summary>
+        /// Calls the parts in a tick. Parts that an earlier part disabled, destroyed or added are skipped, and all later parts if their node has left.
+        /// </summary>
         /// <param name="node">The parts' node.</param>
         /// <returns>Whether no part threw an exception.</returns>
         internal bool Run(Simulation simulation, Node node, int index)
@@ -49,7 +51,7 @@ namespace Collektive.Unity
             var failed = false;
             next = 0;
             end = Count;
-            while (next < end && simulation.IsOpen)
+            while (next < end && simulation.IsOpen && node.IsInTick)
             {
                 var part = parts[next++];
                 try

@@ -418,7 +418,7 @@ namespace Collektive.Unity
             for (var i = 0; i < withOwnRules.Count && IsOpen; i++)
             {
                 var node = present[withOwnRules.Items[i]];
-                if (node.Id >= 0) node.Rules.Run(this, node, -1);
+                node.Rules.Run(this, node, -1);
                 if (Links.Count > MaxLinks) FailTooManyLinks(node);
             }
         }
@@ -457,10 +457,10 @@ namespace Collektive.Unity
             for (var i = 0; i < due.Count && IsOpen; i++)
             {
                 var (node, id) = due.Items[i];
-                // Users' code may have removed the node.
-                if (node.Id != id) continue;
+                // Users' code may have removed the node, or removed and added it again.
+                if (!node.IsInTick) continue;
                 request.Sensors.Clear(sensed);
-                if (!node.Sensors.Run(this, node, sensed) || node.Id != id) continue;
+                if (!node.Sensors.Run(this, node, sensed) || !node.IsInTick) continue;
                 request.AddDue(id);
                 var field = request.Sensors.FindNotFinite(sensed);
                 due.Items[sensed++] = (node, id);
@@ -506,9 +506,9 @@ namespace Collektive.Unity
                 {
                     while (due.Items[place].Id != answeredIds[i]) place++;
                 }
-                var (node, id) = due.Items[place];
+                var node = due.Items[place].Node;
                 // An earlier actuator may have removed the node, or removed and added it again.
-                if (node.Id != id || !registry.IsKnown[id]) continue;
+                if (!node.IsInTick) continue;
                 node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
                 node.Actuators.Run(this, node, i);
             }
