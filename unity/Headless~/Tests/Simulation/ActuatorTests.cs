@@ -94,6 +94,33 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Value.z, Is.EqualTo(3).Within(1e-4f));
         }
 
+        [TestCase(false)]
+        [TestCase(true)]
+        public void A_child_node_without_a_body_moves_alone(bool kinematic)
+        {
+            var (carrier, node, sensor) = MakeCarriedNode(kinematic);
+            carrier.gameObject.AddComponent<Node>();
+            node.gameObject.SetActive(true);
+            Play(100);
+            Assert.That(node.transform.position.x, Is.EqualTo(4).Within(0.01f));
+            Assert.That(carrier.position, Is.EqualTo(Vector3.zero));
+            node.GetComponent<Move>().enabled = false;
+            node.transform.position += Vector3.forward;
+            Play(1);
+            Assert.That(sensor.Value.z, Is.EqualTo(20).Within(0.01f));
+        }
+
+        [TestCase(false)]
+        [TestCase(true)]
+        public void A_body_without_a_node_carries_its_node_to_the_target(bool kinematic)
+        {
+            var (carrier, node, _) = MakeCarriedNode(kinematic);
+            node.gameObject.SetActive(true);
+            Play(100);
+            Assert.That(node.transform.position.x, Is.EqualTo(4).Within(0.01f));
+            Assert.That(carrier.position.x, Is.EqualTo(3).Within(0.01f));
+        }
+
         [Test]
         public void A_kinematic_body_is_moved_through_physics()
         {
@@ -287,6 +314,19 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Errors[0], Is.StringContaining("Fly").And.StringContaining("node 0"));
             Assert.That(node.LastError, Is.StringContaining("not finite"));
             Assert.That(node.GetComponent<Rigidbody>().linearVelocity.x, Is.EqualTo(0));
+        }
+
+        /// <summary>Makes an inactive node with the target 4 m, which is a child of a body and 1 m away from it.</summary>
+        private static (Rigidbody Carrier, Node Node, SensorTests.Velocity Sensor) MakeCarriedNode(bool kinematic)
+        {
+            var carrier = new GameObject("Carrier").AddComponent<Rigidbody>();
+            carrier.useGravity = false;
+            carrier.isKinematic = kinematic;
+            var node = MakeNode(2, Vector3.right).Node;
+            node.gameObject.SetActive(false);
+            node.transform.SetParent(carrier.transform, true);
+            node.gameObject.AddComponent<Move>();
+            return (carrier, node, node.gameObject.AddComponent<SensorTests.Velocity>());
         }
 
         public sealed class Move : MoveActuator<ActuatorData>

@@ -43,6 +43,14 @@ namespace Collektive.Unity
             Attach();
         }
 
+        /// <summary>Returns the Rigidbody on this GameObject or the nearest parent, or null if that one belongs to another node.</summary>
+        internal Rigidbody FindBody()
+        {
+            var body = GetComponentInParent<Rigidbody>();
+            var owner = body == null ? null : body.GetComponentInParent<Node>();
+            return owner == null || owner == Node ? body : null;
+        }
+
         internal void Succeeded()
         {
             // The count is nearly always 0 already. Checking it avoids a write, which would dirty a cache line in each call.

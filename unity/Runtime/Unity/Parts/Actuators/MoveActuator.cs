@@ -21,6 +21,8 @@ namespace Collektive.Unity
         private float reachTime = 0.5f;
 
         private Rigidbody body;
+        // The transform of a body that the node is a child of; null if the body is the node's.
+        private Transform carrier;
         private bool isChecked;
 
         /// <summary>Speed limit in metres per second, 0 or greater.</summary>
@@ -42,8 +44,8 @@ namespace Collektive.Unity
         {
             var target = Finite(Read(data));
             if (body == null) MoveTowards(target);
-            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, Node.AnswerInterval * Velocity(target - body.position));
-            else Drive(target - body.position);
+            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, Node.AnswerInterval * Velocity(target - Position));
+            else Drive(target - Position);
         }
 
         /// <summary>Returns the target in the program's answer, in metres.</summary>
@@ -51,7 +53,7 @@ namespace Collektive.Unity
 
         internal sealed override void Attached()
         {
-            body = GetComponentInParent<Rigidbody>();
+            SelectBody();
             isChecked = false;
         }
 
@@ -60,8 +62,16 @@ namespace Collektive.Unity
             if (isChecked || body != null) return;
             isChecked = true;
             // Scripts may have added the body after this component.
-            body = GetComponentInParent<Rigidbody>();
+            SelectBody();
             if (body == null && TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
+        }
+
+        private Vector3 Position => carrier is null ? body.position : body.position + (Node.Body.position - carrier.position);
+
+        private void SelectBody()
+        {
+            body = FindBody();
+            carrier = body != null && body.transform != Node.transform && Node.transform.IsChildOf(body.transform) ? body.transform : null;
         }
 
         private void MoveTowards(Vector3 target)

@@ -27,7 +27,7 @@ namespace Collektive.Unity
             if (joinTick != Node.JoinTick) time = -1;
             joinTick = Node.JoinTick;
             // Scripts may add the body after this component.
-            if (time < 0) body = GetComponentInParent<Rigidbody>();
+            if (time < 0) body = FindBody();
             var now = tick.Time;
             var here = Node.Position;
             meanVelocity = time >= 0 && now > time ? (here - lastPosition) / (float)(now - time) : Vector3.zero;
