@@ -60,8 +60,19 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
         for name in earlier:
             (folder / name).rename(folder / BACKUP / name)
         yield
+        if not _is_open(folder, descriptor):
+            raise Failure(f"'{folder}' was deleted or replaced during the run; its results are lost")
     finally:
-        _end(folder)
+        if _is_open(folder, descriptor):
+            _end(folder)
+
+
+def _is_open(folder: Path, descriptor: int) -> bool:
+    """Returns whether a folder is the one that was opened, and not another at the same path."""
+    try:
+        return os.path.samestat(os.stat(folder), os.fstat(descriptor))
+    except OSError:
+        return False
 
 
 def _end(folder: Path) -> None:

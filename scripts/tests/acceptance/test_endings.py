@@ -139,6 +139,17 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
 
+    def test_tables_that_are_deleted_or_replaced_during_the_run_are_an_error(self) -> None:
+        table = self.path("out", "metrics.csv")
+        for code in (f'System.IO.File.Delete("{table}");', f'System.IO.File.Copy("{table}", "{table}.new"); System.IO.File.Delete("{table}"); '
+                     f'System.IO.File.Move("{table}.new", "{table}");'):
+            with self.subTest(code):
+                result = self.at_tick_4(code)
+                self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
+                self.assertEqual(result.returncode, 1)
+                self.assertIn("metrics.csv' was deleted or replaced during the run", last_error(result))
+                self.assertTrue(self.manifest(self.path("out"))["outcome"].startswith("failed: "))
+
     def test_the_exit_code_of_a_script_is_returned(self) -> None:
         for code, expected in [(3, 3), (256, 1)]:
             with self.subTest(code):

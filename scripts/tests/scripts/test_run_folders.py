@@ -105,5 +105,14 @@ def test_a_printed_file_error_is_the_only_message(folder: Path, manifest: str | 
     assert (str(failure.value), failure.value.code) == ("", 1)
 
 
+def test_a_folder_that_was_replaced_during_the_run_is_an_error(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    with pytest.raises(Failure, match="was deleted or replaced during the run"), outputs.open_folder(out, False):
+        out.rename(tmp_path / "moved")
+        out.mkdir()
+        (out / "manifest.json").write_text("of another run")
+    assert contents(out) == {"manifest.json": "of another run"}
+
+
 def test_a_script_may_return_the_code_of_a_file_error(folder: Path) -> None:
     outputs.require(folder, outputs.COMPLETE, outputs.FILE_ERROR)

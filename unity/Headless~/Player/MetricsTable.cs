@@ -108,6 +108,8 @@ namespace Collektive.Headless
             return row;
         }
 
+        internal void RequireInPlace() => ResultFile.RequireInPlace(writer);
+
         public void Dispose() => writer.Dispose();
 
         private static string Text(double value) => value.ToString("0.####", CultureInfo.InvariantCulture);

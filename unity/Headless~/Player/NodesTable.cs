@@ -54,6 +54,8 @@ namespace Collektive.Headless
             writer.Flush();
         }
 
+        internal void RequireInPlace() => ResultFile.RequireInPlace(writer);
+
         public void Dispose() => writer.Dispose();
 
         private static List<Column> ColumnsOf(DataSchema schema, IEnumerable<string> fields)

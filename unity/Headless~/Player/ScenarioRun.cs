@@ -266,6 +266,8 @@ namespace Collektive.Headless
                     if (progress.Due || frame == ticks || HasConverged) progress.Show(completedTicks, manager.SimulatedTime, Text());
                 }
                 progress.End();
+                metrics.RequireInPlace();
+                nodes?.RequireInPlace();
                 if (manager.Simulation.IsOpen) metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 manifest.AddResults(
