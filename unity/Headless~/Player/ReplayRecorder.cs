@@ -227,7 +227,7 @@ namespace Collektive.Headless
         private double ColourOf(Node node)
         {
             if (!colours.TryGetValue(node.Id, out var known) || !ReferenceEquals(known.Node, node))
-                colours[node.Id] = known = (node, node.GetComponentInChildren<IColours>());
+                colours[node.Id] = known = (node, Node.FindFirst<IColours>(node.gameObject, node));
             var part = known.Part;
             if (part == null || part.Target == null) return double.NaN;
             part.Target.GetPropertyBlock(block);

@@ -275,6 +275,18 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_node_does_not_colour_the_renderer_of_a_child_node()
+        {
+            var node = MakeNode(0.5f).Node;
+            var child = GameObject.CreatePrimitive(PrimitiveType.Sphere);
+            child.AddComponent<Node>();
+            child.transform.SetParent(node.transform, false);
+            var own = GameObject.CreatePrimitive(PrimitiveType.Sphere).GetComponent<Renderer>();
+            own.transform.SetParent(node.transform, false);
+            Assert.That(node.gameObject.AddComponent<Tint>().Target, Is.SameAs(own));
+        }
+
+        [Test]
         public void Components_of_any_kind_are_enabled_and_disabled()
         {
             var node = MakeNode(0);

@@ -125,6 +125,27 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void The_trigger_of_a_child_node_does_not_replace_a_disabled_trigger()
+        {
+            var zone = MakeNode(1, id: 0);
+            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var child = MakeNode(3, new Vector3(0, 50, 0), id: 2).Node;
+            child.gameObject.AddComponent<SphereCollider>().isTrigger = true;
+            child.transform.SetParent(zone.Node.transform, true);
+            var visitor = MakeNode(2, new Vector3(1, 0, 0), id: 1);
+            visitor.Node.gameObject.AddComponent<SphereCollider>().radius = 0.1f;
+            visitor.Node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            trigger.enabled = false;
+            Play(1);
+            Assert.That(Links(), Is.Empty);
+        }
+
+        [Test]
         public void Own_colliders_triggers_and_other_layers_do_not_block_the_line_of_sight()
         {
             var line = MakeLine(0, 10);

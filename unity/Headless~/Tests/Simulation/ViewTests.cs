@@ -314,6 +314,19 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_node_without_a_renderer_does_not_colour_its_child_node()
+        {
+            var view = new GameObject("View").AddComponent<DoubleView>();
+            view.Scale.low = Color.black;
+            view.Scale.high = Color.white;
+            var child = MakeBall(1);
+            child.Node.transform.SetParent(MakeNode(9).Node.transform, false);
+            MakeBall(9);
+            Play(1);
+            Assert.That(ColorOf(child), Is.EqualTo(Color.black));
+        }
+
+        [Test]
         public void Title_and_colours_can_change_during_play()
         {
             var view = new GameObject("View").AddComponent<DoubleView>();

@@ -89,12 +89,18 @@ namespace Collektive.Unity
 
         private bool HasTrigger()
         {
-            if (!trigger.IsGone() && trigger.isTrigger) return true;
+            if (IsOwnTrigger(trigger)) return true;
             GetComponentsInChildren(Found);
-            trigger = Found.Find(collider => collider.isTrigger && !collider.IsGone());
+            trigger = null;
+            for (var i = 0; i < Found.Count && trigger is null; i++)
+            {
+                if (IsOwnTrigger(Found[i])) trigger = Found[i];
+            }
             Found.Clear();
-            return trigger != null;
+            return !(trigger is null);
         }
+
+        private bool IsOwnTrigger(Collider collider) => !collider.IsGone() && collider.isTrigger && Node.Owns(collider);
 
         private int Find(Collider collider)
         {

@@ -202,6 +202,18 @@ namespace Collektive.Unity
             return ReferenceEquals(place, Body) || place.IsChildOf(Body) && ReferenceEquals(collider.GetComponentInParent<Node>(), this);
         }
 
+        /// <summary>
+        /// Returns the first component on a GameObject or its children that belongs to a node, and not to another node on a child; null if there is none.
+        /// </summary>
+        internal static T FindFirst<T>(GameObject root, Node owner) where T : class
+        {
+            foreach (var found in root.GetComponentsInChildren<T>())
+            {
+                if (ReferenceEquals((found as Component).GetComponentInParent<Node>(), owner)) return found;
+            }
+            return null;
+        }
+
         /// <summary>Starts the node's timer if the schedule is asynchronous. Returns the error of the timing, or null.</summary>
         internal string StartTimer()
         {

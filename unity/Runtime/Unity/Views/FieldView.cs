@@ -97,7 +97,7 @@ namespace Collektive.Unity
                 if (!ReferenceEquals(entry.Node, node))
                 {
                     entry.Node = node;
-                    entry.Renderer = node.GetComponentInChildren<Renderer>();
+                    entry.Renderer = Node.FindFirst<Renderer>(node.gameObject, node);
                     entry.Step = -1;
                 }
                 entry.IsNew = false;

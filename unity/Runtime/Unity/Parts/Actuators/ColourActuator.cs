@@ -7,11 +7,12 @@ namespace Collektive.Unity
     public abstract class ColourActuator<TData> : Actuator<TData>, IColours
     {
         [SerializeField]
-        [Tooltip("Renderer to colour. None: the first one on this GameObject or its children.")]
+        [Tooltip("Renderer to colour. None: the first one on this GameObject or children without a Node.")]
         private Renderer target;
 
         /// <summary>
-        /// The renderer to colour. If it is null when the component is enabled, the first renderer on this GameObject or its children is selected.
+        /// The renderer to colour. If it is null when the component is enabled, the first renderer on this GameObject or children without a Node is
+        /// selected.
         /// </summary>
         public Renderer Target
         {
@@ -23,7 +24,7 @@ namespace Collektive.Unity
         protected override void OnEnable()
         {
             base.OnEnable();
-            if (target == null) target = GetComponentInChildren<Renderer>();
+            if (target == null) target = Node.FindFirst<Renderer>(gameObject, Node);
             if (target != null) return;
             Debug.LogError(GetType().Name + " on '" + name + "' has no Renderer to colour: select one as Target, or add one to the GameObject", this);
             enabled = false;
