@@ -124,6 +124,20 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Attenuation(), Is.EqualTo(2.5f));
         }
 
+        [TestCase(true)]
+        [TestCase(false)]
+        public void An_infinite_attenuation_does_not_affect_clear_lines(bool blocking)
+        {
+            var nodes = MakeLine(0, 2);
+            var rule = AddLineOfSight(nodes[0], 3);
+            rule.Attenuation = float.PositiveInfinity;
+            rule.Blocking = blocking;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            Assert.That(Attenuation(), Is.EqualTo(0));
+            Assert.That(Errors, Is.Empty);
+        }
+
         [Test]
         public void The_trigger_of_a_child_node_does_not_replace_a_disabled_trigger()
         {

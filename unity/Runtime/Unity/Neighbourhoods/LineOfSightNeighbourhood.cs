@@ -67,7 +67,9 @@ namespace Collektive.Unity
             for (var i = 0; i < near.Count; i++)
             {
                 ref var node = ref near.Items[i];
-                if (!blocking || node.Obstacles == 0) neighbours.Add(node.Near, node.Obstacles * attenuation);
+                // Without the condition, an infinite attenuation would result in NaN.
+                if (node.Obstacles == 0) neighbours.Add(node.Near);
+                else if (!blocking) neighbours.Add(node.Near, node.Obstacles * attenuation);
             }
         }
 
