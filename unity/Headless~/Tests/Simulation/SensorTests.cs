@@ -421,6 +421,34 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
+        [Test]
+        public void A_ray_finds_an_obstacle_within_a_millimetre_behind_the_surface_of_an_own_collider()
+        {
+            var node = MakeNode(0).Node;
+            var rays = node.gameObject.AddComponent<Rays>();
+            rays.Rays = 1;
+            rays.Range = 10;
+            MakeBox(new Vector3(0, 0, 2)).transform.SetParent(node.transform, true);
+            MakeBox(new Vector3(0, 0, 2.0005f));
+            // The first round does not use the batch.
+            for (var round = 0; round < 2; round++)
+            {
+                Play(1);
+                Assert.That(rays.Values[0].Distance, Is.EqualTo(1.5005f).Within(1e-5f));
+            }
+        }
+
+        [Test]
+        public void A_fan_whose_angle_is_not_a_number_is_an_error()
+        {
+            var rays = MakeNode(0).Node.gameObject.AddComponent<Rays>();
+            Play(2);
+            rays.Angle = float.NaN;
+            Play(1);
+            Assert.That(Errors.Count, Is.EqualTo(1), string.Join("; ", Errors));
+            Assert.That(Errors[0], Is.StringContaining("Rays of node 0").And.StringContaining("angle"));
+        }
+
         private static string Distances(Rays sensor) =>
             string.Join(" ", sensor.Values.ConvertAll(hit => Math.Round(hit.Distance, 3).ToString(System.Globalization.CultureInfo.InvariantCulture)));
 

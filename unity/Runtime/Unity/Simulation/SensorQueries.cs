@@ -16,6 +16,9 @@ namespace Collektive.Unity
         /// <summary>Buffer for the obstacles of a single query, with the same length as <see cref="Near"/>.</summary>
         internal Obstacle[] Obstacles = new Obstacle[32];
 
+        /// <summary>Buffer for all hits of a single ray. If a query fills it, replace it by a longer one, and repeat the query.</summary>
+        internal RaycastHit[] Hits = new RaycastHit[16];
+
         internal SensorQueries(Simulation simulation) => Sensors = new BatchedParts(simulation);
 
         /// <summary>The nearest hit of each ray.</summary>

@@ -12,9 +12,6 @@ namespace Collektive.Unity
     {
         private const float Whole = 360;
 
-        /// <summary>Distance in metres behind a hit of the node's own collider at which the ray continues.</summary>
-        private const float Gap = 1e-3f;
-
         [SerializeField]
         [Range(1, 360)]
         [Tooltip("Number of rays.")]
@@ -75,13 +72,14 @@ namespace Collektive.Unity
         /// Whether the directions no longer match the settings. The number of hits is compared, because only the directions survive when scripts are
         /// compiled during play.
         /// </summary>
-        private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || angleOfDirections != angle;
+        private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || !angleOfDirections.Equals(angle);
 
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) => Write(ref data, hits);
 
         internal sealed override void Prepare(TickContext tick)
         {
+            if (float.IsNaN(angle)) throw new InvalidOperationException("its angle is not a number: set it to 0..360");
             var queries = tick.Queries;
             // The batch is not used if another sensor changed the fan after the batch began.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections && batchedRange == range;
@@ -89,13 +87,16 @@ namespace Collektive.Unity
             var centre = Node.Position;
             for (var i = 0; i < worldDirections.Length; i++)
             {
-                if (isBatched) hits[i] = Pass(centre, worldDirections[i], queries.Rays.HitOf(query + i, 0));
-                else hits[i] = Cast(centre, worldDirections[i], 0);
+                RaycastHit nearest;
+                if (isBatched) nearest = queries.Rays.HitOf(query + i, 0);
+                else Physics.Raycast(centre, worldDirections[i], out nearest, range, layers, QueryTriggerInteraction.Ignore);
+                hits[i] = FirstForeign(queries, centre, worldDirections[i], nearest);
             }
         }
 
         internal sealed override void Enqueue(TickContext tick)
         {
+            if (float.IsNaN(angle)) return;
             UpdateDirections();
             var fans = tick.Queries.Rays;
             query = fans.Count;
@@ -131,25 +132,22 @@ namespace Collektive.Unity
             return rays == 1 ? 0 : angle * ((float)ray / (rays - 1) - 0.5f);
         }
 
-        /// <summary>Returns the first hit that is not the node's own collider. If the nearest hit is the node's own, the ray continues behind it.</summary>
-        private RayHit Pass(Vector3 centre, Vector3 direction, in RaycastHit nearest)
+        /// <summary>Returns the first hit that is not the node's own collider. If the nearest hit is the node's own, all hits of the ray are compared.</summary>
+        private RayHit FirstForeign(SensorQueries queries, Vector3 centre, Vector3 direction, in RaycastHit nearest)
         {
-            var collider = nearest.collider;
-            if (collider == null) return new RayHit(direction, range, null);
-            return Node.Owns(collider)
-                ? Cast(centre, direction, nearest.distance + Gap) : new RayHit(direction, nearest.distance, collider);
-        }
-
-        /// <summary>Casts a ray that starts <paramref name="passed"/> metres from the centre.</summary>
-        private RayHit Cast(Vector3 centre, Vector3 direction, float passed)
-        {
-            while ((passed == 0 || passed < range)
-                && Physics.Raycast(centre + passed * direction, direction, out var hit, range - passed, layers, QueryTriggerInteraction.Ignore))
+            var first = new RayHit(direction, range, null);
+            if (nearest.collider == null) return first;
+            if (!Node.Owns(nearest.collider)) return new RayHit(direction, nearest.distance, nearest.collider);
+            int count;
+            // A full array may lack hits, so the query is repeated with a larger one.
+            while ((count = Physics.RaycastNonAlloc(centre, direction, queries.Hits, range, layers, QueryTriggerInteraction.Ignore)) == queries.Hits.Length)
+                queries.Hits = new RaycastHit[2 * queries.Hits.Length];
+            for (var i = 0; i < count; i++)
             {
-                if (!Node.Owns(hit.collider)) return new RayHit(direction, passed + hit.distance, hit.collider);
-                passed += hit.distance + Gap;
+                ref var hit = ref queries.Hits[i];
+                if (hit.distance <= first.Distance && !Node.Owns(hit.collider)) first = new RayHit(direction, hit.distance, hit.collider);
             }
-            return new RayHit(direction, range, null);
+            return first;
         }
 
         private void OnDrawGizmosSelected()
