@@ -203,7 +203,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Returns the first component on a GameObject or its children that belongs to a node, and not to another node on a child; null if there is none.
+        /// Returns the first component on a GameObject or its children that belongs to <paramref name="owner"/> and not to a node on a child, or null.
         /// </summary>
         internal static T FindFirst<T>(GameObject root, Node owner) where T : class
         {

@@ -132,7 +132,7 @@ namespace Collektive.Unity
             return rays == 1 ? 0 : angle * ((float)ray / (rays - 1) - 0.5f);
         }
 
-        /// <summary>Returns the first hit that is not the node's own collider. If the nearest hit is the node's own, all hits of the ray are compared.</summary>
+        /// <summary>Returns the first hit that is not the node's own collider. If the nearest hit is the node's own, all hits are compared.</summary>
         private RayHit FirstForeign(SensorQueries queries, Vector3 centre, Vector3 direction, in RaycastHit nearest)
         {
             var first = new RayHit(direction, range, null);
