@@ -95,7 +95,7 @@ class Store:
         if not os.path.lexists(folder):
             return False
         record = self.record(run)
-        damaged = [files.RECORD] if record is None else [name for name, digest in record["files"].items() if _hash(os.path.join(folder, name)) != digest]
+        damaged = [files.RECORD] if record is None else self.changed_files(run, record)
         if record is None or damaged:
             print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged; repeating the run", file=sys.stderr)
             files.remove(folder)
@@ -108,6 +108,10 @@ class Store:
         if record is None or record.get("name") != run.name or not isinstance(record.get("files"), dict) or "status" not in record:
             return None
         return record
+
+    def changed_files(self, run: Run, record: dict[str, Any]) -> list[str]:
+        """Returns the names of the files that differ from their hashes in run.json."""
+        return [name for name, digest in record["files"].items() if _hash(os.path.join(self.runs, run.name, name)) != digest]
 
     def begin(self, run: Run) -> str:
         """Creates an empty folder for a run, and returns its path."""

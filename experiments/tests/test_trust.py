@@ -4,6 +4,7 @@ import itertools
 import json
 import os
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -258,6 +259,18 @@ def test_a_missing_run_in_a_table_is_an_error(lamps: Project, monkeypatch: pytes
     finally:
         monkeypatch.undo()
         tables.write(experiment, Store(str(lamps.folder / "out")), True)
+
+
+@pytest.mark.parametrize(("name", "is_removed"), [("manifest.json", False), ("metrics.csv", False), ("nodes.csv", False), ("nodes.csv", True)])
+def test_a_run_with_changed_results_is_not_complete_in_the_tables(lamps: Project, tmp_path: Path, name: str, is_removed: bool) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(lamps.folder / "out", out)
+    path = out / "runs" / lamps.run("fields.lamps=5,network.loss=0,seed=1").name / name
+    text = path.read_text()
+    path.unlink()
+    if not is_removed:
+        path.write_text(text.replace('"errors": 0', '"errors": 7') if name == "manifest.json" else text[:text.rindex("\n", 0, -1) + 1])
+    assert tables.write(read(lamps.experiment(**EIGHT)), Store(str(out)), False) == 7
 
 
 def test_modules_in_the_current_folder_are_not_executed(tmp_path: Path) -> None:
