@@ -113,14 +113,24 @@ class Store:
         """Returns the names of the files that differ from their hashes in run.json."""
         return [name for name, digest in record["files"].items() if _hash(os.path.join(self.runs, run.name, name)) != digest]
 
+    def require_owned(self) -> None:
+        """Raises `ExperimentError` if the path of the locked folder is now missing or another folder, which can belong to another sweep."""
+        if self._lock is None:
+            return
+        marker = os.path.join(self.folder, MARKER)
+        if not os.path.exists(marker) or not os.path.samestat(os.stat(marker), os.fstat(self._lock.fileno())):
+            raise ExperimentError(f"the sweep stopped: its folder '{self.folder}' was moved or deleted during the sweep")
+
     def begin(self, run: Run) -> str:
         """Creates an empty folder for a run, and returns its path."""
+        self.require_owned()
         part = os.path.join(self.runs, run.name + PART)
         files.make_marked(part)
         return part
 
     def finish(self, run: Run, outcome: Outcome, seconds: float) -> None:
         """Writes run.json of a finished run, and renames the run's folder to its final name."""
+        self.require_owned()
         folder = os.path.join(self.runs, run.name)
         part = folder + PART
         names = [entry.name for entry in os.scandir(part) if entry.is_file(follow_symlinks=False) and entry.name != MARKER]

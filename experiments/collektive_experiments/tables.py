@@ -77,6 +77,7 @@ class Table:
 
 def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     """Writes the tables of all finished runs. Returns the number of runs that the tables contain completely."""
+    store.require_owned()
     columns = _Columns(experiment, store)
     # Existing CSV tables are always written again, so that they do not become outdated.
     with_csv = with_csv or os.path.exists(os.path.join(store.folder, "runs.csv"))

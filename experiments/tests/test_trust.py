@@ -12,11 +12,11 @@ import pandas as pd
 import pytest
 from conftest import COLLEKTIVE, EIGHT, Project, processes
 
-from collektive_experiments import files, read, tables
+from collektive_experiments import ExperimentError, files, read, tables
 from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store
-from collektive_experiments.worker import Worker
+from collektive_experiments.worker import Outcome, Worker
 
 TWO = {"vary": {"seed": "1-2"}}
 
@@ -271,6 +271,25 @@ def test_a_run_with_changed_results_is_not_complete_in_the_tables(lamps: Project
     if not is_removed:
         path.write_text(text.replace('"errors": 0', '"errors": 7') if name == "manifest.json" else text[:text.rindex("\n", 0, -1) + 1])
     assert tables.write(read(lamps.experiment(**EIGHT)), Store(str(out)), False) == 7
+
+
+@pytest.mark.parametrize("is_moved", [False, True])
+def test_a_sweep_does_not_write_to_a_folder_that_another_sweep_created_again(lamps: Project, tmp_path: Path, is_moved: bool) -> None:
+    out = tmp_path / "out"
+    experiment = read(lamps.experiment(**EIGHT))
+    run = next(iter(experiment.runs()))
+    with Store(str(out)) as first, Store(str(out)) as second:
+        first.open(experiment, False)
+        if is_moved:
+            out.rename(tmp_path / "former")
+        else:
+            shutil.rmtree(out)
+        for _ in range(2):
+            for write in (lambda: first.begin(run), lambda: first.finish(run, Outcome("failed"), 1), lambda: tables.write(experiment, first, False)):
+                with pytest.raises(ExperimentError, match="was moved or deleted during the sweep"):
+                    write()
+            second.open(experiment, False)
+        assert not os.listdir(out / "runs") and not list(out.glob("*.parquet*"))
 
 
 def test_modules_in_the_current_folder_are_not_executed(tmp_path: Path) -> None:
