@@ -24,13 +24,19 @@ def write_scenario(scenario: str, folder: str) -> None:
         json.dump(root, file, indent=2)
 
 
+FINGERPRINT = "fingerprint.txt"
+"""The file of a bundle with the fingerprint of its other files."""
+
+
 def fingerprint(folder: str) -> str:
-    """Returns the SHA-256 of the names and contents of all files in a folder."""
+    """Returns the SHA-256 of the names and contents of all files in a folder, except its fingerprint."""
     total = hashlib.sha256()
     for where, folders, names in os.walk(folder):
         folders.sort()
         for name in sorted(names):
             path = os.path.join(where, name)
+            if path == os.path.join(folder, FINGERPRINT):
+                continue
             with open(path, "rb") as file:
                 total.update(f"{os.path.relpath(path, folder)}\0{hashlib.sha256(file.read()).hexdigest()}\n".encode())
     return total.hexdigest()
@@ -51,6 +57,8 @@ def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = (
     for runtime in runtimes if os.path.isdir(bundle) else ():
         if not os.path.exists(programs_jar(bundle, runtime)):
             raise ExperimentError(f"'{bundle}' contains no programs for the runtime '{runtime}': name another folder with --out")
+    if os.path.isdir(bundle) and not _is_unchanged(bundle):
+        raise ExperimentError(f"'{bundle}' was changed after the earlier runs: restore it, or name another folder with --out")
     work = bundle + PART
     files.make_marked(work)
     try:
@@ -61,11 +69,19 @@ def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = (
             raise ExperimentError("the scenario could not be built; the messages are above")
         write_scenario(scenario, work)
         if os.path.isdir(bundle):
-            has_hashes = os.path.exists(os.path.join(bundle, "inputs.json"))
-            if not has_hashes or fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):
+            if fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):
                 raise ExperimentError(f"the scenario, scripts, schema or programs differ from those of the runs in '{os.path.dirname(bundle)}': "
                                       "name another folder with --out, or undo the change")
             return
+        files.write_part(os.path.join(work, FINGERPRINT), fingerprint(work))
         files.publish(bundle)
     finally:
         files.remove(work)
+
+
+def _is_unchanged(bundle: str) -> bool:
+    path = os.path.join(bundle, FINGERPRINT)
+    if not os.path.isfile(path):
+        return False
+    with open(path, encoding="utf-8") as file:
+        return file.read() == fingerprint(bundle)

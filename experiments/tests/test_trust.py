@@ -292,6 +292,17 @@ def test_a_sweep_does_not_write_to_a_folder_that_another_sweep_created_again(lam
         assert not os.listdir(out / "runs") and not list(out.glob("*.parquet*"))
 
 
+@pytest.mark.parametrize("name", ["csharp/Collektive.Unity.dll", ""])
+def test_resume_rejects_a_changed_bundle(lamps: Project, tmp_path: Path, name: str) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(lamps.folder / "out", out)
+    path = out / "bundle" / (name or "jars/new.jar")
+    path.write_bytes(path.read_bytes() + b"\n" if name else b"")
+    result = lamps.sweep("--resume", out=str(out), **EIGHT)
+    assert result.returncode == 1
+    assert "bundle' was changed after the earlier runs: " in result.stderr
+
+
 def test_modules_in_the_current_folder_are_not_executed(tmp_path: Path) -> None:
     for name in ("argparse", "collections", "json", "pandas", "sitecustomize"):
         (tmp_path / f"{name}.py").write_text("open('executed', 'w')\n")
