@@ -27,6 +27,7 @@ class Store:
         self.bundle = os.path.join(folder, "bundle")
         self.logs = os.path.join(folder, "logs")
         self._lock: BinaryIO | None = None
+        self._settings: dict[str, Any] = {}
 
     def __enter__(self) -> "Store":
         return self
@@ -77,7 +78,11 @@ class Store:
             raise ExperimentError(f"'{self.bundle}' with the inputs of the earlier runs is missing: restore it, or name another folder with --out")
         else:
             self._require_same(settings)
-        files.write(os.path.join(self.folder, "sweep.json"), json.dumps(settings, indent=2) + "\n")
+        self._settings = settings
+
+    def write_settings(self) -> None:
+        """Writes the settings of the sweep, which `open` has checked."""
+        files.write(os.path.join(self.folder, "sweep.json"), json.dumps(self._settings, indent=2) + "\n")
 
     def settings(self) -> dict[str, Any]:
         """Returns the settings of the sweep."""

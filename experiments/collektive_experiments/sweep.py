@@ -122,6 +122,7 @@ def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> li
     store.open(experiment, resume)
     prepare(experiment.scenario, store.bundle, trust, experiment.runtimes)
     check_keys(experiment, store, trust)
+    store.write_settings()
     todo = [run for run in experiment.runs() if not store.is_complete(run)]
     if len(todo) < experiment.count:
         print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are already complete", file=sys.stderr)

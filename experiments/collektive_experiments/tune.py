@@ -39,6 +39,7 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     check_search(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
+    store.write_settings()
     total = options.trials or search.trials
     distributions = {key: _distribution(value) for key, value in search.parameters.items()}
     code = 0

@@ -303,6 +303,16 @@ def test_resume_rejects_a_changed_bundle(lamps: Project, tmp_path: Path, name: s
     assert "bundle' was changed after the earlier runs: " in result.stderr
 
 
+def test_a_rejected_resume_does_not_change_the_settings(lamps: Project, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(lamps.folder / "out", out)
+    before = (out / "sweep.json").read_bytes()
+    result = lamps.sweep("--resume", out=str(out), **{**EIGHT, "measure": ["glow"]})
+    assert result.returncode == 1
+    assert "the scene has no metric 'glow'" in result.stderr
+    assert (out / "sweep.json").read_bytes() == before
+
+
 def test_modules_in_the_current_folder_are_not_executed(tmp_path: Path) -> None:
     for name in ("argparse", "collections", "json", "pandas", "sitecustomize"):
         (tmp_path / f"{name}.py").write_text("open('executed', 'w')\n")
