@@ -69,8 +69,9 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
     results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
                       settings.get("labels", {}) if labels is None else labels)
-    if not {CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times} <= set(results.runs.columns):
-        raise ExperimentError(f"the tables of '{folder}' are from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
+    needed = {"run", "status", "seed", *results.keys, *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
+    if not needed <= set(results.runs.columns) or not {"run", "second", "links"} <= set(results.series.columns):
+        raise ExperimentError(f"the tables of '{folder}' are damaged or from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
     # The settings may be newer than the tables, and list other metrics. Tables add the prefix `metric.` to a name that is already taken.
     units = settings["measure"]

@@ -328,6 +328,17 @@ def test_a_sweep_without_a_complete_run_has_no_figures(project: Project, capsys:
     assert "has no complete runs to plot" in capsys.readouterr().err
 
 
+def test_tables_without_columns_are_a_one_line_error(lamps: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    for name, column in (("runs", "status"), ("series", "second")):
+        for path in [lamps.folder / "out/sweep.json", *(lamps.folder / "out").glob("*.parquet")]:
+            shutil.copy(path, out)
+        lamps.table(name=name).drop(columns=column).to_parquet(out / f"{name}.parquet")
+        assert main(["plot", str(out)]) == 1
+        assert "are damaged or from an earlier version: write them again" in capsys.readouterr().err
+
+
 def test_a_folder_that_is_not_a_sweep_is_a_one_line_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(tmp_path)]) == 1
     assert "is not a sweep folder" in capsys.readouterr().err
