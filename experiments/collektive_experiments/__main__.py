@@ -2,6 +2,7 @@
 import argparse
 import os
 import re
+import signal
 import sys
 from typing import NoReturn
 
@@ -40,6 +41,8 @@ def main(words: list[str]) -> int:
     add_plot_arguments(plotting)
     options = parser.parse_args(words)
     try:
+        # `./collektive` blocks this signal during imports.
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
         if options.command == "plot":
             return _plot(options)
         if options.command == "task":

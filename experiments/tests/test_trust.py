@@ -5,7 +5,9 @@ import json
 import os
 import re
 import shutil
+import signal
 import subprocess
+import time
 from pathlib import Path
 
 import pandas as pd
@@ -337,6 +339,16 @@ def test_tables_without_columns_are_a_one_line_error(lamps: Project, tmp_path: P
         lamps.table(name=name).drop(columns=column).to_parquet(out / f"{name}.parquet")
         assert main(["plot", str(out)]) == 1
         assert "are damaged or from an earlier version: write them again" in capsys.readouterr().err
+
+
+def test_ctrl_c_during_imports_is_a_one_line_error(tmp_path: Path) -> None:
+    process = subprocess.Popen([COLLEKTIVE, "plot", str(tmp_path)], stderr=subprocess.PIPE, text=True, start_new_session=True)
+    while not processes("collektive_experiments", str(tmp_path)) and process.poll() is None:
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGINT)
+    _, errors = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert errors.count("\n") == 1 and "interrupted" in errors
 
 
 def test_a_folder_that_is_not_a_sweep_is_a_one_line_error(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,6 +1,7 @@
 """Runs the package collektive_experiments in a Python environment with packages from PyPI."""
 import os
 import runpy
+import signal
 import sys
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -32,6 +33,8 @@ def run(*tools: str) -> int:
     fetch.fetch("experiments", *tools)
     # A sweep runs copies of the build outputs, so other commands can build during the sweep.
     lock.release()
+    # Ctrl-C waits until the package is imported, and handles it.
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     code = processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=variables)
     processes.end_orphans()
     return code
