@@ -29,6 +29,7 @@ class Part:
             # Reading a pipe or a device might never end.
             if file.exists() and not file.is_file():
                 raise Failure(f"'{file}' is not a file: remove or rename it")
+        self._times = _change_times(self.files)
         self.digest = _digest(self.files)
         self._list_files = list_files
 
@@ -53,8 +54,9 @@ class Part:
         return target / self.path.relative_to(self.root)
 
     def require_unchanged(self) -> None:
-        """Raises `Failure` if a file was changed, added or removed since this part was read."""
-        if _digest(self._list_files(self.path)) != self.digest:
+        """Raises `Failure` if a file was changed, even temporarily, added or removed since this part was read."""
+        files = self._list_files(self.path)
+        if _change_times(files) != self._times or _digest(files) != self.digest:
             raise Failure(f"'{self.path}' changed during compilation: run the command again")
 
 
@@ -90,6 +92,11 @@ def schema(file: Path) -> Part:
 def data(folder: Path) -> Part:
     """Reads a folder of data files, which the scene reads."""
     return Part(folder, partial(_below, suffixes=("",)))
+
+
+def _change_times(files: Mapping[str, Path]) -> dict[str, tuple[int, int]]:
+    """Returns the change times of files, and of links to them. Unlike modification times, programs cannot set them back."""
+    return {name: (file.stat().st_ctime_ns, file.lstat().st_ctime_ns) for name, file in files.items()}
 
 
 def _digest(files: Mapping[str, Path]) -> str:

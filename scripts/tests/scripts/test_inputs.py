@@ -3,6 +3,7 @@ import os
 import random
 import shutil
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -119,6 +120,29 @@ def test_a_file_that_changes_during_compilation_is_detected(tmp_path: Path) -> N
     part = inputs.scripts(tmp_path)
     part.require_unchanged()
     file.write_text("two")
+    with pytest.raises(Failure, match="changed during compilation"):
+        part.require_unchanged()
+
+
+@pytest.mark.parametrize("is_link", [False, True])
+def test_a_file_that_differs_only_during_compilation_is_detected(tmp_path: Path, is_link: bool) -> None:
+    file, other = write(tmp_path / "A.cs", "one"), write(tmp_path / "other", "one")
+    if is_link:
+        file.unlink()
+        file.symlink_to(other)
+    part = inputs.scripts(tmp_path)
+    status = file.stat()
+    # Change times may have a resolution of some milliseconds.
+    time.sleep(0.05)
+    if is_link:
+        file.unlink()
+        file.write_text("two")
+        file.unlink()
+        file.symlink_to(other)
+    else:
+        file.write_text("two")
+        file.write_text("one")
+        os.utime(file, ns=(status.st_atime_ns, status.st_mtime_ns))
     with pytest.raises(Failure, match="changed during compilation"):
         part.require_unchanged()
 
