@@ -126,8 +126,7 @@ public class TestNetwork(seed: Long = 1, private val deltaTime: Double = 1.0, ru
     private fun known(id: Int): Int = id.also { require(it in ids) { "unknown node $it: add it first" } }
 
     private fun prepare(due: Set<Int>) {
-        tick.number++
-        tick.time = tick.number * deltaTime
+        tick.time = tick.number++ * deltaTime
         tick.deltaTime = deltaTime
         for ((from, to) in removedLinks) {
             tick.linksRemoved.add(from)

@@ -116,7 +116,7 @@ class TestNetworkTest {
                 },
             )
         }
-        assertEquals(Triple(3, 1.0 to 0.5, "2"), answers[3])
+        assertEquals(Triple(3, 0.5 to 0.5, "2"), answers[3])
     }
 
     @Test
