@@ -52,7 +52,7 @@ def main(words: list[str]) -> int:
         print(f"collektive: {_line(str(error))}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
-        print("collektive: interrupted before the first run", file=sys.stderr)
+        print("collektive: interrupted", file=sys.stderr)
         return 130
     except OSError as error:
         print(f"collektive: a file could not be read or written: {_line(str(error))}", file=sys.stderr)

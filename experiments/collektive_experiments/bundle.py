@@ -82,6 +82,7 @@ def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = (
 def _is_unchanged(bundle: str) -> bool:
     path = os.path.join(bundle, FINGERPRINT)
     if not os.path.isfile(path):
-        return False
+        # Bundles of earlier versions have no fingerprint.
+        return os.path.exists(os.path.join(bundle, "inputs.json"))
     with open(path, encoding="utf-8") as file:
         return file.read() == fingerprint(bundle)

@@ -82,6 +82,7 @@ class Store:
 
     def write_settings(self) -> None:
         """Writes the settings of the sweep, which `open` has checked."""
+        self.require_owned()
         files.write(os.path.join(self.folder, "sweep.json"), json.dumps(self._settings, indent=2) + "\n")
 
     def settings(self) -> dict[str, Any]:
@@ -119,7 +120,7 @@ class Store:
         return [name for name, digest in record["files"].items() if _hash(os.path.join(self.runs, run.name, name)) != digest]
 
     def require_owned(self) -> None:
-        """Raises `ExperimentError` if the path of the locked folder is now missing or another folder, which can belong to another sweep."""
+        """Raises `ExperimentError` if the path no longer leads to the locked folder. Another sweep may use a new folder there."""
         if self._lock is None:
             return
         marker = os.path.join(self.folder, MARKER)

@@ -215,13 +215,12 @@ def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, max
                 raise SweepStopError(f"the sweep stopped: two runs of '{run.name}' gave different results. The program or scene depends on more than its "
                               "inputs, such as a clock, a file or a random number without the scenario's seed")
     except (OSError, WorkerError) as error:
-        progress.end()
         raise ExperimentError(f"the sweep stopped: {error}; to continue, add --resume") from error
     finally:
         pool.stop()
         for number, handler in handlers.items():
             signal.signal(number, handler)
-    progress.end()
+        progress.end()
     if interrupted:
         print(f"collektive: interrupted; {progress.done} of {total} runs are complete; to continue, add --resume", file=sys.stderr)
         return 128 + interrupted[0]

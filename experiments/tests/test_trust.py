@@ -305,6 +305,13 @@ def test_resume_rejects_a_changed_bundle(lamps: Project, tmp_path: Path, name: s
     assert "bundle' was changed after the earlier runs: " in result.stderr
 
 
+def test_resume_accepts_a_bundle_of_an_earlier_version(lamps: Project, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(lamps.folder / "out", out)
+    (out / "bundle/fingerprint.txt").unlink()
+    assert lamps.sweep("--resume", out=str(out), **EIGHT).returncode == 0
+
+
 def test_a_rejected_resume_does_not_change_the_settings(lamps: Project, tmp_path: Path) -> None:
     out = tmp_path / "out"
     shutil.copytree(lamps.folder / "out", out)

@@ -61,7 +61,7 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
             (folder / name).rename(folder / BACKUP / name)
         yield
         if not _is_open(folder, descriptor):
-            raise Failure(f"'{folder}' was deleted or replaced during the run; its results are lost")
+            raise Failure(f"'{folder}' was moved, deleted or replaced during the run")
     finally:
         if _is_open(folder, descriptor):
             _end(folder)

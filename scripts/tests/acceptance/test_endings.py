@@ -147,7 +147,7 @@ class WholeRuns(Project):
                 result = self.at_tick_4(code)
                 self.change("scene/Lamps.cs", self.SCRIPT % code, "\n        protected override void Build(")
                 self.assertEqual(result.returncode, 1)
-                self.assertIn("metrics.csv' was deleted or replaced during the run", last_error(result))
+                self.assertIn("metrics.csv' was moved, deleted or replaced during the run", last_error(result))
                 self.assertTrue(self.manifest(self.path("out"))["outcome"].startswith("failed: "))
 
     def test_the_exit_code_of_a_script_is_returned(self) -> None:

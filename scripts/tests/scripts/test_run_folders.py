@@ -107,7 +107,7 @@ def test_a_printed_file_error_is_the_only_message(folder: Path, manifest: str | 
 
 def test_a_folder_that_was_replaced_during_the_run_is_an_error(tmp_path: Path) -> None:
     out = tmp_path / "out"
-    with pytest.raises(Failure, match="was deleted or replaced during the run"), outputs.open_folder(out, False):
+    with pytest.raises(Failure, match="was moved, deleted or replaced during the run"), outputs.open_folder(out, False):
         out.rename(tmp_path / "moved")
         out.mkdir()
         (out / "manifest.json").write_text("of another run")

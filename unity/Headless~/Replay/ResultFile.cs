@@ -20,14 +20,14 @@ namespace Collektive.Headless
         }
 
         /// <summary>
-        /// Throws an <see cref="IOException"/> if a user has deleted or replaced a file of <see cref="Create"/>, because its rows would be lost.
+        /// Throws an <see cref="IOException"/> if a user has moved, deleted or replaced a file of <see cref="Create"/>, because its rows would be lost.
         /// </summary>
         internal static void RequireInPlace(TextWriter writer)
         {
             if (!((writer as StreamWriter)?.BaseStream is FileStream file)) return;
             if (Syscall.fstat((int)file.SafeFileHandle.DangerousGetHandle(), out var open) != 0) throw Failure(file.Name);
             if (Syscall.lstat(file.Name, out var found) != 0 || found.st_ino != open.st_ino || found.st_dev != open.st_dev)
-                throw new IOException("'" + file.Name + "' was deleted or replaced during the run");
+                throw new IOException("'" + file.Name + "' was moved, deleted or replaced during the run");
         }
 
         /// <summary>

@@ -94,11 +94,13 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Value.z, Is.EqualTo(3).Within(1e-4f));
         }
 
-        [TestCase(false)]
-        [TestCase(true)]
-        public void A_child_node_without_a_body_moves_alone(bool kinematic)
+        [TestCase(false, false)]
+        [TestCase(true, false)]
+        [TestCase(true, true)]
+        public void A_child_node_without_a_body_moves_alone(bool kinematic, bool isFirst)
         {
             var (carrier, node, sensor) = MakeCarriedNode(kinematic);
+            node.gameObject.SetActive(isFirst);
             carrier.gameObject.AddComponent<Node>();
             node.gameObject.SetActive(true);
             Play(100);

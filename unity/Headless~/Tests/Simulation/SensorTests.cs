@@ -438,12 +438,13 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
-        [Test]
-        public void A_fan_whose_angle_is_not_a_number_is_an_error()
+        [TestCase(float.NaN)]
+        [TestCase(float.NegativeInfinity)]
+        public void A_fan_whose_angle_is_not_a_number_is_an_error(float angle)
         {
             var rays = MakeNode(0).Node.gameObject.AddComponent<Rays>();
             Play(2);
-            rays.Angle = float.NaN;
+            rays.Angle = angle;
             Play(1);
             Assert.That(Errors.Count, Is.EqualTo(1), string.Join("; ", Errors));
             Assert.That(Errors[0], Is.StringContaining("Rays of node 0").And.StringContaining("angle"));

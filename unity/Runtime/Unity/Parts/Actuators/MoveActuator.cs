@@ -51,17 +51,13 @@ namespace Collektive.Unity
         /// <summary>Returns the target in the program's answer, in metres.</summary>
         protected abstract Vector3 Read(TData data);
 
-        internal sealed override void Attached()
-        {
-            SelectBody();
-            isChecked = false;
-        }
+        internal sealed override void Attached() => isChecked = false;
 
         internal sealed override void Prepare(TickContext tick)
         {
-            if (isChecked || body != null) return;
+            if (isChecked) return;
             isChecked = true;
-            // Scripts may have added the body after this component.
+            // Scripts may have added bodies and nodes after this component.
             SelectBody();
             if (body == null && TryGetComponent<Collider>(out var obstacle) && !obstacle.isTrigger) tick.WarnMovedCollider(this);
         }

@@ -74,12 +74,14 @@ namespace Collektive.Unity
         /// </summary>
         private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || !angleOfDirections.Equals(angle);
 
+        private bool IsAngleValid => angle > float.NegativeInfinity;
+
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) => Write(ref data, hits);
 
         internal sealed override void Prepare(TickContext tick)
         {
-            if (float.IsNaN(angle)) throw new InvalidOperationException("its angle is not a number: set it to 0..360");
+            if (!IsAngleValid) throw new InvalidOperationException("its angle is NaN or negative infinity: set it to 0..360");
             var queries = tick.Queries;
             // The batch is not used if another sensor changed the fan after the batch began.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections && batchedRange == range;
@@ -96,7 +98,11 @@ namespace Collektive.Unity
 
         internal sealed override void Enqueue(TickContext tick)
         {
-            if (float.IsNaN(angle)) return;
+            if (!IsAngleValid)
+            {
+                batchedRange = float.NaN;
+                return;
+            }
             UpdateDirections();
             var fans = tick.Queries.Rays;
             query = fans.Count;
