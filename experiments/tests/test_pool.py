@@ -52,6 +52,9 @@ class FakeStore:
     def open(self, *_: Any) -> None:
         pass
 
+    def write_settings(self) -> None:
+        pass
+
     def is_complete(self, run: Run) -> bool:
         return False
 
