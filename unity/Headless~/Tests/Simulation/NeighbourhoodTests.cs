@@ -142,10 +142,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void The_trigger_of_a_child_node_does_not_replace_a_disabled_trigger()
         {
             var zone = MakeNode(1, id: 0);
-            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
-            trigger.isTrigger = true;
-            trigger.radius = 2;
-            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var trigger = AddZone(zone.Node);
             var child = MakeNode(3, new Vector3(0, 50, 0), id: 2).Node;
             child.gameObject.AddComponent<SphereCollider>().isTrigger = true;
             child.transform.SetParent(zone.Node.transform, true);
@@ -306,10 +303,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void A_disabled_trigger_has_no_neighbours()
         {
             var zone = MakeNode(1);
-            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
-            trigger.isTrigger = true;
-            trigger.radius = 2;
-            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            var trigger = AddZone(zone.Node);
             var visitor = MakeNode(2, new Vector3(1, 0, 0));
             visitor.Node.gameObject.AddComponent<SphereCollider>().radius = 0.1f;
             visitor.Node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
@@ -328,10 +322,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void A_node_that_was_reactivated_elsewhere_has_left_the_trigger(float place, string links)
         {
             var zone = MakeNode(1, id: 0);
-            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
-            trigger.isTrigger = true;
-            trigger.radius = 2;
-            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            AddZone(zone.Node);
             var visitor = MakeNode(2, new Vector3(1, 0, 0), id: 1).Node.gameObject;
             visitor.AddComponent<SphereCollider>().radius = 0.1f;
             visitor.AddComponent<Rigidbody>().isKinematic = true;
@@ -396,10 +387,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void A_collider_with_a_new_parent_belongs_to_its_new_node()
         {
             var zone = MakeNode(1, id: 0);
-            var trigger = zone.Node.gameObject.AddComponent<SphereCollider>();
-            trigger.isTrigger = true;
-            trigger.radius = 2;
-            zone.Node.gameObject.AddComponent<TriggerNeighbourhood>();
+            AddZone(zone.Node);
             var arm = new GameObject("Arm");
             arm.transform.SetParent(MakeNode(2, Vector3.right, id: 1).Node.transform, false);
             arm.AddComponent<SphereCollider>().radius = 0.1f;
@@ -428,6 +416,15 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(found, Is.EqualTo(new[] { line[0].Node }));
             Manager.FindNearestNodes(Vector3.zero, 3, found, new List<float>());
             Assert.That(found, Is.EqualTo(new[] { line[0].Node }));
+        }
+
+        private static SphereCollider AddZone(Node node)
+        {
+            var trigger = node.gameObject.AddComponent<SphereCollider>();
+            trigger.isTrigger = true;
+            trigger.radius = 2;
+            node.gameObject.AddComponent<TriggerNeighbourhood>();
+            return trigger;
         }
 
         private static ProbeNode[] MakeLine(params float[] places)
