@@ -67,7 +67,8 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(csharp-own-process-on-${name} csharp LABELS ${own_process} NEEDS ${csharp_needs} NUNIT PARALLEL ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
     SCRIPT csharp.py RESULTS "${jdk}" ${usual})
   suite(csharp-debugger-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Debugger)
-  suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow)
+  suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow
+    --without Repeats)
 endforeach()
 # These suites include all repetitions. On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.
 set(coreclr csharp.py RESULTS "${newest}" coreclr --without Mono)
@@ -80,7 +81,7 @@ add_custom_target(sanitized
   COMMAND "${CMAKE_COMMAND}" --build "${COLLEKTIVE_BUILD}/sanitized" VERBATIM)
 
 suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules setup:platforms TIMEOUT 1800 UNLOCKED PARALLEL
-  SCRIPT platforms/run.py RESULTS --short linux-arm64 mac-arm64)
+  SCRIPT platforms/run.py RESULTS --short linux-arm64)
 suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules setup:platforms TIMEOUT 3600 UNLOCKED
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")

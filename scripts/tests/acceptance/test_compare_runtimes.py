@@ -44,6 +44,7 @@ class Compared(Folder):
             file.write(text)
         return collektive("compare-runtimes", self.path("Compared.kt"), *options)
 
+    @pytest.mark.slow
     def test_all_functions_of_a_file_are_compared(self) -> None:
         result = self.compare(PORTABLE, "--runs", "12")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
@@ -60,6 +61,7 @@ class Compared(Folder):
         self.assertRegex(last, r"tick 3, node \d+: AggregateDevice on the built-in runtime, MailboxRound on the mailbox runtime")
         self.assertTrue(re.fullmatch(r"  tick 3: nodes (\d+) (\d+) (\d+); links \d+-\d+ \d+-\d+; rounds of \d+", ticks[2]), ticks[2])
 
+    @pytest.mark.slow
     def test_files_without_functions_are_refused(self) -> None:
         result = self.compare(IMPORTS)
         self.assertEqual(result.returncode, 2)

@@ -6,6 +6,7 @@ import socket
 import subprocess
 import time
 
+import pytest
 import replay
 from command import Project, collektive, jdk, last_error, processes
 
@@ -123,6 +124,7 @@ class WholeRuns(Project):
                 with open(self.path("out", "metrics.csv")) as file:
                     self.assertEqual([row["second"] for row in csv.DictReader(file)], ["0"])
 
+    @pytest.mark.slow
     def test_ticks_can_be_up_to_an_hour_long(self) -> None:
         for schedule, seconds in [("Lockstep", 3600), ("Sequential", 60), ("Asynchronous", 0.34)]:
             with self.subTest(f"{schedule}, {seconds} s"):

@@ -3,6 +3,7 @@ import os
 import re
 import subprocess
 
+import pytest
 from command import ROOT, Folder, collektive, last_error
 
 from build import fetch
@@ -30,6 +31,7 @@ class NewTest(Folder):
         self.assertGreater(manifest["end"]["reached"], 0.5)
         self.assertTrue(os.path.exists(self.path("out", "replay.html")))
 
+    @pytest.mark.slow
     def test_the_kotlin_compiles_with_the_files_that_the_gradle_build_names(self) -> None:
         created = collektive("new", "herd", cwd=self.folder)
         self.assertEqual(created.returncode, 0, created.stderr)

@@ -102,6 +102,7 @@ class SamplesTest(Folder):
         self.assertEqual(rows[-1]["robots"], 108)
         self.assertEqual(rows[-1]["connected"], 3)
 
+    @pytest.mark.slow
     def test_the_crowds_pass_with_few_collisions_and_warnings_end(self) -> None:
         rows = self.rows("Crowd")
         self.assertEqual(rows[-1]["arrived"], 160)

@@ -2,8 +2,8 @@
 """Causes each fault of faults.json in a separate process, and prints a table and "N passed, N failed".
 
 `faults.py [--all] [WORDS]... [--results FILE.xml]` runs the faults whose names contain WORDS, or all of them. With --all, it runs them on every runtime and
-JVM, and otherwise only on Mono with the newest JVM. The table has a column for each of these combinations and each placement of the JVM. With --results, the
-script also writes the results as JUnit XML.
+JVM and in each placement of the JVM. Otherwise it runs them only on Mono with the newest JVM, in the first placement that the fault allows. The table has a
+column for each combination. With --results, the script also writes the results as JUnit XML.
 """
 import argparse
 import concurrent.futures
@@ -178,14 +178,16 @@ def main() -> None:
     print(head + "\n" + "-" * len(head))
     cases = []
     with concurrent.futures.ThreadPoolExecutor(places["jobs"]) as pool:
-        rows = [(fault, [pool.submit(attempt, places, fault, *kind) for kind in kinds if kind[2] in fault.get("placements", PLACEMENTS)])
-                for fault in faults]
+        rows = []
+        for fault in faults:
+            placements = fault.get("placements", PLACEMENTS)[:None if arguments.all else 1]
+            rows.append((fault, {kind: pool.submit(attempt, places, fault, *kind) for kind in kinds if kind[2] in placements}))
         for fault, futures in rows:
-            results = [future.result() for future in futures]
-            marks = " ".join(" !" if failure else "ok" for failure, _, _ in results).rjust(3 * len(kinds) - 1)
+            results = [future.result() for future in futures.values()]
+            marks = " ".join("--" if kind not in futures else " !" if futures[kind].result()[0] else "ok" for kind in kinds)
             read = next((read for _, read, _ in results if read), "")
             print(f"{short(fault['fault'], 52):52} {marks} {fault['works']:16}  {short(read, 150)}", flush=True)
-            for (failure, _, text), (runtime, jdk, placement) in zip(results, kinds[-len(results):]):
+            for (failure, _, text), (runtime, jdk, placement) in zip(results, futures):
                 cases.append(junit.Case(f"{fault['fault']} on {runtime}, {os.path.basename(jdk)}, {placement}", failure))
                 if failure:
                     lines = [short(line, 300) for line in text.splitlines()]

@@ -194,7 +194,7 @@ public fun Aggregate<Int>.count(sensors: SensorData): ActuatorData {
             Assert.That(File.ReadAllBytes(Toolchain.Flatc()), Is.EqualTo(File.ReadAllBytes(shipped)));
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Repeats")]
         public void Several_editors_can_copy_a_tool_concurrently()
         {
             const int Editors = 3, Rounds = 5;

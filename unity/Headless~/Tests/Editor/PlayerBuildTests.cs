@@ -126,7 +126,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(File.ReadAllText(Path.Combine(Installation.PathOf("jars"), "dsl.jar")), Is.EqualTo("dsl"));
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Repeats")]
         public void Changed_programs_are_built_before_the_player()
         {
             UseKotlin();

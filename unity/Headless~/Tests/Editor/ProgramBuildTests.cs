@@ -79,7 +79,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Log, Is.Empty);
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Repeats")]
         public void An_error_is_in_the_console_when_the_file_is_saved_and_not_again_at_each_reload()
         {
             UseKotlin();
@@ -106,7 +106,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Swarm().IsStale, Is.True);
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Repeats")]
         public void A_build_that_the_user_or_a_reload_of_code_interrupts_leaves_the_old_jar()
         {
             UseKotlin();
@@ -143,7 +143,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Swarm().IsStale, Is.False);
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Repeats")]
         public void Play_waits_for_the_build_of_every_loaded_scene()
         {
             UseKotlin();
@@ -168,7 +168,7 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Play(), Is.False);
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Repeats")]
         public void After_a_failed_build_Play_starts_with_the_previous_programs_only_if_the_user_wants_it()
         {
             UseKotlin();

@@ -35,7 +35,7 @@ namespace Collektive.Headless.Tests.Editor
             settings.runtimePlugin = "plugin.jar";
         }
 
-        [Test, Category("Slow")]
+        [Test, Category("Slow"), Category("Repeats")]
         public void Programs_are_built_for_the_runtime_of_the_open_scene()
         {
             UseKotlin();

@@ -30,11 +30,11 @@ namespace Collektive.Headless.Tests
         [TearDown]
         public void RemoveFolder() => Directory.Delete(folder, true);
 
-        [TestCase("editor")]
+        [TestCase("editor", Category = "Repeats")]
         [TestCase("player")]
         public void A_missing_library_logs_one_error(string where) => CheckOneError(Play(where), "Linux", "X64");
 
-        [TestCase("editor")]
+        [TestCase("editor", Category = "Repeats")]
         [TestCase("player")]
         public void A_library_of_another_platform_logs_one_error(string where)
         {
@@ -42,7 +42,7 @@ namespace Collektive.Headless.Tests
             CheckOneError(Play(where), "Linux", "X64");
         }
 
-        [Test]
+        [Test, Category("Repeats")]
         public void An_unrelated_library_of_that_name_logs_one_error()
         {
             File.Copy(Path.Combine(TestJvm.Home, "lib/libjli.so"), Path.Combine(folder, Library));

@@ -30,7 +30,7 @@ namespace Collektive.Headless.Tests.Simulation
             DiagnosticsWindow.Open().Close();
         }
 
-        [Test]
+        [Test, Category("Repeats")]
         public void Trigger_rules_of_95_neighbours_take_less_than_10_milliseconds_a_tick()
         {
             // On this plane of 10 m by 10 m, each node has about 95 others within 1.8 m.

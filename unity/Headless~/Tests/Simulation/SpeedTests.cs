@@ -52,7 +52,7 @@ namespace Collektive.Headless.Tests.Simulation
         /// The test runs only on Mono, because CoreCLR runs the plain loop five times as fast as Mono, but the tick no faster.
         /// </summary>
         [Category("Mono")]
-        [TestCase(typeof(Orbit), 4.5)]
+        [TestCase(typeof(Orbit), 4.5, Category = "Repeats")]
         [TestCase(typeof(Wander), 6)]
         public void A_tick_of_10_000_nodes_takes_at_most_a_few_plain_loops(Type walk, double loops)
         {

@@ -118,7 +118,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [TestCase(3000)]
-        [TestCase(100000, Category = "Slow")]
+        [TestCase(100000, Category = "Repeats")]
         public void Too_many_overlapping_bodies_are_an_error(int count)
         {
             for (var index = 0; index < count; index++) Ball(Vector3.zero);

@@ -111,7 +111,7 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [TestCase(500)]
-        [TestCase(2000)]
+        [TestCase(2000, Category = "Repeats")]
         public void A_swarm_stays_on_the_floor(int count)
         {
             const int rounds = 200;
