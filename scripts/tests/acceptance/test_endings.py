@@ -141,7 +141,7 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
 
-    def test_tables_that_are_deleted_or_replaced_during_the_run_are_an_error(self) -> None:
+    def test_tables_and_records_that_are_deleted_during_the_run_are_an_error(self) -> None:
         table = self.path("out", "metrics.csv")
         for code in (f'System.IO.File.Delete("{table}");', f'System.IO.File.Copy("{table}", "{table}.new"); System.IO.File.Delete("{table}"); '
                      f'System.IO.File.Move("{table}.new", "{table}");'):
@@ -151,6 +151,10 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, 1)
                 self.assertIn("metrics.csv' was moved, deleted or replaced during the run", last_error(result))
                 self.assertTrue(self.manifest(self.path("out"))["outcome"].startswith("failed: "))
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
+        result = self.at_tick_4(f'System.IO.File.Delete("{self.path("out", "run.clkrec")}");')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("run.clkrec' was moved or deleted during the run", last_error(result))
 
     def test_the_exit_code_of_a_script_is_returned(self) -> None:
         for code, expected in [(3, 3), (256, 1)]:

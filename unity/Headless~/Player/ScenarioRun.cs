@@ -268,6 +268,8 @@ namespace Collektive.Headless
                 progress.End();
                 metrics.RequireInPlace();
                 nodes?.RequireInPlace();
+                var record = Path.Combine(options.Out, "run.clkrec");
+                if (scenario.Record && !File.Exists(record)) throw new IOException("'" + record + "' was moved or deleted during the run");
                 if (manager.Simulation.IsOpen) metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 manifest.AddResults(
