@@ -74,9 +74,12 @@ namespace Collektive.Headless.Tests
             Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, "/another/host.jar", folder).Options, Is.Not.EqualTo(words));
             var jar = Path.Combine(folder, "host.jar");
             File.WriteAllText(jar, "1");
+            var time = new System.DateTime(2020, 1, 1);
+            File.SetLastWriteTimeUtc(jar, time);
             words = new JvmSettings().ToLaunch(TestJvm.Home, jar, folder).Options;
-            File.WriteAllText(jar, "another build");
-            Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, jar, folder).Options, Is.Not.EqualTo(words));
+            File.WriteAllText(jar, "2");
+            File.SetLastWriteTimeUtc(jar, time);
+            Assert.That(new JvmSettings().ToLaunch(TestJvm.Home, jar, folder).Options, Is.Not.EqualTo(words), "another build of the same size and time");
         }
 
         [Test]

@@ -197,17 +197,20 @@ namespace Collektive.Bridge
 
         private const int FirstWithAutomaticArchive = 19;
 
+        /// <summary>An upper bound for the size of the list of files at the end of the host jar.</summary>
+        private const int MaxJarDirectoryBytes = 1 << 19;
+
         /// <summary>
         /// Adds the options for the class archive, which the JVM writes when it exits, and writes again after the JVM itself was updated. The JVM never
-        /// replaces an archive that was written for another host jar, so the archive's name contains the size and time of the jar. It does not replace an
-        /// archive without a header either. A JVM that is killed while it writes leaves such an archive, which is therefore removed here.
+        /// replaces an archive that was written for another host jar, so the archive's name contains the size, time and checksums of the jar. It does not
+        /// replace an archive without a header either. A JVM that is killed while it writes leaves such an archive, which is therefore removed here.
         /// </summary>
         /// <returns>The reason why no archive is used, or an empty string.</returns>
         private string AddArchive(List<string> options, string javaHome, string hostJar, string cacheFolder)
         {
             var namePrefix = "classes-" + Hash(javaHome + "\n" + hostJar + "\n" + collector) + "-";
             var host = new FileInfo(hostJar);
-            var file = Path.Combine(cacheFolder, namePrefix + Hash(host.Exists ? host.LastWriteTimeUtc.Ticks + "\n" + host.Length : "") + ".jsa");
+            var file = Path.Combine(cacheFolder, namePrefix + Hash(host.Exists ? host.LastWriteTimeUtc.Ticks + "\n" + host.Length + EndOf(host) : "") + ".jsa");
             try
             {
                 Directory.CreateDirectory(cacheFolder);
@@ -222,6 +225,16 @@ namespace Collektive.Bridge
             // Without this option, the JVM logs a line for each class that it omits, and logs errors about an archive before it replaces it.
             options.Add("-Xlog:cds=off");
             return "";
+        }
+
+        /// <summary>Returns the end of a jar, with the checksums of its classes. The JVM compares only size and time of a jar with an archive.</summary>
+        private static string EndOf(FileInfo jar)
+        {
+            using (var reader = new BinaryReader(jar.Open(FileMode.Open, FileAccess.Read, FileShare.ReadWrite | FileShare.Delete)))
+            {
+                reader.BaseStream.Position = Math.Max(0, jar.Length - MaxJarDirectoryBytes);
+                return Convert.ToBase64String(reader.ReadBytes(MaxJarDirectoryBytes));
+            }
         }
 
         private static string Hash(string text)
