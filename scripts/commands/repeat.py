@@ -1,5 +1,5 @@
-"""Repeats a run from its manifest.json, and compares ticks, digest and final metrics. Scripts, schema and programs are read from their original
-paths, or from --folder. Prints a line for each of them, and for the JVM, if it has changed.
+"""Repeats a run from its manifest.json, and compares its results: ticks, digest, metrics and convergence times. Scripts, schema and programs are read
+from their original paths, or from --folder. Prints a line for each of them, and for the JVM, if it has changed.
 
 Exit code: 0 the results are equal; 1 they differ, the run could not be repeated, or rounds failed."""
 import argparse

@@ -1,4 +1,5 @@
 """Tests repeating a run from its manifest."""
+import json
 import os
 
 from command import Project, collektive, last_error
@@ -36,6 +37,18 @@ class Repetitions(Project):
         self.assertRegex(result.stderr, "changed since the run of .*: scripts is ")
         self.assertNotRegex(result.stderr, "changed since the run of .*: (schema|programs) is ")
         self.assertRegex(last_error(result), "the run differs from the one in .*: digest is [0-9a-f]{16}, previously [0-9a-f]{16}")
+
+    def test_all_results_are_compared(self) -> None:
+        file = self.path("a", "manifest.json")
+        with open(file, encoding="utf-8") as stream:
+            manifest = json.load(stream)
+        edited = {"nodes": 13, "errors": 1, "start": {}, "converged": {"lit": 1.5}}
+        with open(file, "w", encoding="utf-8") as stream:
+            json.dump({**manifest, **edited}, stream)
+        result = self.repeat()
+        self.assertEqual(result.returncode, 1)
+        for key in edited:
+            self.assertRegex(last_error(result), f"{key} is .*, previously ")
 
     def test_a_moved_project_is_found_with_the_folder_option(self) -> None:
         os.rename(self.path("project"), self.path("moved"))

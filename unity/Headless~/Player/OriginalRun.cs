@@ -41,14 +41,16 @@ namespace Collektive.Headless
         internal bool IsRepeatedBy(Manifest now)
         {
             var differences = new List<string>();
-            foreach (var key in new[] { "ticks", "digest", "end" })
+            foreach (var key in new[] { "ticks", "digest", "nodes", "errors", "start", "end", "converged" })
             {
+                // Manifests of earlier versions do not contain all keys.
+                if (manifest[key] == null) continue;
                 // The values are compared as text, because NaN is a string in files.
                 if (Text(manifest[key]) != Text(now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", previously " + Text(manifest[key]));
             }
             if (differences.Count == 0)
             {
-                Console.WriteLine("repeated: " + Ticks + " ticks, digest " + Text(manifest["digest"]) + " and the final metrics are equal to those in " + path);
+                Console.WriteLine("repeated: " + Ticks + " ticks, digest " + Text(manifest["digest"]) + " and the metrics are equal to those in " + path);
                 return true;
             }
             Console.Error.WriteLine("collektive: the run differs from the one in " + path + ": " + string.Join("; ", differences));
