@@ -70,7 +70,10 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
                       settings.get("labels", {}) if labels is None else labels)
     needed = {"run", "status", "seed", *results.keys, *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
-    if not needed <= set(results.runs.columns) or not {"run", "second", "links"} <= set(results.series.columns):
+    columns = list(results.runs.columns)
+    # Figures would combine the runs with different values of a key that is missing in the settings.
+    if (not needed <= set(columns) or {*columns[1:columns.index("status")]} != {*results.keys, "seed"}
+            or not {"run", "second", "links"} <= set(results.series.columns)):
         raise ExperimentError(f"the tables of '{folder}' are damaged or from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
     # The settings may be newer than the tables, and list other metrics. Tables add the prefix `metric.` to a name that is already taken.

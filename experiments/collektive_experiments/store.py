@@ -91,7 +91,8 @@ class Store:
         if not os.path.exists(path):
             raise ExperimentError(f"'{self.folder}' is not a sweep folder: it has no sweep.json")
         settings = _object(path)
-        if settings is None or settings.get("version") != VERSION:
+        if settings is None or settings.get("version") != VERSION or not _is_list_of_texts(settings.get("keys")) or not all(
+                isinstance(texts, dict) and _is_list_of_texts([*texts.values()]) for texts in (settings.get("measure"), settings.get("labels", {}))):
             raise ExperimentError(f"'{path}' is damaged or of another version: repair it with ./collektive sweep EXPERIMENT.json --out {self.folder} --resume")
         return settings
 
@@ -111,7 +112,9 @@ class Store:
     def record(self, run: Run) -> dict[str, Any] | None:
         """Returns the content of run.json, or None if the run is not finished."""
         record = _object(os.path.join(self.runs, run.name, files.RECORD))
-        if record is None or record.get("name") != run.name or not isinstance(record.get("files"), dict) or "status" not in record:
+        if record is None or record.get("name") != run.name or not _is_list_of_texts([record.get("status"), record.get("message")]):
+            return None
+        if not isinstance(record.get("files"), dict) or (record["status"] == "complete" and not set(RESULTS) <= record["files"].keys()):
             return None
         return record
 
@@ -170,6 +173,10 @@ def _object(path: str) -> dict[str, Any] | None:
     except (ValueError, RecursionError):
         return None
     return value if isinstance(value, dict) else None
+
+
+def _is_list_of_texts(value: Any) -> bool:
+    return isinstance(value, list) and all(isinstance(item, str) for item in value)
 
 
 def _hash(path: str) -> str:

@@ -348,6 +348,26 @@ def test_tables_without_columns_are_a_one_line_error(lamps: Project, tmp_path: P
         assert "are damaged or from an earlier version: write them again" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("edited", [{"keys": []}, {"keys": [1]}, {"keys": None}, {"measure": ["lit"]}, {"labels": {"lit": 1}}], ids=json.dumps)
+def test_edited_settings_are_a_one_line_error(lamps: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str], edited: dict[str, object]) -> None:
+    for path in (lamps.folder / "out").glob("*.parquet"):
+        shutil.copy(path, tmp_path)
+    settings = json.loads((lamps.folder / "out/sweep.json").read_text())
+    (tmp_path / "sweep.json").write_text(json.dumps({**settings, **edited}))
+    assert main(["plot", str(tmp_path)]) == 1
+    assert "damaged or" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("edited", [{"status": 1}, {"message": None}, {"files": {"metrics.csv": ""}}, {"files": []}], ids=json.dumps)
+def test_an_edited_record_is_damaged(tmp_path: Path, edited: dict[str, object]) -> None:
+    folder = tmp_path / "runs/seed=1"
+    folder.mkdir(parents=True)
+    record = {"name": "seed=1", "status": "complete", "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}
+    for change, is_valid in (({}, True), (edited, False)):
+        (folder / "run.json").write_text(json.dumps({**record, **change}))
+        assert (Store(str(tmp_path)).record(Run("seed=1", {}, {})) is not None) == is_valid
+
+
 def test_ctrl_c_during_imports_is_a_one_line_error(tmp_path: Path) -> None:
     process = subprocess.Popen([COLLEKTIVE, "plot", str(tmp_path)], stderr=subprocess.PIPE, text=True, start_new_session=True)
     while not processes("collektive_experiments", str(tmp_path)) and process.poll() is None:
@@ -369,7 +389,7 @@ def test_pipes_instead_of_results_are_damaged_files(tmp_path: Path, capsys: pyte
     (folder / ".collektive-sweep").touch()
     for name in ("run.json", "metrics.csv"):
         (folder / "run.json").unlink(missing_ok=True)
-        (folder / "run.json").write_text('{"name": "seed=1", "status": "complete", "files": {"metrics.csv": "00"}}')
+        (folder / "run.json").write_text('{"name": "seed=1", "status": "complete", "message": "", "files": {"metrics.csv": "00", "manifest.json": ""}}')
         (folder / name).unlink(missing_ok=True)
         os.mkfifo(folder / name)
         # Reading a pipe would wait for its writer.
