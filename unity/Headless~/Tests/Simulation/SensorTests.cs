@@ -227,6 +227,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_contact_of_a_child_node_is_not_a_contact_of_its_parent()
+        {
+            MakeBox(new Vector3(0, -0.5f, 0)).transform.localScale = new Vector3(20, 1, 20);
+            var body = MakeBall(new Vector3(0, 3, 0));
+            var child = MakeBox(new Vector3(0, 0.5f, 0)).AddComponent<Node>();
+            child.transform.SetParent(body.transform, true);
+            var sensor = body.gameObject.AddComponent<Contacts>();
+            Play(5);
+            Assert.That(sensor.Values, Is.Empty);
+            Object.DestroyImmediate(child);
+            body.linearVelocity = Vector3.up;
+            Play(10);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1), "the collider now belongs to the parent");
+        }
+
+        [Test]
         public void A_body_whose_collider_was_disabled_and_that_moved_has_no_contacts()
         {
             MakeBox(new Vector3(0, -0.5f, 0));

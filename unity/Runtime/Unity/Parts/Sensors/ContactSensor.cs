@@ -88,7 +88,8 @@ namespace Collektive.Unity
             {
                 var contact = contacts.Items[i];
                 var hasEnded = ended.Items[i];
-                if (contact.Collider.IsGone() || contact.Own.IsGone()) continue;
+                // The body also reports the contacts of nodes on its children.
+                if (contact.Collider.IsGone() || contact.Own.IsGone() || !Node.Owns(contact.Own)) continue;
                 var index = remaining++;
                 for (; index > 0 && ColliderExtensions.IsBefore(contact.Point - centre, contacts.Items[index - 1].Point - centre); index--)
                 {
