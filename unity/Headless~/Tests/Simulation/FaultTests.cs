@@ -410,6 +410,21 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Parts_of_a_child_whose_node_is_destroyed_join_the_parent()
+        {
+            Configure("double");
+            var outer = MakeNode(1);
+            var inner = MakeNode(10);
+            inner.Node.transform.SetParent(outer.Node.transform);
+            Play(1);
+            Assert.That(outer.Answer, Is.EqualTo(2));
+            UnityEngine.Object.Destroy(inner.Node);
+            Play(2);
+            Assert.That((outer.Answer, inner.Answer), Is.EqualTo((20f, 20f)));
+            Assert.That(inner.Sensor.Node, Is.SameAs(outer.Node));
+        }
+
+        [Test]
         public void An_exception_in_a_Logged_handler_stops_no_tick()
         {
             Configure("trouble");

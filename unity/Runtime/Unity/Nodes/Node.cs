@@ -336,6 +336,14 @@ namespace Collektive.Unity
             Simulation?.Leave(this);
         }
 
+        private void OnDestroy()
+        {
+            // The node's children may remain. GetComponentInParent still finds this component, so the search begins at the parent.
+            var above = transform.parent == null ? null : transform.parent.GetComponentInParent<Node>();
+            if (above == null) return;
+            foreach (var part in GetComponentsInChildren<NodePart>()) part.Move(this, above);
+        }
+
         private static void CloseGaps()
         {
             var count = 0;

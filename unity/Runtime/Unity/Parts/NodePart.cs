@@ -43,6 +43,14 @@ namespace Collektive.Unity
             Attach();
         }
 
+        /// <summary>Joins <paramref name="to"/> if the part belongs to <paramref name="from"/>.</summary>
+        internal void Move(Node from, Node to)
+        {
+            if (!IsAttached || !ReferenceEquals(from, Node)) return;
+            Detach();
+            Join(to);
+        }
+
         /// <summary>Returns the Rigidbody on this GameObject or the nearest parent, or null if that one belongs to another node.</summary>
         internal Rigidbody FindBody()
         {
@@ -109,9 +117,14 @@ namespace Collektive.Unity
                 Debug.LogError(
                     GetType().Name + " on '" + name + "' has no Node on its GameObject or its parents: add the component Collektive/Node", this);
                 enabled = false;
-                return;
             }
-            ListOf(Node).Add(this);
+            else Join(Node);
+        }
+
+        private void Join(Node node)
+        {
+            Node = node;
+            ListOf(node).Add(this);
             IsAttached = true;
             Attached();
         }
