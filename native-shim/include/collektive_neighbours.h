@@ -86,6 +86,7 @@ typedef struct clk_neighbour {
 /*
  * A link. If rules and scripts set different values, those of the last call of clk_neighbours_take() count, because it confirms the values of all links
  * of its rule. Searches and scripts set values only when they change, and searches also after another rule or a script has released links.
+ * When the last rule releases a link that a script references, the link gets the values that the script set.
  */
 typedef struct clk_link {
     int32_t from;      /* id of the sender */

@@ -88,16 +88,20 @@ static bool add(struct links *links, int32_t index, clk_direction *direction) {
     return touch(links, index, direction);
 }
 
-static bool release(struct links *links, int32_t index, clk_direction *direction) {
-    if (--direction->references > 0) return true;
-    links->count--;
-    return touch(links, index, direction);
-}
-
 static bool set(struct links *links, int32_t index, clk_direction *direction, float length, float attenuation) {
     if (direction->length == length && direction->attenuation == attenuation) return true;
     direction->length = length;
     direction->attenuation = attenuation;
+    return touch(links, index, direction);
+}
+
+static bool release(struct links *links, int32_t index, clk_direction *direction) {
+    if (--direction->references == 1 && direction->by_script) {
+        const struct script *script = &links->scripts[2 * index + (direction == &links->pairs[index].down)];
+        return set(links, index, direction, script->length, script->attenuation);
+    }
+    if (direction->references > 0) return true;
+    links->count--;
     return touch(links, index, direction);
 }
 
@@ -142,12 +146,17 @@ bool links_release(struct links *links, reference link) {
 
 bool links_hold(struct links *links, const clk_link *link) {
     int32_t index = find(links, link->from, link->to);
-    if (index != NONE && direction_of(links, index, link->from, link->to)->by_script)
-        return set(links, index, direction_of(links, index, link->from, link->to), link->length, link->attenuation);
-    reference added = links_add(links, link->from, link->to, false, link->length, link->attenuation);
-    if (added < 0) return false;
-    direction_of(links, added >> 2, link->from, link->to)->by_script = 1;
-    return true;
+    bool is_new = index == NONE || !direction_of(links, index, link->from, link->to)->by_script;
+    if (is_new) {
+        reference added = links_add(links, link->from, link->to, false, link->length, link->attenuation);
+        if (added < 0) return false;
+        index = added >> 2;
+    }
+    if (!reserve(&links->scripts, &links->script_capacity, 2 * (int64_t)index + 2, sizeof *links->scripts)) return false;
+    links->scripts[2 * index + (link->from > link->to)] = (struct script){link->length, link->attenuation};
+    clk_direction *direction = direction_of(links, index, link->from, link->to);
+    direction->by_script = 1;
+    return set(links, index, direction, link->length, link->attenuation);
 }
 
 int32_t links_release_script(struct links *links, int32_t from, int32_t to) {
@@ -250,6 +259,7 @@ bool links_flush(struct links *links, clk_changes *changes) {
 void links_free(struct links *links) {
     free(links->pairs);
     free(links->buckets);
+    free(links->scripts);
     free(links->dirty);
     free_flags(&links->known);
     free_flags(&links->gone);

@@ -12,12 +12,20 @@ struct flags {
     int32_t capacity; /* length of `pages` */
 };
 
+/* The values that a script set for a link. The link has them whenever no rule references it. */
+struct script {
+    float length, attenuation;
+};
+
 /* Most links exist in both directions. Therefore the table contains pairs of links, and one reference may cover both links of a pair. */
 struct links {
     clk_pair *pairs;
     int32_t *buckets; /* hash table of the pairs; its size is `capacity`, a power of two */
     int32_t used, capacity, first_free;
     int32_t count; /* number of links */
+
+    struct script *scripts; /* for the up and down link of each pair, as far as scripts have set values */
+    int32_t script_capacity;
 
     int32_t *dirty; /* pairs in which a direction has changed */
     int32_t dirty_count, dirty_capacity;

@@ -194,8 +194,7 @@ static struct model_rule {
 static bool scripts[IDS][IDS], engine[IDS][IDS], known[IDS], present[IDS];
 static float engine_length[IDS][IDS], place_of[IDS];
 
-static bool model_has(int32_t from, int32_t to) {
-    if (scripts[from][to]) return true;
+static bool rules_have(int32_t from, int32_t to) {
     for (int32_t i = 0; i < RULES; i++) {
         const struct model_rule *rule = &rules[i];
         if (rule->number < 0) continue;
@@ -203,6 +202,14 @@ static bool model_has(int32_t from, int32_t to) {
         if (rule->centre == to && rule->references[from] && rule->both[from]) return true;
     }
     return false;
+}
+
+static bool model_has(int32_t from, int32_t to) { return scripts[from][to] || rules_have(from, to); }
+
+/* A link that no rule references has the values of the script. */
+static void check_direction(const clk_direction *direction, int32_t from, int32_t to) {
+    CHECK(direction->references == 0 || model_has(from, to));
+    CHECK(direction->references == 0 || rules_have(from, to) || direction->length == 9);
 }
 
 static void flush_to_engine(clk_neighbours *neighbours) {
@@ -300,8 +307,8 @@ static void check_links(clk_neighbours *neighbours) {
     for (int32_t i = 0; i < pairs.count; i++) {
         const clk_pair *pair = &pairs.pairs[i];
         links -= (pair->up.references > 0) + (pair->down.references > 0);
-        CHECK(pair->up.references == 0 || model_has(pair->low, pair->high));
-        CHECK(pair->down.references == 0 || model_has(pair->high, pair->low));
+        check_direction(&pair->up, pair->low, pair->high);
+        check_direction(&pair->down, pair->high, pair->low);
     }
     CHECK(links == 0);
 }

@@ -384,6 +384,27 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_link_that_only_a_script_keeps_has_the_values_of_the_script()
+        {
+            var nodes = MakeLine(0, 2);
+            nodes[0].Node.gameObject.AddComponent<Attenuating>();
+            Manager.AddLink(0, 1, true);
+            nodes[1].Node.transform.position = new Vector3(3, 0, 0);
+            Play(1);
+            Assert.That(Values(), Is.EqualTo("0>1 3 5, 1>0 3 5"));
+            nodes[0].Node.GetComponent<Attenuating>().enabled = false;
+            Play(1);
+            Assert.That(Values(), Is.EqualTo("0>1 2 0"));
+
+            string Values()
+            {
+                var links = new List<LinkRecord>();
+                Manager.CopyLinks(links);
+                return string.Join(", ", links.ConvertAll(link => link.From + ">" + link.To + " " + link.Length + " " + link.Attenuation));
+            }
+        }
+
+        [Test]
         public void A_collider_with_a_new_parent_belongs_to_its_new_node()
         {
             var zone = MakeNode(1, id: 0);
