@@ -750,6 +750,21 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(settings.FindProblem(), Is.StringStarting("physics step is "));
         }
 
+        [TestCase("physicsStep", float.NaN)]
+        [TestCase("physicsStep", 0)]
+        [TestCase("physicsStep", 0.05f)]
+        [TestCase("deltaTime", float.NaN)]
+        [TestCase("deltaTime", -1)]
+        [TestCase("deltaTime", 0)]
+        public void Invalid_times_that_are_set_during_play_stop_the_simulation(string field, float value)
+        {
+            MakeNode(1);
+            Play(2);
+            typeof(SimulationSettings).GetField(field).SetValue(Manager.Settings, value);
+            Loop.Frame(0.05f);
+            Assert.That(Manager.Failure, Is.StringContaining(" is " + value + " s: it must be greater than 0"));
+        }
+
         [Test]
         public void Clicking_a_rejection_selects_the_rejected_object()
         {

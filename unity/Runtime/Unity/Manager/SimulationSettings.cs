@@ -181,20 +181,27 @@ namespace Collektive.Unity
         /// <summary>Returns the first error of a value with its fix, or null.</summary>
         internal string FindProblem()
         {
-            if (ArgumentProblem != null) return ArgumentProblem;
-            if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
-            if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;
-            if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be greater than 0 and at most 0.02";
-            if (deltaTime / (double)physicsStep > MaxSubSteps)
-                return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would need more than a million steps; raise the physics step";
+            var problem = ArgumentProblem ?? FindTimeProblem();
+            if (problem != null) return problem;
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be from 1 to 256";
             if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
             if (runtime == AggregateRuntime.Collektive && string.IsNullOrWhiteSpace(runtimeJars))
                 return "runtime is Collektive, but runtime jars is empty: select the folder of Collektive's jars";
             if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: enter the path, or remove the entry";
-            var problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
+            problem = schedule == Schedule.Asynchronous ? timing.FindProblem(deltaTime) : null;
             return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
+        }
+
+        /// <summary>Returns the error of the times that are read in each tick, or null.</summary>
+        internal string FindTimeProblem()
+        {
+            if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
+            if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;
+            if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be greater than 0 and at most 0.02";
+            if (deltaTime / (double)physicsStep > MaxSubSteps)
+                return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would need more than a million steps; raise the physics step";
+            return null;
         }
 
         /// <summary>

@@ -213,6 +213,15 @@ namespace Collektive.Unity
             changedPrograms.Add(program);
         }
 
+        /// <summary>Ends the simulation if a script has set times with which no tick can run.</summary>
+        /// <returns>Whether the times are valid.</returns>
+        internal bool CheckTimes()
+        {
+            var problem = Settings.FindTimeProblem();
+            if (problem != null) Fail(problem);
+            return problem == null;
+        }
+
         /// <summary>Ends the simulation with an error. Clicking the message selects <paramref name="context"/>, or the manager if that is null.</summary>
         internal void Fail(string message, UnityEngine.Object context = null)
         {
@@ -305,6 +314,7 @@ namespace Collektive.Unity
 
         private void Begin()
         {
+            if (!CheckTimes()) return;
             timestamps.Start = Stopwatch.GetTimestamp();
             TickInProgress = session.Tick + 1;
             using (TickMarkers.Queries.Auto())
