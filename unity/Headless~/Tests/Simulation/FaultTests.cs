@@ -750,6 +750,38 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(settings.FindProblem(), Is.StringStarting("physics step is "));
         }
 
+        [Test]
+        public void A_seed_that_is_set_after_the_manager_was_enabled_is_an_error()
+        {
+            MakeNode(1);
+            Manager.Settings.seed = 7;
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringStarting("seed is 7, but the Simulation Manager was enabled with seed 1: "));
+        }
+
+        [Test]
+        public void A_schedule_and_a_seed_that_are_set_during_play_apply_to_no_node()
+        {
+            var first = MakeNode(1);
+            Play(1);
+            var expected = new RandomStream(1, 1, RandomPurpose.Node).NextDouble();
+            Manager.Settings.seed = 7;
+            Manager.Settings.schedule = Schedule.Asynchronous;
+            Manager.Settings.timing.period = 1;
+            var second = MakeNode(1, Vector3.one);
+            Play(10);
+            Assert.That((first.Actuator.Calls, second.Actuator.Calls), Is.EqualTo((11, 10)));
+            Assert.That(second.Node.Random.NextDouble(), Is.EqualTo(expected));
+        }
+
+        [Test]
+        public void A_parameter_without_a_name_is_reported_with_its_node()
+        {
+            MakeNode(1).Node.Parameters.Add(default);
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("node 0").And.StringContaining("''"));
+        }
+
         [TestCase("physicsStep", float.NaN)]
         [TestCase("physicsStep", 0)]
         [TestCase("physicsStep", 0.05f)]

@@ -48,7 +48,7 @@ namespace Collektive.Unity
         [Tooltip("Collektive only: jar of its compiler plugin, relative to the project's folder. Used to build programs.")]
         public string runtimePlugin = "";
 
-        /// <summary>Seed of all random numbers.</summary>
+        /// <summary>Seed of all random numbers. Scripts must set it while the manager is disabled.</summary>
         [Tooltip("Seed of all random numbers. The same scene and seed give the same results.")]
         public ulong seed = 1;
 

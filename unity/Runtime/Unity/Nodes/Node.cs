@@ -218,10 +218,10 @@ namespace Collektive.Unity
         internal string StartTimer()
         {
             var settings = Simulation.Settings;
-            if (settings.schedule != Schedule.Asynchronous) return null;
+            if (Simulation.Schedule != Schedule.Asynchronous) return null;
             var used = ownTiming ? timing : settings.timing;
             var problem = used.FindProblem(settings.deltaTime);
-            if (problem == null) timer = new RoundTimer(used, new RandomStream(settings.seed, Id, RandomPurpose.Schedule), Simulation.Time);
+            if (problem == null) timer = new RoundTimer(used, new RandomStream(Simulation.Seed, Id, RandomPurpose.Schedule), Simulation.Time);
             return problem;
         }
 
@@ -242,7 +242,7 @@ namespace Collektive.Unity
             Id = newId;
             JoinTick = simulation.TickInProgress;
             Position = Body.position;
-            random = new RandomStream(simulation.Settings.seed, newId, RandomPurpose.Node);
+            random = new RandomStream(simulation.Seed, newId, RandomPurpose.Node);
             LastError = "";
             ForgetAnswer();
             timer = null;

@@ -126,7 +126,8 @@ namespace Collektive.Unity
         private static KeyValuePair<string, string>[] Pairs(List<NodeParameter> values)
         {
             var parameters = new KeyValuePair<string, string>[values.Count];
-            for (var i = 0; i < parameters.Length; i++) parameters[i] = new KeyValuePair<string, string>(values[i].name, values[i].value);
+            // Unity does not serialise null, but scripts may leave a name or a value out.
+            for (var i = 0; i < parameters.Length; i++) parameters[i] = new KeyValuePair<string, string>(values[i].name ?? "", values[i].value ?? "");
             return parameters;
         }
 

@@ -52,12 +52,19 @@ namespace Collektive.Unity
             this.globals = globals;
             Context = new TickContext(this);
             ScriptLinks = new ScriptLinks(this);
-            Random = new RandomStream(settings.seed, 0, RandomPurpose.Scene);
+            Seed = settings.seed;
+            Random = new RandomStream(Seed, 0, RandomPurpose.Scene);
         }
 
         internal SimulationSettings Settings { get; }
 
         internal SimulationManager Manager { get; }
+
+        /// <summary>Seed of all random numbers.</summary>
+        internal ulong Seed { get; }
+
+        /// <summary>The schedule of all nodes.</summary>
+        internal Schedule Schedule { get; private set; }
 
         /// <summary>Random numbers for the scene.</summary>
         internal RandomStream Random { get; }
@@ -165,7 +172,13 @@ namespace Collektive.Unity
             try
             {
                 Log = Log ?? new JvmLog(Manager);
-                if (!IsPending) session = SessionStart.Begin(Settings, Manager);
+                if (!IsPending)
+                {
+                    if (Settings.seed != Seed) throw new BridgeException(BridgeError.Argument, "seed is " + Settings.seed
+                        + ", but the Simulation Manager was enabled with seed " + Seed + ": set the seed while the manager is disabled");
+                    Schedule = Settings.schedule;
+                    session = SessionStart.Begin(Settings, Manager);
+                }
                 Finish();
                 IsOpen = !IsPending;
             }
