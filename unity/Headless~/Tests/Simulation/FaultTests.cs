@@ -497,6 +497,17 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_component_that_destroys_its_node_and_throws_does_not_stop_the_simulation()
+        {
+            var node = MakeNode(3);
+            var other = MakeNode(4, Vector3.right);
+            node.Node.gameObject.AddComponent<NodeDestroyingSensor>().Throws = true;
+            Play(2);
+            Assert.That((Manager.Failure, other.Answer), Is.EqualTo(("", 8f)));
+            Assert.That(Errors, Has.Count.EqualTo(1).And.Some.StringContaining("NodeDestroyingSensor of node -1"));
+        }
+
+        [Test]
         public void A_component_that_toggles_itself_is_called_once_per_tick()
         {
             var node = MakeNode(3);
@@ -880,7 +891,13 @@ namespace Collektive.Headless.Tests.Simulation
 
         public sealed class NodeDestroyingSensor : Sensor<probe.SensorData>
         {
-            protected override void Sense(ref probe.SensorData data) => Object.DestroyImmediate(Node.gameObject);
+            public bool Throws { get; set; }
+
+            protected override void Sense(ref probe.SensorData data)
+            {
+                Object.DestroyImmediate(Node.gameObject);
+                if (Throws) throw new InvalidOperationException("broken on purpose");
+            }
         }
 
         public sealed class NodeDestroyingRule : NeighbourhoodRule

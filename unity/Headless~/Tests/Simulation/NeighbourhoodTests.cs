@@ -384,6 +384,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_rule_that_moves_to_another_node_in_its_own_call_sets_no_links_for_that_node()
+        {
+            var nodes = MakeLine(0, 1, 2);
+            nodes[2].Node.transform.position = new Vector3(9, 0, 0);
+            var arm = new GameObject("Arm");
+            arm.transform.SetParent(nodes[0].Node.transform, false);
+            var rule = arm.AddComponent<Moving>();
+            rule.Target = nodes[2].Node.transform;
+            Play(1);
+            Assert.That(Links(), Is.Empty);
+            Play(1);
+            Assert.That((Links(), rule.Node), Is.EqualTo(("1>2 2>1", nodes[2].Node)));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void A_link_that_only_a_script_keeps_has_the_values_of_the_script()
         {
             var nodes = MakeLine(0, 2);
@@ -563,6 +579,17 @@ namespace Collektive.Headless.Tests.Simulation
             protected override void FindNeighbours(NeighbourCollector neighbours)
             {
                 foreach (ref readonly var near in neighbours.FindWithin(9)) neighbours.Add(near, 5);
+            }
+        }
+
+        public sealed class Moving : NeighbourhoodRule
+        {
+            public Transform Target { get; set; }
+
+            protected override void FindNeighbours(NeighbourCollector neighbours)
+            {
+                neighbours.Add(neighbours.Nodes[1]);
+                if (transform.parent != Target) transform.SetParent(Target, false);
             }
         }
 

@@ -58,14 +58,16 @@ namespace Collektive.Unity
         {
             if (IsSearch) return;
             var neighbours = tick.Neighbours;
+            var centre = Node;
             if (!isOwn) tick.Queries.Finish();
             Prepare(tick);
             neighbours.Begin(Node);
             try
             {
                 FindNeighbours(neighbours);
-                // The call may have removed the rule or its node, together with the links.
-                if (IsAttached && Node.Id >= 0) tick.Links.Take(NumberIn(tick.Links), Node.Id, neighbours.All, lengthTolerance, !directed);
+                // The call may have removed the rule or its node, together with the links, or moved the rule to another node.
+                if (IsAttached && ReferenceEquals(Node, centre) && Node.Id >= 0)
+                    tick.Links.Take(NumberIn(tick.Links), Node.Id, neighbours.All, lengthTolerance, !directed);
             }
             finally
             {

@@ -35,14 +35,15 @@ namespace Collektive.Unity
             var source = part.GetType().Name;
             node.LastError = error.Message;
             Count++;
-            // The component may have removed its node. The error is then counted for NodeErrors.DepartedNodes.
+            // The component may have removed or destroyed its node. The error is then counted for NodeErrors.DepartedNodes.
             PlaceOf(source, node.Id).Add(1, tick, error.Message);
             if (repeated.IsFirst(KeyOf(source, error), "calls of " + source + " failed in the same way", node.Id, error.GetType() + ": " + error.Message))
             {
-                var message = source + " of node " + node.Id + " ('" + node.name + "') failed at tick " + tick + ": " + error.Message;
+                var name = node == null ? "destroyed" : node.name;
+                var message = source + " of node " + node.Id + " ('" + name + "') failed at tick " + tick + ": " + error.Message;
                 Debug.LogException(new InvalidOperationException(message, error), part);
             }
-            if (!part.HasFailedTooOften()) return;
+            if (part == null || !part.HasFailedTooOften()) return;
             var disabled = source + " on '" + part.name + "' failed " + NodePart.MaxFailuresInRow + " times in a row and is disabled";
             if (repeated.IsFirst("disabled " + source, "components " + source + " were disabled for the same reason", node.Id, disabled))
                 Debug.LogError(disabled + ": fix the component, then enable it again", part);
