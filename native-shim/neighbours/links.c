@@ -145,6 +145,8 @@ bool links_release(struct links *links, reference link) {
 }
 
 bool links_hold(struct links *links, const clk_link *link) {
+    /* A new pair has at most the index `used`. */
+    if (!reserve(&links->scripts, &links->script_capacity, 2 * ((int64_t)links->used + 1), sizeof *links->scripts)) return false;
     int32_t index = find(links, link->from, link->to);
     bool is_new = index == NONE || !direction_of(links, index, link->from, link->to)->by_script;
     if (is_new) {
@@ -152,7 +154,6 @@ bool links_hold(struct links *links, const clk_link *link) {
         if (added < 0) return false;
         index = added >> 2;
     }
-    if (!reserve(&links->scripts, &links->script_capacity, 2 * (int64_t)index + 2, sizeof *links->scripts)) return false;
     links->scripts[2 * index + (link->from > link->to)] = (struct script){link->length, link->attenuation};
     clk_direction *direction = direction_of(links, index, link->from, link->to);
     direction->by_script = 1;
