@@ -58,6 +58,10 @@ MORE_STATE = [
     ("lamps += Kept.Next();", "internal static class Kept { internal static readonly System.Func<int> Next = "
      "((System.Func<System.Func<int>>)(() => { var count = 0; return () => count++; }))(); }"),
     ("lamps += Kept.List.Count; Kept.List.Add(1);", "internal static class Kept { public static readonly List<int> List = new List<int>(); }"),
+    ("lamps += Kept.Next();", "internal struct Counter { private int count; internal int Next() => count++; }"
+     "internal static class Kept { internal static readonly System.Func<int> Next = new Counter().Next; }"),
+    ("lamps += (int)Kept.Network.delay++;", "internal static class Kept { "
+     "internal static readonly Collektive.Bridge.NetworkModel Network = new Collektive.Bridge.NetworkModel(); }"),
     ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
     ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var material = cube.GetComponent<MeshRenderer>().sharedMaterial;'
      'if (material.color == Color.red) lamps++; material.color = Color.red;', ""),

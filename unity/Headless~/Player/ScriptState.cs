@@ -35,6 +35,7 @@ namespace Collektive.Headless
                 {
                     if (field.IsLiteral || IsLambda(field)) continue;
                     var value = field.GetValue(null);
+                    if (value is Delegate method && HasTarget(method)) Problem = type.FullName + "." + field.Name;
                     before.Add(new KeyValuePair<FieldInfo, object>(field, value is Array array ? array.Clone() : value));
                 }
             }
@@ -65,8 +66,13 @@ namespace Collektive.Headless
             return true;
         }
 
-        /// <summary>Returns whether a type is a delegate or belongs to the bridge, like the generated code of a schema.</summary>
-        private static bool IsWithoutState(Type type) => typeof(Delegate).IsAssignableFrom(type) || type.Assembly == typeof(DataSchema).Assembly;
+        /// <summary>Returns whether a type is a delegate or used by the generated code of a schema.</summary>
+        private static bool IsWithoutState(Type type) =>
+            typeof(Delegate).IsAssignableFrom(type) || type == typeof(RowLayout) || type == typeof(TableShape);
+
+        /// <summary>Returns whether a delegate contains an object that could change, such as a boxed struct.</summary>
+        private static bool HasTarget(Delegate method) =>
+            Array.Exists(method.GetInvocationList(), one => one.Target != null && !ScriptReferences.IsStateless(one.Target.GetType()));
 
         private static bool IsValueData(Type type)
         {
