@@ -138,7 +138,6 @@ internal class NameRules(
             listOf(
                 "${member}Length",
                 "${member}Vector",
-                "${member}ByKey",
                 "Create${member}Vector",
                 "Create${member}VectorBlock",
                 "Start${member}Vector",

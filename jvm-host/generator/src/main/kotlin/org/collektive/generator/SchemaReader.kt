@@ -63,6 +63,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         )
         checkRoots(user)
         checkVisible()
+        checkKeys()
         checkExtent(user)
         val generatedTypes = (user.structs + user.tables - user.roots.toSet()).map { "${it.name}Value" } + user.name.toString()
         NameRules(schema, { plain(it) in files }) { name, what -> throw error(what, name) }.check(generatedTypes)
@@ -248,6 +249,16 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
         for (enum in (0 until schema.enumsLength()).map(schema::enums)) {
             if (enum.attributesByKey("private") != null) throw error("private types are not supported; remove the attribute", enum.name())
+        }
+    }
+
+    /** Rejects key fields, because lists are not sorted, and flatc's functions that search for a key would not find all elements. */
+    private fun checkKeys() {
+        for (type in objects().map { it.second }) {
+            for (field in (0 until type.fieldsLength()).map(type::fields)) {
+                if (!field.key()) continue
+                throw error("key is not supported, because lists are not sorted; remove it", "${type.name()}.${field.name()}")
+            }
         }
     }
 

@@ -93,6 +93,10 @@ internal class RefusalTest {
             "user.fbs:1: Odd: force_align is not supported; remove it",
             refusal(user("struct Odd (force_align: 16) { x: float; }", "odd: Odd;")),
         )
+        assertEquals(
+            "user.fbs:1: Item.id: key is not supported, because lists are not sorted; remove it",
+            refusal(user("table Item { id: uint (key); }", "items: [Item];")),
+        )
     }
 
     @Test
