@@ -194,9 +194,16 @@ internal class Kotlin(private val schema: UserSchema) {
     }
 
     private fun addScalar(field: Field, type: Scalar, value: String): String {
-        if (!field.optional) return "builder.${adder(type)}(${field.id}, ${built(type, value)}, ${builtDefault(type, field.default)})"
-        // A value that is present is always written, even if it equals the default.
-        return "$value?.let { builder.${adder(type)}(${built(type, "it")}); builder.slot(${field.id}) }"
+        val write = "builder.${adder(type)}(${built(type, if (field.optional) "it" else value)}); builder.slot(${field.id})"
+        return when {
+            // A value that is present is always written, even if it equals the default.
+            field.optional -> "$value?.let { $write }"
+
+            // -0.0 is equal to 0.0, so the builder would not write it.
+            type.real && field.default.real == 0.0 -> "if ($value.toRawBits() != ${if (type == Scalar.FLOAT) "0" else "0L"}) { $write }"
+
+            else -> "builder.${adder(type)}(${field.id}, ${built(type, value)}, ${builtDefault(type, field.default)})"
+        }
     }
 
     private fun adder(type: Scalar) = "add" + when (type) {

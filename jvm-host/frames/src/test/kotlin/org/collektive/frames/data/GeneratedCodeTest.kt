@@ -76,19 +76,30 @@ internal class GeneratedCodeTest {
     @Test
     fun `flatc reads the written results, for structs and for tables`() {
         for (schema in listOf(GeneratedSchemas.features, GeneratedSchemas.blocks)) {
-            repeat(200) {
-                val results = Array<Any?>(random.nextInt(5)) { Objects.randomResult(schema, random) }
-                val builder = FlatBufferBuilder(64)
-                val table = schema.actuatorWriter().writeAll(builder, results)
-                builder.finish(table)
-                val bytes = builder.sizedByteArray()
-                val reader = schema.actuatorReader()
-                reader.attach(ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN), bytes.size - table)
-                reader.check()
-                val read = List(reader.size) { GeneratedSchemas.unpacked(schema, schema.actuatorType.name, reader.frame, reader.place(it)) }
-                assertEquals(results.map(Objects::dump), read.map(Objects::dump))
-            }
+            repeat(200) { assertWritten(schema, Array(random.nextInt(5)) { Objects.randomResult(schema, random) }) }
         }
+    }
+
+    @Test
+    fun `negative zero is written although it is equal to the default`() {
+        val schema = GeneratedSchemas.of(
+            "namespace test.zero; table SensorData { x: int; } table ActuatorData { x: double; y: float; z: float = 1; }",
+            "test.zero.UserSchema",
+        )
+        val real = Float::class.java
+        assertWritten(schema, arrayOf(schema.actuatorType.getConstructor(Double::class.java, real, real).newInstance(-0.0, -0f, -0f)))
+    }
+
+    private fun assertWritten(schema: DataSchema, results: Array<Any?>) {
+        val builder = FlatBufferBuilder(64)
+        val table = schema.actuatorWriter().writeAll(builder, results)
+        builder.finish(table)
+        val bytes = builder.sizedByteArray()
+        val reader = schema.actuatorReader()
+        reader.attach(ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN), bytes.size - table)
+        reader.check()
+        val read = List(reader.size) { GeneratedSchemas.unpacked(schema, schema.actuatorType.name, reader.frame, reader.place(it)) }
+        assertEquals(results.map(Objects::dump), read.map(Objects::dump))
     }
 
     @Test
