@@ -227,13 +227,23 @@ namespace Collektive.Bridge
             return "";
         }
 
-        /// <summary>Returns the end of a jar, with the checksums of its classes. The JVM compares only size and time of a jar with an archive.</summary>
+        /// <summary>
+        /// Returns the end of a jar, with the checksums of its classes, or an empty string if it cannot be read, which the start of the JVM reports. The JVM
+        /// compares only size and time of a jar with an archive.
+        /// </summary>
         private static string EndOf(FileInfo jar)
         {
-            using (var reader = new BinaryReader(jar.Open(FileMode.Open, FileAccess.Read, FileShare.ReadWrite | FileShare.Delete)))
+            try
             {
-                reader.BaseStream.Position = Math.Max(0, jar.Length - MaxJarDirectoryBytes);
-                return Convert.ToBase64String(reader.ReadBytes(MaxJarDirectoryBytes));
+                using (var reader = new BinaryReader(jar.Open(FileMode.Open, FileAccess.Read, FileShare.ReadWrite | FileShare.Delete)))
+                {
+                    reader.BaseStream.Position = Math.Max(0, jar.Length - MaxJarDirectoryBytes);
+                    return Convert.ToBase64String(reader.ReadBytes(MaxJarDirectoryBytes));
+                }
+            }
+            catch (Exception error) when (error is IOException || error is UnauthorizedAccessException)
+            {
+                return "";
             }
         }
 
