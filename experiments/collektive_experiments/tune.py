@@ -141,7 +141,10 @@ def _value(store: Store, run: Run, metric: str) -> float:
     if metric in manifest["end"]:
         value = float(manifest["end"][metric])
         return value if math.isfinite(value) else math.nan
-    time = manifest["converged"].get(metric.removeprefix(CONVERGED))
+    name = metric.removeprefix(CONVERGED)
+    if name == metric or name not in manifest["converged"]:
+        return math.nan
+    time = manifest["converged"][name]
     return float(manifest["scenario"]["seconds"] if time is None else time)
 
 

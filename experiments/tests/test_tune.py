@@ -18,6 +18,7 @@ from collektive_experiments import search as searching
 from collektive_experiments import tune as tuning
 from collektive_experiments.search import check_search, read_search
 from collektive_experiments.store import Store
+from collektive_experiments.worker import Outcome
 
 TUNE: dict[str, Any] = {"metric": "agreeing", "direction": "maximize", "trials": 3,
                         "parameters": {"fields.lamps": {"from": 3, "to": 6}, "network.loss": [0, 0.5]}}
@@ -81,6 +82,21 @@ def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
     damaged = tune(project, "--resume", "--trials", "2", out=out)
     assert (damaged.returncode, damaged.stderr.count("\n")) == (1, 1), damaged.stderr
     assert f"'{storage}' cannot be read or written: database disk image is malformed" in damaged.stderr
+
+
+@pytest.mark.parametrize(("metric", "value"), [("two", 2), ("odd", math.nan), ("converged.two", 0.5), ("converged.three", 9), ("one", math.nan),
+                                               ("converged.one", math.nan)])
+def test_only_the_duration_of_runs_that_do_not_converge_replaces_a_value(project: Project, metric: str, value: float) -> None:
+    run = next(read(project.experiment()).runs())
+    store = Store(str(project.folder / "out"))
+    part = store.runs + "/" + run.name + ".part"
+    os.makedirs(part)
+    manifest = {"end": {"two": 2, "odd": "Infinity"}, "converged": {"two": 0.5, "three": None}, "scenario": {"seconds": 9}}
+    for name, content in (("manifest.json", json.dumps(manifest)), ("metrics.csv", ""), (".collektive-sweep", "")):
+        with open(f"{part}/{name}", "w") as file:
+            file.write(content)
+    store.finish(run, Outcome("complete"), 1)
+    assert tuning._value(store, run, metric) == pytest.approx(value, nan_ok=True)
 
 
 def test_a_search_with_other_runs_is_another_search(project: Project) -> None:
