@@ -5,6 +5,8 @@ import re
 from dataclasses import dataclass, field, replace
 
 import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 
 from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
@@ -83,8 +85,13 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
 
 
 def _read(folder: str, name: str) -> pd.DataFrame:
+    path = os.path.join(folder, f"{name}.parquet")
     try:
-        return pd.read_parquet(os.path.join(folder, f"{name}.parquet"))
+        if name != "nodes":
+            return pd.read_parquet(path)
+        # By default, pandas reads whole numbers as floats if a cell is empty, which rounds numbers beyond 2^53.
+        table: pd.DataFrame = pq.read_table(path).to_pandas(types_mapper={pa.int64(): pd.Int64Dtype(), pa.uint64(): pd.UInt64Dtype()}.get)
+        return table
     except (OSError, ValueError) as error:
         raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): write the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
                               "--resume") from error

@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options
@@ -238,6 +240,16 @@ def test_panels_without_runs_of_a_value_have_the_same_labels_as_the_others(tmp_p
 
 def test_units_belong_to_metrics_although_the_settings_are_newer_than_the_tables(tmp_path: Path) -> None:
     assert load(write_sweep(tmp_path / "out", 1, measure={"time": "s", "error": "m"})).units == {"error": "m"}
+
+
+def test_whole_numbers_of_nodes_keep_their_digits_beside_empty_cells(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 1)
+    big = pa.array([None, (1 << 53) + 1])
+    pq.write_table(pa.table({"run": ["a", "a"], "signed": big, "unsigned": big.cast(pa.uint64()), "share": [None, 0.5]}), f"{folder}/nodes.parquet")
+    nodes = load(folder).nodes
+    assert nodes is not None
+    assert [str(nodes[name][1]) for name in ("signed", "unsigned", "share")] == ["9007199254740993", "9007199254740993", "0.5"]
+    assert nodes.isna().sum().tolist() == [0, 1, 1, 1]
 
 
 def test_numbers_on_axes_and_in_cells_are_not_rounded_to_fewer_digits(tmp_path: Path) -> None:
