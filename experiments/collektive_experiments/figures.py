@@ -164,7 +164,8 @@ def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) 
             raise fail("size", f"leaves too little space for labels: {figure.get_figwidth():g}x{figure.get_figheight():g}; enlarge it, or set shorter labels")
     for message in dict.fromkeys(str(warning.message) for warning in found):
         print(f"collektive: {message}", file=sys.stderr)
-    return Drawing(caption, svg.getvalue(), pdf.getvalue())
+    # XML cannot contain these characters of values, even in an escaped form.
+    return Drawing(caption, re.sub("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", "\ufffd", svg.getvalue().decode()).encode(), pdf.getvalue())
 
 
 def _fits(figure: Figure) -> bool:

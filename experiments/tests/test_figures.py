@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 import numpy as np
 import pandas as pd
@@ -270,6 +271,15 @@ def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(t
         options = {"metric": "error", "by": "program", **{option[2:]: value for option, value in zip(kind[::2], kind[1::2])}}
         (_, figure, _), *_ = draw(load(folder), read_options(options))
         assert [entry.get_text() for legend in figure.legends for entry in legend.get_texts()] == ["_under", ""] * (options.get("kind") != "heat")
+
+
+def test_figures_with_control_characters_in_values_are_well_formed(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 1, (0.0,))
+    for name in ("runs", "series"):
+        table = pd.read_parquet(f"{folder}/{name}.parquet")
+        table.assign(program=table["program"].replace({"path-vector": "a\x01b", "bellman-ford": "c\ufffe"})).to_parquet(f"{folder}/{name}.parquet")
+    svg, *_ = plot(folder, options=read_options({"metric": "error", "by": "program"}))
+    assert {"a\ufffdb", "c\ufffd"} <= {element.text for element in ElementTree.parse(svg).iter()}
 
 
 def test_keys_of_one_zip_share_a_panel(tmp_path: Path) -> None:
