@@ -224,7 +224,7 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
             with matplotlib.rc_context(STYLE), matplotlib.rc_context(STYLES[options.style]):
                 figure = Figure(figsize=options.size, layout="constrained")
                 caption = _draw(figure, results, part, metric, options)
-            yield file_name(metric + ending, names), figure, caption + (f" {_title(results, values, others)}." if others else "")
+            yield file_name(metric + ending, names), figure, caption + _omitted(results, others, values) + (f" {_title(results, values, others)}." if others else "")
 
 
 def _other_keys(results: Results, shown: list[str]) -> list[str]:
@@ -424,6 +424,14 @@ def _caption(results: Results, data: pd.DataFrame, metric: str, kind: str, x: st
     return caption + (f" {missing} runs without a value are omitted." if missing else "")
 
 
+def _omitted(results: Results, keys: Sequence[str] = (), values: Sequence[Any] = ()) -> str:
+    """Returns the sentence of a caption about the incomplete runs with these values of keys, or an empty string."""
+    runs = results.runs[results.runs["status"] != "complete"]
+    for key, value in zip(keys, values):
+        runs = runs[runs[key] == value]
+    return f" Omitted incomplete runs: {len(runs)}." if len(runs) else ""
+
+
 def _line_style(index: int) -> dict[str, Any]:
     """Returns the colour, dashes and marker of a line."""
     return {"color": COLOURS[index % len(COLOURS)], "linestyle": LINES[index % len(LINES)], "marker": MARKERS[index % len(MARKERS)]}
@@ -438,7 +446,7 @@ def over_time(results: Results, metric: str) -> tuple[Figure, str]:
         counts |= _line_over_time(axes, results, group, metric, colour)
         axes.set_xlabel("simulated time [s]")
     _finish(figure, panels, results, metric, colour)
-    return figure, _caption(results, results.series, metric, "line", TIME, counts)
+    return figure, _caption(results, results.series, metric, "line", TIME, counts) + _omitted(results)
 
 
 @matplotlib.rc_context(STYLE)
@@ -449,7 +457,7 @@ def at_end(results: Results, metric: str) -> tuple[Figure, str]:
     for axes, group in zip(panels, groups):
         counts |= _boxes(axes, results, group, metric, colour, None)
     _finish(figure, panels, results, metric, None)
-    return figure, _caption(results, results.complete, metric, "box", colour, counts)
+    return figure, _caption(results, results.complete, metric, "box", colour, counts) + _omitted(results)
 
 
 def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame]]:

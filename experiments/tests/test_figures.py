@@ -232,8 +232,11 @@ def test_panels_without_runs_of_a_value_have_the_same_labels_as_the_others(tmp_p
         is_failed = (table["program"] == "path-vector") & (table["network.loss"] == 0)
         table = table[~is_failed] if name == "series" else table.assign(status=np.where(is_failed, "failed", "complete"))
         table.to_parquet(f"{folder}/{name}.parquet")
-    (figure, _), (lines, _) = (draw_panels(load(folder), "error") for draw_panels in (at_end, over_time))
+    (figure, panel_caption), (lines, _) = (draw_panels(load(folder), "error") for draw_panels in (at_end, over_time))
     assert [[tick.get_text() for tick in axes.get_xticklabels()] for axes in figure.axes] == [["path-vector", "bellman-ford"]] * 2
+    assert "Omitted incomplete runs: 2." in panel_caption
+    captions = [caption for _, _, caption in draw(load(folder), read_options({"metric": "error", "by": "program"}))]
+    assert {caption.split("loss ")[1]: "Omitted incomplete runs: 2. " in caption for caption in captions} == {"0.": True, "0.4.": False}
     boxes = [{round(float(np.mean(curve.get_xdata()))) for curve in axes.get_lines() if curve.get_marker() == "o"} for axes in figure.axes]
     assert boxes == [{0, 1}, {1}]
     assert [entry.get_text() for entry in lines.legends[0].get_texts()] == ["path-vector", "bellman-ford"]
