@@ -223,8 +223,8 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
         for (values, part), ending in zip(combinations, endings):
             with matplotlib.rc_context(STYLE), matplotlib.rc_context(STYLES[options.style]):
                 figure = Figure(figsize=options.size, layout="constrained")
-                caption = _draw(figure, results, part, metric, options)
-            yield file_name(metric + ending, names), figure, caption + _omitted(results, others, values) + (f" {_title(results, values, others)}." if others else "")
+                caption = _draw(figure, results, part, metric, options) + _omitted(results, others, values)
+            yield file_name(metric + ending, names), figure, caption + (f" {_title(results, values, others)}." if others else "")
 
 
 def _other_keys(results: Results, shown: list[str]) -> list[str]:
