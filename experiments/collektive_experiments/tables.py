@@ -129,8 +129,11 @@ class _Columns:
         self.rows: dict[str, int] = {}
         self._ends: dict[str, float] = {}
         node_columns: dict[str, str] = {}
+        self._seed: int | None = None
         for run, _ in self.records():
             manifest = self._manifest(run)
+            # A seed that does not vary is also the seed of runs that ended before they wrote a manifest.
+            self._seed = manifest.get("scenario", {}).get("seed", self._seed)
             metrics.update(dict.fromkeys(manifest.get("end", {})))
             converged.update(dict.fromkeys(manifest.get("converged", {})))
             node_columns.update(manifest.get("node_columns", {}))
@@ -159,8 +162,7 @@ class _Columns:
 
     def values(self, run: Run) -> dict[str, Any]:
         """Returns the parameters of a run. These always include the seed."""
-        seed = self._manifest(run).get("scenario", {}).get("seed")
-        found = {"seed": seed, **run.values}
+        found = {"seed": self._seed, **run.values}
         return {key: _value(found.get(key), kind) for key, kind in self.parameters}
 
     def results(self, run: Run, record: Record) -> dict[str, Any]:

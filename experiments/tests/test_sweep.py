@@ -237,12 +237,13 @@ def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(proje
         'if (fate == 1) throw new System.InvalidOperationException("no luck");\n'
         '            if (fate == 2) System.Diagnostics.Process.GetCurrentProcess().Kill();\n'
         '            while (fate == 3) System.Threading.Thread.Sleep(10);\n            for (var i = 0; i < lamps; i++)\n', 1))
-    keys = {"vary": {"fields.fate": "0-4"}}
+    keys = {"vary": {"fields.fate": "0-4"}, "set": {"seed": (1 << 53) + 1}}
     result = project.sweep("--time-limit", "8", **keys)
     assert result.returncode == 1
     assert "3 of 5 runs are not complete" in result.stderr
     runs = project.table().set_index("fields.fate")
     assert list(runs["status"]) == ["complete", "failed", "crashed", "timeout", "complete"]
+    assert list(map(str, runs["seed"])) == ["9007199254740993"] * 5
     assert "no luck" in runs.loc[1, "message"]
     assert "SIGKILL" in runs.loc[2, "message"]
     assert runs.loc[0, "digest"] == runs.loc[4, "digest"]
