@@ -58,10 +58,10 @@ collektive_step(flatbuffers_code OUTPUT "${GENERATED}/flatbuffers.stamp"
 # Generated C# of frames and value types.
 collektive_step(bridge_code OUTPUT "${GENERATED}/bridge.stamp"
   COMMAND "${CMAKE_COMMAND}" -E rm -rf "${GENERATED}/bridge"
-  AND flatc --csharp -o "${GENERATED}/bridge" "${PROJECT_SOURCE_DIR}/schema/types.fbs" "${PROJECT_SOURCE_DIR}/schema/frame.fbs"
+  AND "${COLLEKTIVE_FLATC}" --csharp -o "${GENERATED}/bridge" "${PROJECT_SOURCE_DIR}/schema/types.fbs" "${PROJECT_SOURCE_DIR}/schema/frame.fbs"
   AND ${rename_flatbuffers} "${GENERATED}/bridge"
   AND "${CMAKE_COMMAND}" -E touch "${GENERATED}/bridge.stamp"
-  DEPENDS flatc scripts/build/rename_flatbuffers.py schema/types.fbs schema/frame.fbs)
+  DEPENDS "${COLLEKTIVE_FLATC}" scripts/build/rename_flatbuffers.py schema/types.fbs schema/frame.fbs)
 
 library("${ROSLYN}/Newtonsoft.Json.dll")
 # Part of Mono, but not on CoreCLR.
@@ -90,7 +90,7 @@ function(generated_code TARGET FOLDER)
     list(APPEND commands AND ${generator} --schema "${schema}" --csharp "${FOLDER}/${name}")
   endforeach()
   collektive_step(${TARGET} OUTPUT "${FOLDER}.stamp" COMMAND "${CMAKE_COMMAND}" -E rm -rf "${FOLDER}" ${commands}
-    AND "${CMAKE_COMMAND}" -E touch "${FOLDER}.stamp" DEPENDS flatc "${GENERATOR_JAR}" ${ARGN} FOLDERS "${PROJECT_SOURCE_DIR}/schema")
+    AND "${CMAKE_COMMAND}" -E touch "${FOLDER}.stamp" DEPENDS "${COLLEKTIVE_FLATC}" "${GENERATOR_JAR}" ${ARGN} FOLDERS "${PROJECT_SOURCE_DIR}/schema")
 endfunction()
 
 file(GLOB samples "${UNITY}/Samples~/*/*.fbs")

@@ -13,7 +13,7 @@ function(jvm_step TARGET COMMENT)
   set(stamp "${COLLEKTIVE_BUILD}/stamp/${TARGET}")
   collektive_step(${TARGET} OUTPUT "${stamp}" COMMAND ${maven} "${stamp}" ${J_WORDS} COMMENT "${COMMENT}" TERMINAL
     BYPRODUCTS ${J_BYPRODUCTS}
-    DEPENDS flatc "${COLLEKTIVE_BUILD}/stamp/flatbuffers" scripts/build/maven.py "${JVM}/pom.xml" ${poms}
+    DEPENDS "${COLLEKTIVE_FLATC}" "${COLLEKTIVE_BUILD}/stamp/flatbuffers" scripts/build/maven.py "${JVM}/pom.xml" ${poms}
     FOLDERS ${mains} ${J_FOLDERS} "${PROJECT_SOURCE_DIR}/schema" ${schemas})
 endfunction()
 

@@ -1,17 +1,4 @@
-# flatc, the shim with its tests, and the physics and SQLite of the headless player.
-set(COLLEKTIVE_FLATBUFFERS "${COLLEKTIVE_BUILD}/flatbuffers")
-set(FLATBUFFERS_BUILD_TESTS OFF)
-set(FLATBUFFERS_BUILD_FLATLIB OFF)
-set(FLATBUFFERS_BUILD_FLATHASH OFF)
-set(FLATBUFFERS_INSTALL OFF)
-block()
-  # flatc runs for milliseconds, so a fast build matters more than fast code.
-  set(CMAKE_CXX_FLAGS_RELWITHDEBINFO "-O0")
-  add_subdirectory("${COLLEKTIVE_FLATBUFFERS}" flatbuffers EXCLUDE_FROM_ALL)
-endblock()
-set(COLLEKTIVE_FLATC "${COLLEKTIVE_BUILD}/flatc")
-set_target_properties(flatc PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${COLLEKTIVE_BUILD}")
-
+# The shim with its tests, and the physics and SQLite of the headless player.
 add_subdirectory(native-shim)
 
 set(COLLEKTIVE_PHYSX "${COLLEKTIVE_BUILD}/physx")

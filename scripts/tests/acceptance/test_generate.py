@@ -7,7 +7,7 @@ import sys
 import pytest
 from command import SAMPLE, Folder, collektive
 
-from build.places import BUILD, ROOT
+from build.places import BUILD, FLATC, ROOT
 
 
 class Generated(Folder):
@@ -17,9 +17,8 @@ class Generated(Folder):
             generated = self.path(os.path.basename(schema))
             self.assertEqual(collektive("generate", schema, "--csharp", generated).returncode, 0)
             self.same(generated, os.path.join(BUILD, "generated/samples", os.path.basename(os.path.dirname(schema))))
-        flatc = os.path.join(BUILD, "flatc")
         schemas = [os.path.join(ROOT, "schema", name) for name in ["frame.fbs", "types.fbs"]]
-        subprocess.run([flatc, "--csharp", "-o", self.path("core"), *schemas], check=True)
+        subprocess.run([FLATC, "--csharp", "-o", self.path("core"), *schemas], check=True)
         subprocess.run([sys.executable, os.path.join(ROOT, "scripts/build/rename_flatbuffers.py"), self.path("core")], check=True)
         self.same(self.path("core"), os.path.join(BUILD, "generated/bridge"))
 

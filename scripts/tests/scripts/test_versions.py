@@ -77,7 +77,7 @@ def test_the_list_of_third_parties_names_the_versions_that_are_fetched() -> None
         for name, expected in json.loads(text(f"tools/{tools}/package.json"))["dependencies"].items():
             assert third_party(name) == expected, name
     experiments = [f"experiments/requirements{part}.txt" for part in ("", "-ray", "-test")]
-    for path in ["tools/python/requirements.txt", "tools/site/requirements.txt", "tools/live/requirements.txt", *experiments]:
+    for path in ["tools/python/requirements.txt", "tools/flatc/requirements.txt", "tools/site/requirements.txt", "tools/live/requirements.txt", *experiments]:
         for name, expected in re.findall(r"(?m)^(\S+)==(\S+) --hash=sha256:", text(path)):
             assert third_party(name) == expected, name
     assert third_party("actionlint") == fetch.ACTIONLINT

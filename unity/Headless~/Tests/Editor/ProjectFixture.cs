@@ -38,7 +38,7 @@ namespace Collektive.Headless.Tests.Editor
             Project.CancelsWaiting = false;
             Menus.Load();
             Copy("schema/types.fbs", "Tools~/types.fbs");
-            Copy("build/flatc", "Tools~/linux-x64/flatc");
+            Copy("build/flatc-linux-x64/flatc", "Tools~/linux-x64/flatc");
             Copy("jvm-host/generator/target/collektive-generator.jar", "Tools~/collektive-generator.jar");
             Copy("jvm-host/compiler-plugin/target/compiler-plugin-0.2.0.jar", "Tools~/collektive-compiler-plugin.jar");
             Copy("jvm-host/stdlib/src/main/kotlin/org/collektive/links/Links.kt", "Tools~/Links.kt");
