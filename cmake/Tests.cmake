@@ -27,10 +27,11 @@ add_custom_target(roundtrip DEPENDS TestSchemas.dll RoundTrip.exe)
 suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go setup:prose PYTEST "${SCRIPTS}/checks/test_lint.py" -n 2)
 suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts" "--ignore=${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(maven scripts LABELS extra NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
-suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 PARALLEL SCRIPT jvm.py RESULTS)
+suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 PARALLEL SCRIPT jvm.py RESULTS -DexcludedGroups=repeats)
+suite(jvm-repeats jvm LABELS extra NEEDS build:jvm_tests SCRIPT jvm.py RESULTS -Dgroups=repeats)
 # Most of these JVMs run too briefly for the second compiler.
 suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests
-  SCRIPT jvm.py RESULTS -DexcludedGroups=slow "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
+  SCRIPT jvm.py RESULTS -DexcludedGroups=slow,repeats "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
 # Takes under a minute on two idle processors, with the server compiler only, one fork and about 100,000 attempts of each race. Pool threads must
 # not inherit the processor to which jcstress pins an actor.
 suite(stress stress LABELS all NEEDS build:jvm_modules

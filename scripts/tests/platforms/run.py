@@ -19,7 +19,7 @@ EXCLUDED = "slow|repeats"
 # emulated program from another one. It also does not report why a program cannot be executed, and does not limit the memory of a program.
 NOT_EMULATED = "^own_([^o]|o[^w]|own_(ends_with_its_parent|with_a_bad_launcher|out_of_memory))"
 # The tests of memory order, signals, calls and floating-point numbers.
-SHORT = ["-R", "neighbours_|echo_of_random_data|exceptions|implicit_null_checks|signal_handlers|callers_take_turns|answers_grow|reports_its_death"]
+SHORT = ["-R", "neighbours_|echo_of_random_data|exceptions|implicit_null_checks|signal_handlers|callers_take_turns"]
 
 
 def run(results: Path, names: list[str], selection: list[str]) -> int:

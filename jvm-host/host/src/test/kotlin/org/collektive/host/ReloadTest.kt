@@ -4,6 +4,7 @@ import org.collektive.frame.ReloadResponse
 import org.collektive.frame.StepResponse
 import org.collektive.host.shim.HostError
 import org.junit.jupiter.api.AfterEach
+import org.junit.jupiter.api.Tag
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import org.junit.jupiter.api.io.TempDir
@@ -263,6 +264,7 @@ class ReloadTest {
         assertEquals("3", text(session.ok(adding(4))))
     }
 
+    @Tag("repeats")
     @Test
     fun `classes of previous programs are unloaded`() {
         val jars = List(2) { jar("""return "$it " + count(aggregate, "kept");""") }

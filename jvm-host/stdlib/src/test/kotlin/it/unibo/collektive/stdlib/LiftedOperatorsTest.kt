@@ -25,7 +25,7 @@ import kotlin.test.fail
 
 /** Calls every lifted operator on random fields, and compares each entry with the result of Kotlin's own function. */
 class LiftedOperatorsTest {
-    @Tag("slow")
+    @Tag("repeats")
     @TestFactory
     fun `every function applies Kotlin's function to each entry`() = objects().map { name ->
         val lifted = Class.forName(name).kotlin

@@ -82,6 +82,7 @@ class CompileServerTest {
         assertTrue(server.waitFor(60, TimeUnit.SECONDS))
     }
 
+    @Tag("repeats")
     @Test
     fun `one jar is compiled by a command, and an error is its exit code`() {
         write("Hops.kt", "fun hops() = 1")
