@@ -163,6 +163,12 @@ class WholeRuns(Project):
                 self.change("scene/Lamps.cs", self.SCRIPT % f"Application.Quit({code});", "\n        protected override void Build(")
                 self.assertEqual(result.returncode, expected, result.stderr)
 
+    def test_a_recorded_run_can_end_before_its_first_tick(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
+        self.change("scene/Lamps.cs", "if (loop) ", "Application.Quit(3); if (loop) ")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 3, result.stderr)
+
     def fails_at_tick_4(self, code):
         """Runs a script that executes the code at tick 4. Checks that the run is incomplete, and returns its result with the messages."""
         result = self.at_tick_4(code)

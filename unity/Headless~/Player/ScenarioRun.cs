@@ -269,7 +269,9 @@ namespace Collektive.Headless
                 metrics.RequireInPlace();
                 nodes?.RequireInPlace();
                 var record = Path.Combine(options.Out, "run.clkrec");
-                if (scenario.Record && !File.Exists(record)) throw new IOException("'" + record + "' was moved or deleted during the run");
+                // The first tick creates the record.
+                if (scenario.Record && completedTicks > 0 && !File.Exists(record))
+                    throw new IOException("'" + record + "' was moved or deleted during the run");
                 if (manager.Simulation.IsOpen) metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
                 manifest.AddResults(
