@@ -7,6 +7,6 @@ namespace Collektive.Headless
     public static class RandomWalk
     {
         /// <summary>Creates the stream of a node. It depends only on the seed and the id, not on the rounds, in which sensors use Node.Random.</summary>
-        public static RandomStream StreamOf(Node node) => new RandomStream(SimulationManager.Current.Settings.seed, node.Id, RandomPurpose.Movement);
+        public static RandomStream StreamOf(Node node) => new RandomStream(SimulationManager.Current.Simulation.Seed, node.Id, RandomPurpose.Movement);
     }
 }
