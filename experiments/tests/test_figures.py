@@ -218,7 +218,8 @@ def test_a_key_that_depends_on_x_does_not_divide_figures(tmp_path: Path) -> None
     folder = write_sweep(tmp_path / "out", seeds=2)
     for name in ("runs", "series"):
         table = pd.read_parquet(f"{folder}/{name}.parquet")
-        table.assign(label=table["network.loss"].map(lambda loss: f"loss {loss}")).to_parquet(f"{folder}/{name}.parquet")
+        table.insert(1, "label", table["network.loss"].map(lambda loss: f"loss {loss}"))
+        table.to_parquet(f"{folder}/{name}.parquet")
     settings = json.loads((tmp_path / "out/sweep.json").read_text())
     (tmp_path / "out/sweep.json").write_text(json.dumps({**settings, "keys": ["program", "network.loss", "label", "seed"]}))
     options = read_options({"metric": "nodes", "x": "network.loss", "by": "program"})
