@@ -12,7 +12,7 @@ import org.junit.jupiter.api.Test
 import it.unibo.collektive.stdlib.spreading.hopDistanceTo
 import kotlin.test.assertEquals
 
-class LampsTest {
+class Lamps {
     @Test
     fun `hops count links`() = TestNetwork().use { network ->
         network.add(0, 1)
