@@ -1,7 +1,8 @@
 """Runs Kotlin functions on random networks, on the built-in runtime and on Collektive, and prints the smallest run in which their answers differ.
 
 PROGRAM is a Kotlin file, or a folder of Kotlin. Its public top-level functions with the receiver Aggregate<Int>, and with no parameter or a Device,
-are compared. Networks are lines, grids and random geometric graphs, some with nodes that move, leave and join, and some that lose messages.
+are compared. Decimal numbers that differ by at most a billionth of their size count as equal. Networks are lines, grids and random geometric graphs,
+some with nodes that move, leave and join, and some that lose messages.
 
 COLLEKTIVE_JARS names the folder of Collektive's jars; its compiler plugin is in or beside that folder. Without COLLEKTIVE_JARS, the built-in
 runtime is compared with its own implementation of Collektive's public API, which passes messages through mailboxes.
@@ -67,7 +68,7 @@ class RuntimeProcess:
         path = ":".join(str(jar) for jar in [HOST_JAR, TESTING_JAR, *jars, programs])
         command: list[str | Path] = [find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", path]
         command += ["org.collektive.testing.ComparedRunsKt", programs, runtime]
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")
         self.functions = self._lines()
 
     def __enter__(self) -> "RuntimeProcess":
@@ -80,7 +81,7 @@ class RuntimeProcess:
     def answers(self, function: str, run: Run) -> list[str]:
         """Runs the function on the networks of `run` and returns a line `TICK NODE ANSWER` for each round."""
         assert self._process.stdin is not None
-        self._process.stdin.write("".join(f"{line}\n" for line in [f"{function} {run.seed} {run.loss}", *run.ticks, ""]))
+        self._process.stdin.write("".join(f"{line}\n" for line in [f"{run.seed} {run.loss} {function}", *run.ticks, ""]))
         self._process.stdin.flush()
         return self._lines()
 

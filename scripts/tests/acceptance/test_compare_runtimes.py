@@ -61,6 +61,13 @@ class Compared(Folder):
         self.assertRegex(last, r"tick 3, node \d+: AggregateDevice on the built-in runtime, MailboxRound on the mailbox runtime")
         self.assertTrue(re.fullmatch(r"  tick 3: nodes (\d+) (\d+) (\d+); links \d+-\d+ \d+-\d+; rounds of \d+", ticks[2]), ticks[2])
 
+    def test_a_difference_in_a_text_is_found_in_any_locale(self) -> None:
+        function = 'fun Aggregate<Int>.`a text`(): String = "\\r\\r" + if ("Mailbox" in "$this") "ä" else "ö"'
+        with mock.patch.dict(os.environ, LC_ALL="C"):
+            result = self.compare(f'@file:JvmName("Renamed")\n{IMPORTS}{function}\n', "--runs", "1")
+        self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
+        self.assertIn(r"\r\rö on the built-in runtime, \r\rä on ", result.stdout)
+
     @pytest.mark.slow
     def test_files_without_functions_are_refused(self) -> None:
         result = self.compare(IMPORTS)

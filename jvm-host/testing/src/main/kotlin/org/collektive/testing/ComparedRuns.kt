@@ -3,6 +3,7 @@ package org.collektive.testing
 import it.unibo.collektive.aggregate.api.Aggregate
 import org.collektive.api.Device
 import java.io.File
+import java.io.PrintStream
 import java.lang.reflect.InvocationTargetException
 import java.lang.reflect.Method
 import java.lang.reflect.Modifier
@@ -12,12 +13,12 @@ import java.util.jar.JarFile
  * Runs the functions of a jar on networks for `./collektive compare-runtimes`. The arguments are the jar, which is also on the class path,
  * and the name of the runtime.
  *
- * Prints the names of the functions, one per line, and an empty line. Then reads requests from standard input: `FUNCTION SEED LOSS`, one
+ * Prints the names of the functions, one per line, and an empty line. Then reads requests from standard input: `SEED LOSS FUNCTION`, one
  * line `NODES|LINKS|DUE` per tick such as `0 1 2|0-1 1-2|0 2`, and an empty line. For each request, prints one line `TICK NODE RESULT` per
  * round, and an empty line.
  */
 internal fun main(arguments: Array<String>) {
-    val output = System.out
+    val output = PrintStream(System.out, false, Charsets.UTF_8)
     // Programs may write to standard output.
     System.setOut(System.err)
     val (jar, runtime) = arguments
@@ -27,7 +28,7 @@ internal fun main(arguments: Array<String>) {
     output.println()
     output.flush()
     while (true) {
-        val (name, seed, loss) = (readlnOrNull() ?: return).split(' ')
+        val (seed, loss, name) = (readlnOrNull() ?: return).split(' ', limit = 3)
         val function = functions.getValue(name).single()
         val ticks = generateSequence(::readlnOrNull).takeWhile { it.isNotEmpty() }.toList()
         TestNetwork(seed.toLong(), runtime = runtime, loss = loss.toDouble()).use { network ->
@@ -43,8 +44,10 @@ internal fun main(arguments: Array<String>) {
 /** Returns the public top-level functions in [jar] whose parameters are the aggregate and, optionally, the device. */
 private fun functions(jar: File): List<Method> {
     val names = JarFile(jar).use { file -> file.entries().toList().map { it.name } }
-    return names.filter { it.endsWith("Kt.class") && !it.startsWith("org/collektive/links/") }
-        .flatMap { Class.forName(it.removeSuffix(".class").replace('/', '.')).declaredMethods.toList() }
+    return names.filter { it.endsWith(".class") && !it.startsWith("org/collektive/links/") }
+        .map { Class.forName(it.removeSuffix(".class").replace('/', '.'), false, Device::class.java.classLoader) }
+        .filter { Modifier.isPublic(it.modifiers) }
+        .flatMap { it.declaredMethods.toList() }
         .filter { Modifier.isPublic(it.modifiers) && Modifier.isStatic(it.modifiers) && !it.isSynthetic }
         .filter { it.parameterTypes.sortedBy(Class<*>::getSimpleName) in SIGNATURES }
 }
@@ -68,5 +71,7 @@ private fun TestNetwork.run(tick: String, function: Method): Map<Int, Result<Any
     }
 }
 
-private fun text(result: Result<Any?>): String =
-    result.fold({ "$it" }, { "fails (${(it.cause ?: it).javaClass.simpleName})" }).replace("\\", "\\\\").replace("\n", "\\n")
+private fun text(result: Result<Any?>): String {
+    val text = result.fold({ "$it" }, { "fails (${(it.cause ?: it).javaClass.simpleName})" })
+    return text.replace("\\", "\\\\").replace("\n", "\\n").replace("\r", "\\r")
+}
