@@ -212,6 +212,14 @@ namespace Collektive.Headless
             }
         }
 
+        /// <summary>Returns a value as JSON whose numbers read back exactly.</summary>
+        internal static string Text(JToken value)
+        {
+            var text = new StringWriter(CultureInfo.InvariantCulture);
+            using (var writer = new ExactWriter(text)) value.WriteTo(writer);
+            return text.ToString();
+        }
+
         private static JsonTextReader Reader(string text) =>
             new JsonTextReader(new StringReader(text)) { DateParseHandling = DateParseHandling.None };
 
@@ -227,6 +235,24 @@ namespace Collektive.Headless
                 {
                     throw new ScenarioException(path + ":" + reader.LineNumber + ": the key '" + reader.Value + "' occurs twice");
                 }
+            }
+        }
+
+        private sealed class ExactWriter : JsonTextWriter
+        {
+            internal ExactWriter(TextWriter text)
+                : base(text)
+            {
+                Formatting = Formatting.Indented;
+            }
+
+            public override void WriteValue(double value)
+            {
+                var text = CsvText.Number(value);
+                // Mono parses some texts of 15 digits as a neighbouring number.
+                if (double.Parse(text, CultureInfo.InvariantCulture) != value) text = value.ToString("G17", CultureInfo.InvariantCulture);
+                if (double.IsNaN(value) || double.IsInfinity(value)) base.WriteValue(value);
+                else WriteRawValue(text.IndexOfAny(new[] { '.', 'E' }) < 0 ? text + ".0" : text);
             }
         }
     }

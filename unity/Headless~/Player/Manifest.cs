@@ -4,7 +4,6 @@ using System.IO;
 using System.Security.Cryptography;
 using Collektive.Bridge;
 using Collektive.Unity;
-using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 
 namespace Collektive.Headless
@@ -108,7 +107,7 @@ namespace Collektive.Headless
         /// <summary>Adds the milliseconds that were spent on recording frames and writing the replay page.</summary>
         internal void AddReplay(double milliseconds) => Root.Add("replay_ms", Math.Round(milliseconds));
 
-        internal void Write() => ResultFile.Write(path, file => file.Write(Root.ToString(Formatting.Indented) + "\n"));
+        internal void Write() => ResultFile.Write(path, file => file.Write(JsonFile.Text(Root) + "\n"));
 
         /// <summary>Writes the final manifest. All other files are on the disk before it, because it states whether they are complete.</summary>
         internal void WriteLast()

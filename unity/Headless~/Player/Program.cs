@@ -83,7 +83,7 @@ namespace Collektive.Headless
             : "the run ended with an unhandled exception: " + error;
 
         /// <summary>Prints the inputs of the scenario, and the content of its file with the assigned values, as JSON.</summary>
-        private static void Plan(Scenario scenario) => Console.WriteLine(new JObject(
+        private static void Plan(Scenario scenario) => Console.WriteLine(JsonFile.Text(new JObject(
             new JProperty("file", scenario.File.Root),
             new JProperty("scripts", scenario.Scripts),
             new JProperty("schema", scenario.Schema),
@@ -94,6 +94,6 @@ namespace Collektive.Headless
             new JProperty("runtimePlugin", scenario.RuntimePlugin),
             new JProperty("seed", scenario.Settings.seed.ToString()),
             new JProperty("replay", scenario.Replay),
-            new JProperty("pictures", scenario.Pictures)));
+            new JProperty("pictures", scenario.Pictures))));
     }
 }

@@ -226,7 +226,7 @@ namespace Collektive.Headless
 
         /// <summary>Returns the value of a parameter as the text that programs receive.</summary>
         private static string ProgramText(object value) =>
-            value is bool truth ? truth ? "true" : "false" : value is double number ? number.ToString("R", System.Globalization.CultureInfo.InvariantCulture)
+            value is bool truth ? truth ? "true" : "false" : value is double number ? CsvText.Number(number)
                 : System.Convert.ToString(value, System.Globalization.CultureInfo.InvariantCulture);
 
         private JObject ParametersToJson()

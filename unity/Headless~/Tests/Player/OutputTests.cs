@@ -161,7 +161,13 @@ namespace Collektive.Headless.Tests.Player
         [TestCase(0.1, "0.1")]
         [TestCase(7.8486013961250904, "7.8486013961250904")]
         [TestCase(0.36735725187107793, "0.36735725187107793")]
-        public void Numbers_are_written_exactly(double number, string text) => Assert.That(CsvText.Number(number), Is.EqualTo(text));
+        [TestCase(0.84551240822557006, "0.84551240822557006")]
+        [TestCase(0.59081342936996994, "0.59081342936997")]
+        public void Numbers_are_written_exactly(double number, string text)
+        {
+            Assert.That(CsvText.Number(number), Is.EqualTo(text));
+            Assert.That((double)JsonFile.Parse(JsonFile.Text(new JValue(number))), Is.EqualTo(number));
+        }
 
         [Test]
         public void Parameters_have_the_values_with_which_nodes_joined()
