@@ -167,10 +167,10 @@ namespace Collektive.Headless
         private static string NotOfType(JToken token, string key, Type type) =>
             "'" + key + "' is " + token.ToString(Formatting.None) + "; it must be of type " + NameOf(type);
 
-        /// <summary>Returns the name of the enum's value that equals a text, ignoring case, or an empty text.</summary>
+        /// <summary>Returns the name of the enum's value that equals a text, if necessary ignoring case, or an empty text.</summary>
         /// <remarks>Without this check, <c>Enum.Parse</c> would also accept numbers and lists of names.</remarks>
         private static string NameIn(Type type, string text) =>
-            Array.Find(Enum.GetNames(type), name => name.Equals(text, StringComparison.OrdinalIgnoreCase)) ?? "";
+            Enum.IsDefined(type, text) ? text : Array.Find(Enum.GetNames(type), name => name.Equals(text, StringComparison.OrdinalIgnoreCase)) ?? "";
 
         private List<string> Strings(JArray array, string key)
         {
@@ -190,7 +190,8 @@ namespace Collektive.Headless
             if (type == typeof(float) || type == typeof(double)) return "number";
             if (type == typeof(string[]) || type == typeof(List<string>)) return "list of strings";
             if (type == typeof(bool)) return "true or false";
-            return type == typeof(JObject) ? "object" : type.IsEnum ? "string" : type.Name.ToLowerInvariant();
+            if (type == typeof(string) || type.IsEnum) return "string";
+            return type == typeof(JObject) ? "object" : type.Name + ", which scenarios cannot contain";
         }
 
         /// <summary>Returns the value in a form that <see cref="Convert"/> reads back; null for types that files cannot contain.</summary>
@@ -200,8 +201,8 @@ namespace Collektive.Headless
             {
                 // A JValue would be written as a signed number.
                 case ulong number: return new JRaw(number.ToString(CultureInfo.InvariantCulture));
-                case Enum name: return new JValue(name.ToString());
-                case IEnumerable<string> strings: return new JArray(strings);
+                case Enum name: return Enum.IsDefined(name.GetType(), name) ? new JValue(name.ToString()) : null;
+                case IEnumerable<string> strings when !strings.Contains(null): return new JArray(strings);
                 case string _:
                 case bool _:
                 case int _:

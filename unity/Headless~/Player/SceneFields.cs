@@ -2,6 +2,7 @@ using System;
 using System.Collections;
 using System.Collections.Generic;
 using System.Reflection;
+using System.Runtime.Serialization;
 using Collektive.Unity;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
@@ -15,7 +16,7 @@ namespace Collektive.Headless
         private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
 
         /// <summary>Returns the values of all fields that a scenario can set, including defaults.</summary>
-        internal static JObject Get(SceneBuilder builder) => (JObject)ToJson(builder, typeof(SceneBuilder));
+        internal static JObject Get(SceneBuilder builder) => (JObject)ToJson(builder, builder.GetType(), new ObjectIDGenerator());
 
         internal static void Set(SceneBuilder builder, Scenario scenario, IReadOnlyList<string> assignments)
         {
@@ -88,7 +89,8 @@ namespace Collektive.Headless
         }
 
         /// <summary>Returns the value in a form that <see cref="Value"/> reads back; null for types that scenarios cannot set.</summary>
-        private static JToken ToJson(object value, Type type)
+        /// <param name="seen">The objects so far. Another reference to one of them, possibly from itself, is omitted.</param>
+        private static JToken ToJson(object value, Type type, ObjectIDGenerator seen)
         {
             if (value is Vector3 vector) return new JArray(vector.x, vector.y, vector.z);
             if (JsonFile.Token(value) is JToken token) return token;
@@ -97,16 +99,18 @@ namespace Collektive.Headless
                 var list = new JArray();
                 foreach (var item in items)
                 {
-                    var json = ToJson(item, element);
+                    var json = ToJson(item, element, seen);
                     if (json == null) return null;
                     list.Add(json);
                 }
                 return list;
             }
             if (!(value is SceneBuilder) && (value == null || !IsObject(type))) return null;
+            seen.GetId(value, out var isFirst);
+            if (!isFirst) return null;
             var values = new JObject();
-            foreach (var field in value.GetType().GetFields(Public))
-                if (ToJson(field.GetValue(value), field.FieldType) is JToken json) values.Add(field.Name, json);
+            foreach (var field in type.GetFields(Public))
+                if (!values.ContainsKey(field.Name) && ToJson(field.GetValue(value), field.FieldType, seen) is JToken json) values.Add(field.Name, json);
             return values;
         }
 

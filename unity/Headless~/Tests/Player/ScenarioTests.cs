@@ -140,6 +140,22 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Text(SceneFields.Get(WithFields(root))), Is.EqualTo(Text(root["fields"]).Replace("8,", "8.0,")));
         }
 
+        [TestCase("upper", "\"A\"")]
+        [TestCase("hidden", "1")]
+        [TestCase("flags", null)]
+        [TestCase("names", null)]
+        [TestCase("zone", "{\"radius\":1.0,\"count\":1}")]
+        [TestCase("ring", "{\"number\":1}")]
+        public void Values_that_a_scenario_cannot_contain_are_omitted(string field, string json)
+        {
+            var root = Minimal();
+            root["fields"] = JObject.Parse("{\"upper\": \"A\"}");
+            var fields = SceneFields.Get(WithFields<UnusualScene>(root));
+            Assert.That(fields[field] is JToken value ? Text(value) : null, Is.EqualTo(json));
+            root["fields"] = fields;
+            Assert.That(Text(SceneFields.Get(WithFields<UnusualScene>(root))), Is.EqualTo(Text(fields)));
+        }
+
         [TestCase("zone={\"count\": 3}", "{\"radius\":9.0,\"count\":3}")]
         [TestCase("zone.count=3", "{\"radius\":8.0,\"count\":3}")]
         public void Fields_of_an_object_that_are_not_set_keep_the_values_of_the_scene(string assignment, string zone)
@@ -345,11 +361,14 @@ namespace Collektive.Headless.Tests.Player
         }
 
         /// <summary>Returns a scene whose fields were set by a scenario and the command line.</summary>
-        private SceneBuilder WithFields(JObject root, Options options = null)
+        private SceneBuilder WithFields(JObject root, Options options = null) => WithFields<ZoneScene>(root, options);
+
+        private T WithFields<T>(JObject root, Options options = null)
+            where T : SceneBuilder
         {
             var holder = new GameObject("Scene");
             holder.SetActive(false);
-            var scene = holder.AddComponent<ZoneScene>();
+            var scene = holder.AddComponent<T>();
             var assignments = options?.Assignments ?? new List<Assignment>();
             SceneFields.Set(scene, ReadText(root.ToString(), assignments), options?.FieldAssignments ?? new List<string>());
             UnityEngine.Object.DestroyImmediate(holder);
@@ -410,7 +429,47 @@ namespace Collektive.Headless.Tests.Player
             }
         }
 
-        public sealed class Zone
+        [Flags]
+        public enum Letters
+        {
+            None = 0,
+            a = 1,
+            A = 2,
+        }
+
+        public class HiddenFieldScene : SceneBuilder
+        {
+            public int hidden = 2;
+
+            protected override void Build(SimulationManager manager)
+            {
+            }
+        }
+
+        public sealed class UnusualScene : HiddenFieldScene
+        {
+            public new int hidden = 1;
+            public Letters upper;
+            public Letters flags = Letters.a | Letters.A;
+            public string[] names = { null };
+            public Zone zone = new NamedZone();
+            public Ring ring = new Ring();
+        }
+
+        public class Ring
+        {
+            public int number = 1;
+            public Ring next;
+
+            public Ring() => next = this;
+        }
+
+        public sealed class NamedZone : Zone
+        {
+            public string name = "hall";
+        }
+
+        public class Zone
         {
             public float radius = 1;
             public int count = 1;
