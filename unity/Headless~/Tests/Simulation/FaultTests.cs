@@ -793,6 +793,15 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Failure, Is.StringContaining("node 0").And.StringContaining("''"));
         }
 
+        [Test]
+        public void A_parameter_with_two_values_is_reported_with_its_node()
+        {
+            MakeNode(1);
+            MakeNode(1).Node.Parameters.AddRange(new[] { new NodeParameter("a", "1"), new NodeParameter("b", "1"), new NodeParameter("a", "2") });
+            Play(1);
+            Assert.That(Manager.Failure, Is.EqualTo("node 1 ('Probe'): parameter 'a' has two values: remove one of them"));
+        }
+
         [TestCase("physicsStep", float.NaN)]
         [TestCase("physicsStep", 0)]
         [TestCase("physicsStep", 0.05f)]

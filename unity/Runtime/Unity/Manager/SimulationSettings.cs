@@ -205,10 +205,17 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Returns the error of a node's program, or null. The check compares the libraries, because another library may have a program with the same name.
+        /// Returns the error of a node's program or parameters, or null. The check compares the libraries, because another library may have a
+        /// program with the same name.
         /// </summary>
         internal string FindProblem(Node node)
         {
+            for (var i = 1; i < node.Parameters.Count; i++)
+            {
+                var name = node.Parameters[i].name;
+                if (node.Parameters.FindIndex(parameter => parameter.name == name) < i)
+                    return "parameter '" + name + "' has two values: remove one of them";
+            }
             var library = jars.Count > 0 || node.OwnProgram == null ? null : node.OwnProgram.Library;
             return library == null || Libraries().Contains(library) ? null : "program '" + node.OwnProgram.Name + "' is in "
                 + library.File + ", which is not among the libraries of the Simulation Manager: add it";
