@@ -65,6 +65,32 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_period_shorter_than_an_increased_delta_time_is_rejected()
+        {
+            Configure("count", Asynchronous(0.2f));
+            MakeNode(0);
+            MakeTimedNode(new RoundTiming { period = 0.1f });
+            Play(1);
+            Manager.Settings.deltaTime = 0.1f;
+            Play(1);
+            Assert.That(Manager.Failure, Is.Empty);
+            Manager.Settings.deltaTime = 0.15f;
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("node 1").And.StringContaining("period is 0.1 s").And.StringContaining("delta time, 0.15 s"));
+        }
+
+        [Test]
+        public void A_retention_shorter_than_an_increased_delta_time_is_rejected()
+        {
+            Configure("count", settings => settings.network.retention = 0.1);
+            MakeNode(0);
+            Play(1);
+            Manager.Settings.deltaTime = 0.15f;
+            Play(1);
+            Assert.That(Manager.Failure, Is.StringContaining("network retention is 0.1 s"));
+        }
+
+        [Test]
         public void Timing_is_not_validated_if_the_schedule_ignores_it()
         {
             Configure("count", settings => settings.timing.period = float.NaN);

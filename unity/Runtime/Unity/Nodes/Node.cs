@@ -225,6 +225,9 @@ namespace Collektive.Unity
             return problem;
         }
 
+        /// <summary>Returns the error of a period that is shorter than the delta time, or null.</summary>
+        internal string FindTimerProblem() => timer == null ? null : RoundTiming.FindPeriodProblem(timer.Period, Simulation.Settings.deltaTime);
+
         /// <summary>Whether the node has been in the simulation since the current tick began.</summary>
         internal bool IsInTick => Id >= 0 && JoinTick < Simulation.TickInProgress;
 

@@ -18,11 +18,14 @@ namespace Collektive.Unity
         internal RoundTimer(RoundTiming timing, RandomStream random, double start)
         {
             this.random = random;
-            period = SimulatedSeconds.Exact(timing.period);
+            Period = timing.period;
+            period = SimulatedSeconds.Exact(Period);
             jitter = SimulatedSeconds.Exact(timing.jitter);
             origin = start + (timing.phase < 0 ? period * random.NextDouble() : SimulatedSeconds.Exact(timing.phase));
             next = Next();
         }
+
+        internal float Period { get; }
 
         /// <summary>Returns whether a round has become due since the last call that returned true. Times must not decrease.</summary>
         internal bool TakeDue(double now)

@@ -28,11 +28,14 @@ namespace Collektive.Unity
         /// <param name="deltaTime">Simulated seconds of a tick.</param>
         internal string FindProblem(float deltaTime)
         {
-            if (!(period >= deltaTime) || float.IsInfinity(period))
-                return "period is " + period + " s: it must be finite and at least the delta time, " + deltaTime + " s";
+            var problem = FindPeriodProblem(period, deltaTime);
+            if (problem != null) return problem;
             if (float.IsNaN(phase) || float.IsInfinity(phase)) return "phase is " + phase + " s: it must be finite";
             if (!(jitter >= 0 && jitter < period)) return "jitter is " + jitter + " s: it must be 0 or greater and less than the period, " + period + " s";
             return null;
         }
+
+        internal static string FindPeriodProblem(float period, float deltaTime) => period >= deltaTime && !float.IsInfinity(period) ? null
+            : "period is " + period + " s: it must be finite and at least the delta time, " + deltaTime + " s";
     }
 }

@@ -40,6 +40,7 @@ namespace Collektive.Unity
         private readonly HashSet<string> changedPrograms = new HashSet<string>();
         private bool isStopReported;
         private long pendingSince;
+        private float longestDeltaTime;
         private (long Start, long QueriesEnd, long RulesEnd, long SenseEnd) timestamps;
 
         /// <param name="settings">The settings. They are read when the simulation opens, except for times, which are read in each tick.</param>
@@ -393,7 +394,7 @@ namespace Collektive.Unity
         private void FlushChanges()
         {
             registry.DropLinksOfDeparted(Links);
-            var problem = globals.Flush(session.Request);
+            var problem = globals.Flush(session.Request) ?? FindTooShortTime();
             if (problem != null) Fail(problem);
             for (var i = 0; i < registry.Joining.Count && IsOpen; i++)
             {
@@ -407,6 +408,20 @@ namespace Collektive.Unity
             registry.Flush(session.Request, Links);
             if (isReloadRequested) session.Request.Reload(Settings.ToSession().Jars);
             isReloadRequested = false;
+        }
+
+        /// <summary>Returns the error of a time that is shorter than the delta time, which a script may have increased, or null.</summary>
+        private string FindTooShortTime()
+        {
+            if (Settings.deltaTime <= longestDeltaTime) return null;
+            longestDeltaTime = Settings.deltaTime;
+            var problem = Settings.network.FindProblem(SimulatedSeconds.Exact(Settings.deltaTime));
+            for (var i = 0; i < Nodes.Count && problem == null; i++)
+            {
+                problem = Nodes[i].FindTimerProblem();
+                if (problem != null) problem = "node " + Nodes[i].Id + " ('" + Nodes[i].name + "'): " + problem;
+            }
+            return problem;
         }
 
         /// <summary>Simulated time up to which nodes are due in this tick, in seconds.</summary>
