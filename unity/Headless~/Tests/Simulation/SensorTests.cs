@@ -417,6 +417,27 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void The_sum_of_intensities_does_not_depend_on_the_order_of_sources()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
+            var sources = new List<IntensitySource>();
+            foreach (var peak in new[] { 1, 1, 1, 1 << 24 })
+            {
+                sources.Add(MakeSource(Vector3.zero));
+                sources[sources.Count - 1].Peak = peak;
+            }
+            var sums = new HashSet<float>();
+            for (var i = 0; i < sources.Count; i++)
+            {
+                sources[i].enabled = false;
+                sources[i].enabled = true;
+                Play(1);
+                sums.Add(sensor.Value);
+            }
+            Assert.That(sums, Is.EqualTo(new[] { 16777220f }));
+        }
+
+        [Test]
         public void A_node_on_a_child_is_an_obstacle_of_its_parent()
         {
             var child = MakeNode(0, new Vector3(5, 0, 0)).Node;

@@ -41,9 +41,17 @@ namespace Collektive.Unity
         private static float AllAt(Vector3 position)
         {
             var sources = IntensitySource.All;
-            var intensity = 0f;
-            for (var i = 0; i < sources.Count; i++) intensity += sources[i].IntensityAt(position);
-            return intensity;
+            // Unity enables sources in an undefined order. Adding the rounding errors makes the sum independent of it.
+            double sum = 0, errors = 0;
+            for (var i = 0; i < sources.Count; i++)
+            {
+                double intensity = sources[i].IntensityAt(position);
+                var next = sum + intensity;
+                var added = next - sum;
+                errors += sum - (next - added) + (intensity - added);
+                sum = next;
+            }
+            return (float)(sum + errors);
         }
     }
 }
