@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Reflection;
 using Collektive.Unity;
 using NUnit.Framework;
 using probe;
@@ -414,6 +415,32 @@ namespace Collektive.Headless.Tests.Simulation
             sensor.Source = null;
             Play(1);
             Assert.That(sensor.Value, Is.EqualTo(100));
+        }
+
+        [Test]
+        public void Editing_a_sensor_keeps_its_destroyed_source_but_not_its_cleared_source()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
+            MakeSource(Vector3.zero);
+            var source = MakeSource(new Vector3(10, 0, 0));
+            sensor.Source = source;
+            Play(1);
+            Object.Destroy(source.gameObject);
+            Play(2);
+            Edit(sensor);
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(0));
+            sensor.Source = MakeSource(new Vector3(20, 0, 0));
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(80));
+            Field(sensor).SetValue(sensor, null);
+            Edit(sensor);
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(180));
+
+            static FieldInfo Field(Intensity of) => of.GetType().BaseType.GetField("source", BindingFlags.NonPublic | BindingFlags.Instance);
+            static void Edit(Intensity edited) =>
+                edited.GetType().BaseType.GetMethod("OnValidate", BindingFlags.NonPublic | BindingFlags.Instance).Invoke(edited, null);
         }
 
         [Test]

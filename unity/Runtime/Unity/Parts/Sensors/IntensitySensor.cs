@@ -12,6 +12,7 @@ namespace Collektive.Unity
 
         // A destroyed source equals null.
         private bool hasSource;
+        private IntensitySource lastSource;
 
         /// <summary>The source to measure; while it is disabled or after it was destroyed, its intensity is 0. Null: the sum of all enabled sources.</summary>
         public IntensitySource Source
@@ -28,15 +29,19 @@ namespace Collektive.Unity
         protected sealed override void Sense(ref TData data)
         {
             var position = Node.Position;
-            hasSource |= source != null;
+            if (source != null)
+            {
+                hasSource = true;
+                lastSource = source;
+            }
             Write(ref data, !hasSource ? AllAt(position) : source != null && source.isActiveAndEnabled ? source.IntensityAt(position) : 0);
         }
 
         /// <summary>Writes the intensity.</summary>
         protected abstract void Write(ref TData data, float intensity);
 
-        // The inspector may have cleared the source.
-        private void OnValidate() => hasSource = false;
+        // The inspector has cleared the source if that still exists.
+        private void OnValidate() => hasSource &= source != null || lastSource == null;
 
         private static float AllAt(Vector3 position)
         {
