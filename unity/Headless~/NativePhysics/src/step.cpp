@@ -231,9 +231,15 @@ void physics_world::onContact(const PxContactPairHeader &header, const PxContact
     }
 }
 
-PxFilterFlags physics_world::pairFound(PxU32 pair, PxFilterObjectAttributes, PxFilterData data0, const PxActor *, const PxShape *shape0,
-                                       PxFilterObjectAttributes, PxFilterData data1, const PxActor *, const PxShape *shape1,
-                                       PxPairFlags &) {
+static bool is_kinematic(const PxActor *actor) {
+    return static_cast<const PxRigidDynamic *>(actor)->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC;
+}
+
+PxFilterFlags physics_world::pairFound(PxU32 pair, PxFilterObjectAttributes, PxFilterData data0, const PxActor *actor0,
+                                       const PxShape *shape0, PxFilterObjectAttributes, PxFilterData data1, const PxActor *actor1,
+                                       const PxShape *shape1, PxPairFlags &) {
+    if (!((data0.word0 | data1.word0) & TRIGGER))
+        return is_kinematic(actor0) && is_kinematic(actor1) ? PxFilterFlag::eSUPPRESS : PxFilterFlag::eDEFAULT;
     if (overlaps.size() <= pair) overlaps.resize(std::max<size_t>(pair + 1, 2 * overlaps.size()));
     Overlap &overlap = overlaps[pair];
     overlap = Overlap();

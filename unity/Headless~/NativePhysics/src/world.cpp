@@ -36,8 +36,9 @@ PxFilterFlags filter_pair(PxFilterObjectAttributes attributes0, PxFilterData dat
         return either & OVERLAPS ? PxFilterFlag::eNOTIFY | PxFilterFlag::eSUPPRESS : PxFilterFlags(PxFilterFlag::eSUPPRESS);
     const bool static0 = PxGetFilterObjectType(attributes0) == PxFilterObjectType::eRIGID_STATIC;
     const bool static1 = PxGetFilterObjectType(attributes1) == PxFilterObjectType::eRIGID_STATIC;
-    if ((static0 || PxFilterObjectIsKinematic(attributes0)) && (static1 || PxFilterObjectIsKinematic(attributes1)))
-        return PxFilterFlag::eSUPPRESS;
+    // If the second object is kinematic, PhysX 5.1 sets the flag in the first object's attributes.
+    const bool kinematic = PxFilterObjectIsKinematic(attributes0) || PxFilterObjectIsKinematic(attributes1);
+    if (kinematic && (static0 || static1)) return PxFilterFlag::eSUPPRESS;
     flags = PxPairFlag::eCONTACT_DEFAULT;
     // Continuous bodies are swept against static shapes, ContinuousDynamic ones also against continuous bodies.
     const PxU32 continuous0 = data0.word0 & (CONTINUOUS | CONTINUOUS_DYNAMIC),
@@ -49,7 +50,7 @@ PxFilterFlags filter_pair(PxFilterObjectAttributes attributes0, PxFilterData dat
     if (either & CONTACTS)
         flags |= PxPairFlag::eNOTIFY_TOUCH_FOUND | PxPairFlag::eNOTIFY_TOUCH_PERSISTS | PxPairFlag::eNOTIFY_TOUCH_LOST |
                  PxPairFlag::eNOTIFY_CONTACT_POINTS | PxPairFlag::ePRE_SOLVER_VELOCITY;
-    return PxFilterFlag::eDEFAULT;
+    return kinematic ? PxFilterFlag::eCALLBACK : PxFilterFlag::eDEFAULT;
 }
 
 bool finite(const physics_geometry &geometry) {

@@ -61,6 +61,29 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(string.Join(", ", Notes), Is.EqualTo(notes));
         }
 
+        [TestCase(true, true)]
+        [TestCase(true, false)]
+        [TestCase(false, true)]
+        [TestCase(false, false)]
+        public void A_kinematic_body_touches_dynamic_bodies_only(bool isFirst, bool isOtherKinematic)
+        {
+            var mover = isFirst ? Mover(new Vector3(5f, 0f, 0f)) : null;
+            var other = Box(Vector3.zero, Vector3.one);
+            if (isOtherKinematic) other.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            if (!isFirst) mover = Mover(new Vector3(5f, 0f, 0f));
+            mover.gameObject.AddComponent<Listener>();
+            for (var i = 0; i < 5; i++)
+            {
+                mover.MovePosition(new Vector3(0.8f - 0.1f * i, 0f, 0f));
+                Physics.Simulate(Step);
+            }
+            Assert.That(Notes, Is.Empty);
+            var ball = Ball(new Vector3(0f, 0.9f, 0f));
+            ball.name = "ball";
+            Physics.Simulate(Step);
+            Assert.That(Notes, Is.EqualTo(new[] { "mover hits ball" }));
+        }
+
         [Test]
         public void A_trigger_sends_enter_once_and_stay_in_every_step_then_exit()
         {
