@@ -462,6 +462,9 @@ namespace Collektive.Headless.Tests.Simulation
                 sums.Add(sensor.Value);
             }
             Assert.That(sums, Is.EqualTo(new[] { 16777220f }));
+            sources[0].Peak = float.PositiveInfinity;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(float.PositiveInfinity));
         }
 
         [Test]

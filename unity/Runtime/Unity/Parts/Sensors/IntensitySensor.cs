@@ -56,7 +56,8 @@ namespace Collektive.Unity
                 errors += sum - (next - added) + (intensity - added);
                 sum = next;
             }
-            return (float)(sum + errors);
+            // Infinite intensities have no rounding error.
+            return (float)(double.IsNaN(errors) ? sum : sum + errors);
         }
     }
 }
