@@ -74,6 +74,13 @@ namespace Collektive.Headless.Tests.Simulation
             Manager.Settings.deltaTime = 0.1f;
             Play(1);
             Assert.That(Manager.Failure, Is.Empty);
+            MakeTimedNode(new RoundTiming { period = 0.1f });
+            Play(1);
+            Manager.Settings.deltaTime = 0.05f;
+            Play(1);
+            Manager.Settings.deltaTime = 0.08f;
+            Play(1);
+            Assert.That(Manager.Failure, Is.Empty);
             Manager.Settings.deltaTime = 0.15f;
             Play(1);
             Assert.That(Manager.Failure, Is.StringContaining("node 1").And.StringContaining("period is 0.1 s").And.StringContaining("delta time, 0.15 s"));
@@ -85,6 +92,8 @@ namespace Collektive.Headless.Tests.Simulation
             Configure("count", settings => settings.network.retention = 0.1);
             MakeNode(0);
             Play(1);
+            // A change of the network takes effect at the next start.
+            Manager.Settings.network.retention = 0.2;
             Manager.Settings.deltaTime = 0.15f;
             Play(1);
             Assert.That(Manager.Failure, Is.StringContaining("network retention is 0.1 s"));

@@ -52,10 +52,13 @@ namespace Collektive.Bridge
             if (!(burstLength >= shortest) || double.IsInfinity(burstLength))
                 return "network burst length is " + burstLength + ": with a burst share of " + burstShare + " it must be at least " + shortest;
             if (!(burstLoss >= 0 && burstLoss <= 1)) return "network burst loss is " + burstLoss + ": it must be from 0 to 1";
-            if (IsAmount(retention) && (retention == 0 || retention >= deltaTime)) return null;
-            return "network retention is " + retention + " s: it must be 0 (until the next message) or at least the delta time, " + deltaTime +
-                " s, otherwise messages expire before they are read";
+            return FindRetentionProblem(retention, deltaTime);
         }
+
+        internal static string FindRetentionProblem(double retention, double deltaTime) =>
+            IsAmount(retention) && (retention == 0 || retention >= deltaTime) ? null
+                : "network retention is " + retention + " s: it must be 0 (until the next message) or at least the delta time, " + deltaTime
+                    + " s, otherwise messages expire before they are read";
 
         private static bool IsAmount(double value) => value >= 0 && !double.IsInfinity(value);
     }

@@ -212,8 +212,8 @@ namespace Collektive.Unity
         {
             for (var i = 1; i < node.Parameters.Count; i++)
             {
-                var name = node.Parameters[i].name;
-                if (node.Parameters.FindIndex(parameter => parameter.name == name) < i)
+                var name = node.Parameters[i].name ?? "";
+                if (node.Parameters.FindIndex(parameter => (parameter.name ?? "") == name) < i)
                     return "parameter '" + name + "' has two values: remove one of them";
             }
             var library = jars.Count > 0 || node.OwnProgram == null ? null : node.OwnProgram.Library;

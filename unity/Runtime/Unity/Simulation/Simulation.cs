@@ -40,7 +40,8 @@ namespace Collektive.Unity
         private readonly HashSet<string> changedPrograms = new HashSet<string>();
         private bool isStopReported;
         private long pendingSince;
-        private float longestDeltaTime;
+        private float lastDeltaTime;
+        private double retention;
         private (long Start, long QueriesEnd, long RulesEnd, long SenseEnd) timestamps;
 
         /// <param name="settings">The settings. They are read when the simulation opens, except for times, which are read in each tick.</param>
@@ -178,6 +179,7 @@ namespace Collektive.Unity
                     if (Settings.seed != Seed) throw new BridgeException(BridgeError.Argument, "seed is " + Settings.seed
                         + ", but the Simulation Manager was enabled with seed " + Seed + ": set the seed while the manager is disabled");
                     Schedule = Settings.schedule;
+                    retention = Settings.network.retention;
                     session = SessionStart.Begin(Settings, Manager);
                 }
                 Finish();
@@ -394,8 +396,9 @@ namespace Collektive.Unity
         private void FlushChanges()
         {
             registry.DropLinksOfDeparted(Links);
-            var problem = globals.Flush(session.Request) ?? FindTooShortTime();
+            var problem = globals.Flush(session.Request);
             if (problem != null) Fail(problem);
+            else CheckShortTimes();
             for (var i = 0; i < registry.Joining.Count && IsOpen; i++)
             {
                 var node = registry.Joining[i];
@@ -410,18 +413,19 @@ namespace Collektive.Unity
             isReloadRequested = false;
         }
 
-        /// <summary>Returns the error of a time that is shorter than the delta time, which a script may have increased, or null.</summary>
-        private string FindTooShortTime()
+        /// <summary>Ends the simulation if a script has increased the delta time above the network's retention or a node's period.</summary>
+        private void CheckShortTimes()
         {
-            if (Settings.deltaTime <= longestDeltaTime) return null;
-            longestDeltaTime = Settings.deltaTime;
-            var problem = Settings.network.FindProblem(SimulatedSeconds.Exact(Settings.deltaTime));
-            for (var i = 0; i < Nodes.Count && problem == null; i++)
+            var isLonger = Settings.deltaTime > lastDeltaTime;
+            lastDeltaTime = Settings.deltaTime;
+            if (!isLonger) return;
+            var problem = NetworkModel.FindRetentionProblem(retention, SimulatedSeconds.Exact(Settings.deltaTime));
+            if (problem != null) Fail(problem);
+            for (var i = 0; i < Nodes.Count && IsOpen; i++)
             {
                 problem = Nodes[i].FindTimerProblem();
-                if (problem != null) problem = "node " + Nodes[i].Id + " ('" + Nodes[i].name + "'): " + problem;
+                if (problem != null) Fail("node " + Nodes[i].Id + " ('" + Nodes[i].name + "'): " + problem, Nodes[i]);
             }
-            return problem;
         }
 
         /// <summary>Simulated time up to which nodes are due in this tick, in seconds.</summary>
