@@ -202,7 +202,7 @@ namespace Collektive.Headless
                 // A JValue would be written as a signed number.
                 case ulong number: return new JRaw(number.ToString(CultureInfo.InvariantCulture));
                 case Enum name: return Enum.IsDefined(name.GetType(), name) ? new JValue(name.ToString()) : null;
-                case IEnumerable<string> strings when !strings.Contains(null): return new JArray(strings);
+                case IEnumerable<string> strings when (value is string[] || value is List<string>) && !strings.Contains(null): return new JArray(strings);
                 case string _:
                 case bool _:
                 case int _:

@@ -92,14 +92,15 @@ namespace Collektive.Headless
         /// <param name="seen">The objects so far. Another reference to one of them, possibly from itself, is omitted.</param>
         private static JToken ToJson(object value, Type type, ObjectIDGenerator seen)
         {
-            if (value is Vector3 vector) return new JArray(vector.x, vector.y, vector.z);
-            if (JsonFile.Token(value) is JToken token) return token;
+            if (value?.GetType() == type && (value is Vector3 vector ? new JArray(vector.x, vector.y, vector.z) : JsonFile.Token(value)) is JToken token)
+                return token;
             if (value is IEnumerable items && ElementOf(type) is Type element)
             {
                 var list = new JArray();
                 foreach (var item in items)
                 {
-                    var json = ToJson(item, element, seen);
+                    // The scenario would create objects of the element's type.
+                    var json = item != null && IsObject(element) && item.GetType() != element ? null : ToJson(item, element, seen);
                     if (json == null) return null;
                     list.Add(json);
                 }

@@ -144,6 +144,9 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("hidden", "1")]
         [TestCase("flags", null)]
         [TestCase("names", null)]
+        [TestCase("zones", null)]
+        [TestCase("limit", null)]
+        [TestCase("distinct", null)]
         [TestCase("zone", "{\"radius\":1.0,\"count\":1}")]
         [TestCase("ring", "{\"number\":1}")]
         public void Values_that_a_scenario_cannot_contain_are_omitted(string field, string json)
@@ -452,6 +455,9 @@ namespace Collektive.Headless.Tests.Player
             public Letters upper;
             public Letters flags = Letters.a | Letters.A;
             public string[] names = { null };
+            public List<Zone> zones = new List<Zone> { new NamedZone() };
+            public int? limit = 3;
+            public HashSet<string> distinct = new HashSet<string> { "a" };
             public Zone zone = new NamedZone();
             public Ring ring = new Ring();
         }
