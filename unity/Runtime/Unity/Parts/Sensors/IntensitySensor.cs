@@ -21,7 +21,8 @@ namespace Collektive.Unity
             set
             {
                 source = value;
-                hasSource = false;
+                hasSource = value != null;
+                lastSource = value;
             }
         }
 
@@ -40,7 +41,7 @@ namespace Collektive.Unity
         /// <summary>Writes the intensity.</summary>
         protected abstract void Write(ref TData data, float intensity);
 
-        // The inspector has cleared the source if that still exists.
+        // A source that the inspector clears still exists. After a source was destroyed, clearing the field has no effect.
         private void OnValidate() => hasSource &= source != null || lastSource == null;
 
         private static float AllAt(Vector3 position)
