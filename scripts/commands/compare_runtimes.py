@@ -66,7 +66,7 @@ class RuntimeProcess:
 
     def __init__(self, runtime: str, programs: Path, jars: list[Path]) -> None:
         path = ":".join(str(jar) for jar in [HOST_JAR, TESTING_JAR, *jars, programs])
-        command: list[str | Path] = [find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", path]
+        command: list[str | Path] = [find_jdk() / "bin/java", "-XX:+UseSerialGC", "-Dfile.encoding=UTF-8", "-cp", path]
         command += ["org.collektive.testing.ComparedRunsKt", programs, runtime]
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")
         self.functions = self._lines()

@@ -62,7 +62,7 @@ class Compared(Folder):
         self.assertTrue(re.fullmatch(r"  tick 3: nodes (\d+) (\d+) (\d+); links \d+-\d+ \d+-\d+; rounds of \d+", ticks[2]), ticks[2])
 
     def test_a_difference_in_a_text_is_found_in_any_locale(self) -> None:
-        function = 'fun Aggregate<Int>.`a text`(): String = "\\r\\r" + if ("Mailbox" in "$this") "ä" else "ö"'
+        function = 'fun Aggregate<Int>.`ein Maß`(): String = "\\r\\r" + if ("Mailbox" in "$this") "ä" else "ö"'
         with mock.patch.dict(os.environ, LC_ALL="C"):
             result = self.compare(f'@file:JvmName("Renamed")\n{IMPORTS}{function}\n', "--runs", "1")
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)

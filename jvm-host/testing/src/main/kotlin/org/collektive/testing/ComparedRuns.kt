@@ -46,11 +46,14 @@ private fun functions(jar: File): List<Method> {
     val names = JarFile(jar).use { file -> file.entries().toList().map { it.name } }
     return names.filter { it.endsWith(".class") && !it.startsWith("org/collektive/links/") }
         .map { Class.forName(it.removeSuffix(".class").replace('/', '.'), false, Device::class.java.classLoader) }
-        .filter { Modifier.isPublic(it.modifiers) }
+        .filter { it.getAnnotation(Metadata::class.java)?.kind in FACADES }
         .flatMap { it.declaredMethods.toList() }
         .filter { Modifier.isPublic(it.modifiers) && Modifier.isStatic(it.modifiers) && !it.isSynthetic }
         .filter { it.parameterTypes.sortedBy(Class<*>::getSimpleName) in SIGNATURES }
 }
+
+/** Kinds of Kotlin classes that contain top-level functions: those of one file, and of several files. */
+private val FACADES = setOf(2, 4)
 
 private val SIGNATURES = listOf(listOf(Aggregate::class.java), listOf(Aggregate::class.java, Device::class.java))
 
