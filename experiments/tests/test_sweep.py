@@ -397,7 +397,7 @@ def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project)
     store = Store(str(project.folder))
     folder = project.folder / "runs" / run.name
     folder.mkdir(parents=True)
-    (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": {}}))
+    (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}))
     (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *tables.TIMES]) + "\n")
     with pytest.raises(ExperimentError, match=f"the manifest of '{run.name}' was changed: repeat the run with --resume"):
         tables.write(experiment, store, False)
