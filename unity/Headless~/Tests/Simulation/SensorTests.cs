@@ -403,30 +403,21 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void A_destroyed_source_has_no_intensity()
         {
-            var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
-            MakeSource(Vector3.zero);
-            var source = MakeSource(new Vector3(10, 0, 0));
-            sensor.Source = source;
-            Play(1);
-            Assert.That(sensor.Value, Is.EqualTo(90));
-            Object.Destroy(source.gameObject);
-            Play(2);
+            var sensor = MakeSensorOfDestroyedSource();
             Assert.That(sensor.Value, Is.EqualTo(0));
             sensor.Source = null;
             Play(1);
             Assert.That(sensor.Value, Is.EqualTo(100));
+            sensor.Source = MakeSource(Vector3.zero);
+            Object.DestroyImmediate(sensor.Source.gameObject);
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(0), "the source was destroyed before the first round with it");
         }
 
         [Test]
         public void Editing_a_sensor_keeps_its_destroyed_source_but_not_its_cleared_source()
         {
-            var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
-            MakeSource(Vector3.zero);
-            var source = MakeSource(new Vector3(10, 0, 0));
-            sensor.Source = source;
-            Play(1);
-            Object.Destroy(source.gameObject);
-            Play(2);
+            var sensor = MakeSensorOfDestroyedSource();
             Edit(sensor);
             Play(1);
             Assert.That(sensor.Value, Is.EqualTo(0));
@@ -544,6 +535,20 @@ namespace Collektive.Headless.Tests.Simulation
             var body = node.gameObject.AddComponent<Rigidbody>();
             body.mass = 2;
             return body;
+        }
+
+        /// <summary>Returns a sensor whose source was destroyed after a round. Another source is at the origin.</summary>
+        private Intensity MakeSensorOfDestroyedSource()
+        {
+            var sensor = MakeNode(0).Node.gameObject.AddComponent<Intensity>();
+            MakeSource(Vector3.zero);
+            var source = MakeSource(new Vector3(10, 0, 0));
+            sensor.Source = source;
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(90));
+            Object.Destroy(source.gameObject);
+            Play(2);
+            return sensor;
         }
 
         private static IntensitySource MakeSource(Vector3 place)

@@ -10,8 +10,7 @@ namespace Collektive.Unity
         [Tooltip("Source to measure. None: the sum of all enabled sources in the scene.")]
         private IntensitySource source;
 
-        // A destroyed source equals null.
-        private bool hasSource;
+        // The last source that existed. A destroyed source equals null, but is not a null reference.
         private IntensitySource lastSource;
 
         /// <summary>The source to measure; while it is disabled or after it was destroyed, its intensity is 0. Null: the sum of all enabled sources.</summary>
@@ -21,8 +20,7 @@ namespace Collektive.Unity
             set
             {
                 source = value;
-                hasSource = value != null;
-                lastSource = value;
+                lastSource = value == null ? null : value;
             }
         }
 
@@ -30,19 +28,18 @@ namespace Collektive.Unity
         protected sealed override void Sense(ref TData data)
         {
             var position = Node.Position;
-            if (source != null)
-            {
-                hasSource = true;
-                lastSource = source;
-            }
-            Write(ref data, !hasSource ? AllAt(position) : source != null && source.isActiveAndEnabled ? source.IntensityAt(position) : 0);
+            if (source != null) lastSource = source;
+            Write(ref data, lastSource is null ? AllAt(position) : source != null && source.isActiveAndEnabled ? source.IntensityAt(position) : 0);
         }
 
         /// <summary>Writes the intensity.</summary>
         protected abstract void Write(ref TData data, float intensity);
 
         // A source that the inspector clears still exists. After a source was destroyed, clearing the field has no effect.
-        private void OnValidate() => hasSource &= source != null || lastSource == null;
+        private void OnValidate()
+        {
+            if (source == null && lastSource != null) lastSource = null;
+        }
 
         private static float AllAt(Vector3 position)
         {
