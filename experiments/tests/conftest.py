@@ -75,8 +75,13 @@ def processes(*words: str) -> list[int]:
 
 
 @pytest.fixture
-def project(tmp_path: Path) -> Project:
-    return Project(tmp_path)
+def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """A new copy of the project. All copies are in the same folder, so that scripts that no test has changed are compiled only once."""
+    folder = tmp_path_factory.getbasetemp() / "project"
+    if folder.exists():
+        shutil.rmtree(folder)
+    folder.mkdir()
+    return Project(folder)
 
 
 @pytest.fixture(scope="session")
