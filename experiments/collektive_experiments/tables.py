@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import os
+import re
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -30,6 +31,9 @@ RUN_TIMES: list[tuple[str, pa.DataType]] = [
     ("wall_seconds", pa.float64()), ("ticks_ms", pa.float64()), ("tick_ms_median", pa.float64()), ("tick_ms_p99", pa.float64())]
 VERSIONS = ("collektive", "jvm", "clr", "os")
 NODE_TYPES = {"bool": pa.bool_(), "int64": pa.int64(), "uint64": pa.uint64(), "float64": pa.float64(), "string": pa.string()}
+
+CELL = re.compile(r'("(?:[^"]|"")*+"|[^",\n]*+)[,\n]')
+"""A cell of a CSV file, with its quotes."""
 
 Record = dict[str, Any]
 
@@ -200,14 +204,19 @@ class _Columns:
     def node_rows(self, run: Run) -> Iterator[dict[str, Any]]:
         """Yields the rows of nodes.csv."""
         convert: dict[str, Callable[[str], Any]] = {
-            name: (lambda cell: cell == "true") if kind == pa.bool_() else float if kind == pa.float64() else str if kind == pa.string() else int
+            name: (lambda cell: cell == "true") if kind == pa.bool_() else float if kind == pa.float64() else _unquoted if kind == pa.string() else int
             for name, kind in self.nodes.items()}
-        if not os.path.exists(os.path.join(self._store.runs, run.name, "nodes.csv")):
+        path = os.path.join(self._store.runs, run.name, "nodes.csv")
+        if not os.path.exists(path):
             return
-        table = self._table(run, "nodes.csv")
-        names = [self._node_column(name) for name in next(table)[2:]]
-        for cells in table:
-            yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names, cells[2:]) if cell}}
+        with open(path, newline="\n", encoding="utf-8") as file:
+            names = [self._node_column(name) for name in next(file).rstrip("\n").split(",")[2:]]
+            for line in file:
+                while line.count('"') % 2:
+                    line += next(file)
+                # The csv module cannot distinguish a missing answer from an empty text, which has quotes.
+                cells = CELL.findall(line)
+                yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names, cells[2:]) if cell}}
 
     def warn(self) -> None:
         """Prints a warning about metrics that are NaN or infinite, because their cells are empty."""
@@ -256,6 +265,10 @@ def _type_of(values: list[Any]) -> pa.DataType:
 def _value(value: Any, kind: pa.DataType) -> Any:
     """Converts a parameter to the type of its column."""
     return None if value is None else text(value) if kind == pa.string() else float(value) if kind == pa.float64() else value
+
+
+def _unquoted(cell: str) -> str:
+    return cell[1:-1].replace('""', '"')
 
 
 def _finite(cell: str) -> float | None:

@@ -175,12 +175,17 @@ def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) 
     assert set(last["field.node"]) == {10.0}
 
 
-def test_infinite_values_of_nodes_differ_from_missing_answers(project: Project) -> None:
-    program = project.folder / "project/programs/Brightest.kt"
-    program.write_text(program.read_text().replace("ActuatorData(brightest = best,", "ActuatorData(brightest = -1f / 0f,"))
-    result = project.sweep(vary={"seed": [1]}, set={"outputs.nodes.fields": ["brightest"]})
+def test_infinite_values_and_texts_of_nodes_differ_from_missing_answers(project: Project) -> None:
+    texts = ["", "\"\",\n\"", "a,b", "null"]
+    answer = f'ActuatorData(brightest = -1f / 0f, text = listOf({", ".join(map(json.dumps, texts))})[mine.toInt() % 4],'
+    for name, before, after in [("light.fbs", "seen:", "text: string; seen:"), ("programs/Brightest.kt", "ActuatorData(brightest = best,", answer)]:
+        file = project.folder / "project" / name
+        file.write_text(file.read_text().replace(before, after))
+    result = project.sweep(vary={"seed": [1]}, set={"outputs.nodes.fields": ["text", "brightest"]})
     assert result.returncode == 0, result.stderr
-    assert set(pq.read_table(project.folder / "out/nodes.parquet")["brightest"].to_pylist()) == {None, -math.inf}
+    nodes = pq.read_table(project.folder / "out/nodes.parquet")
+    assert set(nodes["brightest"].to_pylist()) == {None, -math.inf}
+    assert set(nodes["text"].to_pylist()) == {None, *texts}
 
 
 def test_large_whole_numbers_keep_their_digits(project: Project) -> None:
