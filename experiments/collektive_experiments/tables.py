@@ -18,7 +18,7 @@ import pyarrow.parquet as pq
 from . import files
 from .experiment import Experiment, Run, text
 from .figure_options import CENSORED, CONVERGED
-from .positions import ExperimentError
+from .positions import ExperimentError, Located
 from .store import Store
 
 BATCH = 2000
@@ -127,17 +127,15 @@ class _Columns:
     def __init__(self, experiment: Experiment, store: Store):
         self._experiment = experiment
         self._store = store
+        self._seed = experiment.fixed.get("seed", Located(experiment.scenario).root.get("seed", 1))
         self._not_finite: dict[str, set[str]] = {}
         metrics: dict[str, None] = {}
         converged: dict[str, None] = {}
         self.rows: dict[str, int] = {}
         self._ends: dict[str, float] = {}
         node_columns: dict[str, str] = {}
-        self._seed: int | None = None
         for run, _ in self.records():
             manifest = self._manifest(run)
-            # A seed that does not vary is also the seed of runs that ended before they wrote a manifest.
-            self._seed = manifest.get("scenario", {}).get("seed", self._seed)
             metrics.update(dict.fromkeys(manifest.get("end", {})))
             converged.update(dict.fromkeys(manifest.get("converged", {})))
             node_columns.update(manifest.get("node_columns", {}))

@@ -19,6 +19,7 @@ from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project, processes
 
 from collektive_experiments import ExperimentError, compare, files, load, read, tables
 from collektive_experiments.store import Store
+from collektive_experiments.worker import Outcome
 
 MANY = {"vary": {"seed": "1-16"}, "set": {"seconds": 20}}
 """Keys of a sweep whose runs last long enough for tests to disturb them."""
@@ -222,6 +223,18 @@ def test_a_dry_run_whose_trial_fails_prints_no_estimate(project: Project) -> Non
     assert result.returncode == 1
     assert "failed (failed: the run had no nodes" in result.stderr
     assert "runs into" not in result.stdout
+
+
+@pytest.mark.parametrize(("given", "seed"), [({}, 1), ({"seed": (1 << 64) - 1}, (1 << 64) - 1)])
+def test_runs_without_a_manifest_have_a_seed(project: Project, given: dict[str, Any], seed: int) -> None:
+    experiment = read(project.experiment(set=given))
+    store = Store(str(project.folder / "out"))
+    (run,) = experiment.runs()
+    os.makedirs(store.runs)
+    store.begin(run)
+    store.finish(run, Outcome("failed", "no luck"), 1)
+    tables.write(experiment, store, False)
+    assert list(project.table()["seed"]) == [seed]
 
 
 def test_a_sweep_stops_if_its_first_runs_fail_in_the_same_way_unless_keep_going(project: Project) -> None:
