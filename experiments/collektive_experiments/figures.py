@@ -24,6 +24,7 @@ from .figure_options import CENSORED, CONVERGED, TIME, Fail, FigureOptions, chec
 from .positions import ExperimentError, Located
 from .results import VALUE, Results, compare, load
 from .statistics import interval, kaplan_meier
+from .store import Store
 
 # The palette of Okabe and Ito, which is safe for colour-blind readers. It lacks yellow, which is too pale for lines.
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -109,6 +110,8 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     results = load(folder, experiment.labels if experiment else None)
     if results.complete.empty:
         raise ExperimentError(f"'{folder}' has no complete runs to plot; their errors are in runs.parquet. Correct them and continue with --resume")
+    if later := Store(folder).count_complete_except({*results.complete["run"]}):
+        print(f"collektive: the figures omit {later} complete runs, which are not in the tables: a sweep writes its tables when it ends", file=sys.stderr)
     requests = [options] if options else _requests(folder, experiment)
     for request in requests:
         check(results, request)

@@ -118,6 +118,11 @@ class Store:
             return None
         return record
 
+    def count_complete_except(self, names: set[str]) -> int:
+        """Returns the number of complete runs whose names are not in a set."""
+        found = os.listdir(self.runs) if os.path.isdir(self.runs) else []
+        return sum((self.record(Run(name, {}, {})) or {}).get("status") == "complete" for name in found if name not in names)
+
     def changed_files(self, run: Run, record: dict[str, Any]) -> list[str]:
         """Returns the names of the files that differ from their hashes in run.json."""
         return [name for name, digest in record["files"].items() if _hash(os.path.join(self.runs, run.name, name)) != digest]

@@ -334,6 +334,16 @@ def test_metrics_beyond_the_limit_of_figures_are_reported(tmp_path: Path, capsys
     assert "--metric is 'error', which has values beyond 1e+300" in capsys.readouterr().err
 
 
+def test_runs_that_ended_after_the_tables_were_written_are_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (0.0,))
+    for name, status in (("path-vector0.01", "complete"), ("later", "complete"), ("failed", "failed"), ("running.part", "complete")):
+        (tmp_path / "out/runs" / name).mkdir(parents=True)
+        record = {"name": name.removesuffix(".part"), "status": status, "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}
+        (tmp_path / "out/runs" / name / "run.json").write_text(json.dumps(record))
+    plot(folder)
+    assert "the figures omit 1 complete runs, which are not in the tables" in capsys.readouterr().err
+
+
 def test_axes_support_scales_limits_and_points(sweep: str) -> None:
     def axes(**options: str) -> Any:
         (_, figure, _), *_ = draw(load(sweep), read_options({"metric": "error", "by": "program", **options}))
