@@ -97,7 +97,8 @@ def _study(search: Search, store: Store) -> optuna.Study:
     storage = sqlalchemy.URL.create("sqlite", database=path).render_as_string()
     study = optuna.create_study(storage=storage, study_name=STUDY, direction=search.direction, load_if_exists=True)
     former = study.user_attrs.setdefault("search", search.identity) if "search" in study.user_attrs else search.identity
-    if former != search.identity:
+    # If the process is killed before it writes this attribute, only the direction is in the file.
+    if former != search.identity or study.direction.name.lower() != search.direction:
         raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or varied values differ; "
                               "name another folder with --out")
     if _finished(study, search) and not os.listdir(store.runs):

@@ -8,12 +8,13 @@ import os
 import shutil
 import subprocess
 from typing import Any, cast
+from unittest.mock import Mock
 
 import pytest
 from conftest import Project
 from optuna.storages import RDBStorage
 
-from collektive_experiments import read
+from collektive_experiments import ExperimentError, read
 from collektive_experiments import search as searching
 from collektive_experiments import tune as tuning
 from collektive_experiments.search import check_search, read_search
@@ -102,6 +103,16 @@ def test_only_the_duration_of_runs_that_do_not_converge_replaces_a_value(project
 def test_a_search_with_other_runs_is_another_search(project: Project) -> None:
     searches = [read_search(read(project.experiment(vary={"seed": seeds}, tune=TUNE))) for seeds in ("1-2", "1-2", "1-3")]
     assert searches[0].identity == searches[1].identity != searches[2].identity
+
+
+def test_a_search_that_was_killed_at_its_start_keeps_its_direction(project: Project) -> None:
+    store = Store(str(project.folder))
+    os.mkdir(store.runs)
+    with pytest.MonkeyPatch.context() as patch, pytest.raises(SystemExit):
+        patch.setattr(RDBStorage, "set_study_user_attr", Mock(side_effect=SystemExit))
+        tuning._study(read_search(read(project.experiment(tune=TUNE))), store)
+    with pytest.raises(ExperimentError, match="belongs to another search"):
+        tuning._study(read_search(read(project.experiment(tune={**TUNE, "direction": "minimize"}))), store)
 
 
 @pytest.mark.parametrize(("changes", "message"), [
