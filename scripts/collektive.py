@@ -1,9 +1,7 @@
 """The command `./collektive`. Each of its commands is a module of the same name in the package `commands`."""
 import argparse
-import codecs
 import errno
 import importlib
-import locale
 import os
 import re
 import resource
@@ -146,9 +144,9 @@ def open_closed_descriptors() -> None:
 
 
 def check_environment() -> None:
-    """Sets UTF-8 for file names, and checks the stack limit and the path of the checkout."""
-    if codecs.lookup(locale.getencoding()).name != "utf-8" or os.environ.get("LC_ALL") in ("C", "POSIX"):
-        os.environ["LC_ALL"] = "C.UTF-8"
+    """Sets the locale, and checks the stack limit and the path of the checkout."""
+    # Names of files are UTF-8, and numbers that scenes and programs format do not depend on the user's language.
+    os.environ["LC_ALL"] = "C.UTF-8"
     stack, _ = resource.getrlimit(resource.RLIMIT_STACK)
     if stack != resource.RLIM_INFINITY and stack < STACK_KB * 1024:
         raise Failure(f"the stack limit is {stack // 1024} KB, and the tools need {STACK_KB} KB: run ulimit -s 8192")

@@ -97,6 +97,13 @@ def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project) -> 
     assert len(set(project.digests().values())) == 1
 
 
+def test_runs_do_not_depend_on_the_locale(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("LC_ALL", "de_DE.UTF-8")
+    change_scene(project, "lamps += 1.5f.ToString().IndexOf('.');")
+    assert project.sweep(vary={"seed": [1]}).returncode == 0
+    assert list(project.table()["nodes"]) == [11]
+
+
 @pytest.mark.parametrize(("build", "is_used_again"), [("", True), ("System.GC.Collect();", False)])
 def test_a_process_is_reused_only_for_scripts_without_state(project: Project, tmp_path: Path, build: str, is_used_again: bool) -> None:
     change_scene(project, build)

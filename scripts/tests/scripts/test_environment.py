@@ -2,6 +2,7 @@
 import os
 import signal
 import subprocess
+import sys
 
 import pytest
 from checkout import Checkout
@@ -48,6 +49,13 @@ def test_without_a_search_path_python_knows_its_own_path(checkout: Checkout) -> 
     environment = {name: value for name, value in os.environ.items() if name != "PATH"}
     result = subprocess.run(["/bin/sh", checkout.root / "collektive"], capture_output=True, text=True, env=environment)
     assert os.access(result.stdout.strip(), os.X_OK), result.stderr
+
+
+def test_commands_use_the_same_locale_for_any_language(checkout: Checkout) -> None:
+    program = "import locale, os, sys; locale.getencoding = lambda: 'UTF-8'; import collektive; collektive.check_environment(); print(os.environ['LC_ALL'])"
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=checkout.root / "scripts",
+                            env={**os.environ, "LC_ALL": "de_DE.UTF-8"})
+    assert result.stdout == "C.UTF-8\n", result.stderr
 
 
 def test_files_are_utf_8_in_any_locale(checkout: Checkout) -> None:
