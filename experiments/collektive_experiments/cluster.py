@@ -121,16 +121,17 @@ class RayPool:
         name = task[0].name
         try:
             outcome, seconds, packed = ray.get(reference)
-        except (ray.exceptions.RayActorError, ray.exceptions.ObjectLostError):
+        except ray.exceptions.RayTaskError as error:
+            raise WorkerError(str(error.cause)) from error
+        except ray.exceptions.RayError as error:
+            # For example, the node was lost, or Ray killed the worker because the node's memory was full.
             self._losses[name] = self._losses.get(name, 0) + 1
             if self._losses[name] < MAX_LOSSES:
                 self._tasks.appendleft(task)
                 return False
-            outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers were lost during the run"), 0.0, b""
+            outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers were lost during the run: {str(error).splitlines()[0]}"), 0.0, b""
             self._finish(task[0], outcome, seconds, packed)
             return False
-        except ray.exceptions.RayTaskError as error:
-            raise WorkerError(str(error.cause)) from error
         self._finish(task[0], outcome, seconds, packed)
         return True
 

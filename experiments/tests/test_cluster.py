@@ -1,10 +1,17 @@
-"""Tests a sweep on a Ray cluster that loses one of its two nodes."""
+"""Tests sweeps on a Ray cluster that loses nodes or workers."""
+import queue
 from collections.abc import Iterator
+from unittest.mock import Mock
 
 import pytest
+import ray
 from conftest import Project
 from ray.cluster_utils import Cluster
 from test_sweep import await_runs
+
+from collektive_experiments import cluster as clusters
+from collektive_experiments.cluster import RayPool
+from collektive_experiments.experiment import Run
 
 KEYS = {"vary": {"seed": "1-16", "network.loss": [0.3]}, "set": {"seconds": 10}}
 
@@ -32,3 +39,16 @@ def test_a_lost_cluster_node_causes_no_lost_or_duplicate_runs(project: Project, 
     assert local.returncode == 0, local.stderr
     assert project.digests() == project.digests("local")
     assert list(project.table()["run"]) == list(project.table("local")["run"])
+
+
+def test_a_run_whose_workers_are_killed_for_memory_crashes_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(clusters, "connect", Mock())
+    monkeypatch.setattr(ray, "get", Mock(side_effect=ray.exceptions.OutOfMemoryError("the memory is full\nusage: 99 %")))
+    store = Mock(bundle="")
+    pool = RayPool(store, "auto", 1, False)
+    pool._ended = queue.SimpleQueue()
+    task = Run("run", {}, {}), False
+    assert [pool._take(None, task) for _ in range(3)] == [False] * 3
+    assert list(pool._tasks) == [task] * 2, "the run must be repeated twice"
+    outcome = store.finish.call_args.args[1]
+    assert (outcome.status, outcome.message) == ("crashed", "3 workers were lost during the run: the memory is full")
