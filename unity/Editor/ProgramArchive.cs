@@ -23,6 +23,7 @@ namespace Collektive.Unity.Editor
 
         private ProgramArchive(ZipArchive jar)
         {
+            CheckMetadata(jar);
             var schemas = Lines(jar, SchemaService);
             if (schemas.Count != 1)
                 throw new InvalidDataException("it contains " + schemas.Count + " schemas: it must contain the programs and the code of one schema");
@@ -71,6 +72,25 @@ namespace Collektive.Unity.Editor
                 {
                     throw new InvalidDataException(error.Message, error);
                 }
+            }
+        }
+
+        /// <summary>Compares the checksums of the entries that the editor reads, because <see cref="ZipArchive"/> ignores them.</summary>
+        private static void CheckMetadata(ZipArchive jar)
+        {
+            foreach (var entry in jar.Entries)
+            {
+                if (!entry.FullName.StartsWith("META-INF/", StringComparison.Ordinal)) continue;
+                var crc = uint.MaxValue;
+                using (var content = new BufferedStream(entry.Open()))
+                {
+                    for (var value = content.ReadByte(); value >= 0; value = content.ReadByte())
+                    {
+                        crc ^= (uint)value;
+                        for (var bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (crc & 1) * 0xEDB88320;
+                    }
+                }
+                if (~crc != entry.Crc32) throw new InvalidDataException("its entry " + entry.FullName + " is damaged: build or download the file again");
             }
         }
 

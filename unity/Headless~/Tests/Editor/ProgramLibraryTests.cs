@@ -119,6 +119,19 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void A_wrong_checksum_is_an_import_error()
+        {
+            const string Index = "META-INF/collektive/programs/swarm.HopsKt";
+            Pack(Path, ("swarm.HopsKt", Program("hops")));
+            var jar = File.ReadAllBytes(Path);
+            // In the directory at the end of the file, an entry's CRC is 30 bytes before its name.
+            jar[System.Text.Encoding.GetEncoding("ISO-8859-1").GetString(jar).LastIndexOf(Index, StringComparison.Ordinal) - 30] ^= 1;
+            File.WriteAllBytes(Path, jar);
+            Assert.That(Load(Path).Programs, Is.Empty);
+            Logged("Error: " + Path + " is not a library of programs: its entry " + Index + " is damaged");
+        }
+
+        [Test]
         public void A_library_that_moves_is_found_by_its_references()
         {
             Pack(Path, ("swarm.HopsKt", Program("hops")));
