@@ -100,6 +100,27 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Times_that_an_actuator_changes_take_effect_in_the_next_tick()
+        {
+            Configure("clock", settings => settings.deltaTime = 0.1f);
+            var node = MakeNode(0);
+            var body = node.Node.gameObject.AddComponent<Rigidbody>();
+            body.useGravity = false;
+            body.linearVelocity = Vector3.right;
+            var changer = node.Node.gameObject.AddComponent<TimeChanger>();
+            changer.DeltaTime = 0.4f;
+            Play(1);
+            Assert.That(body.position.x, Is.EqualTo(0.1f).Within(1e-6f));
+            Assert.That(node.Node.AnswerInterval, Is.EqualTo(0.1f));
+            changer.PhysicsStep = 1e-30f;
+            Manager.Step();
+            Assert.That(body.position.x, Is.EqualTo(0.5f).Within(1e-6f));
+            Assert.That(Manager.Failure, Is.Empty);
+            Manager.Step();
+            Assert.That(Manager.Failure, Is.StringContaining("more than a million steps"));
+        }
+
+        [Test]
         public void Timing_is_not_validated_if_the_schedule_ignores_it()
         {
             Configure("count", settings => settings.timing.period = float.NaN);
@@ -486,6 +507,19 @@ namespace Collektive.Headless.Tests.Simulation
             {
                 if (Of != null) Rejoin(Of);
                 if (Leaving != null) Leaving.enabled = false;
+            }
+        }
+
+        /// <summary>An actuator that changes the times of the simulation.</summary>
+        public sealed class TimeChanger : Actuator<ActuatorData>
+        {
+            public float DeltaTime = 0.1f;
+            public float PhysicsStep = 0.02f;
+
+            protected override void Act(ActuatorData data)
+            {
+                SimulationManager.Current.Settings.deltaTime = DeltaTime;
+                SimulationManager.Current.Settings.physicsStep = PhysicsStep;
             }
         }
 

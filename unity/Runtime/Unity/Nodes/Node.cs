@@ -220,13 +220,13 @@ namespace Collektive.Unity
             var settings = Simulation.Settings;
             if (Simulation.Schedule != Schedule.Asynchronous) return null;
             var used = ownTiming ? timing : settings.timing;
-            var problem = used.FindProblem(settings.deltaTime);
+            var problem = used.FindProblem(Simulation.DeltaTime);
             if (problem == null) timer = new RoundTimer(used, new RandomStream(Simulation.Seed, Id, RandomPurpose.Schedule), Simulation.Time);
             return problem;
         }
 
         /// <summary>Returns the error of a period that is shorter than the delta time, or null.</summary>
-        internal string FindTimerProblem() => timer == null ? null : RoundTiming.FindPeriodProblem(timer.Period, Simulation.Settings.deltaTime);
+        internal string FindTimerProblem() => timer == null ? null : RoundTiming.FindPeriodProblem(timer.Period, Simulation.DeltaTime);
 
         /// <summary>Whether the node has been in the simulation since the current tick began.</summary>
         internal bool IsInTick => Id >= 0 && JoinTick < Simulation.TickInProgress;

@@ -27,16 +27,15 @@ namespace Collektive.Unity
         /// </summary>
         internal void Move(NodePart part, Rigidbody body, Vector3 offset)
         {
-            var ticks = Math.Max(1, (int)Math.Round(part.Node.AnswerInterval / part.Node.Simulation.Settings.deltaTime));
+            var ticks = Math.Max(1, (int)Math.Round(part.Node.AnswerInterval / part.Node.Simulation.DeltaTime));
             moves.Add() = new Movement { Part = part, Answer = part.Node.AnswerTick, Body = body, OffsetPerTick = offset / ticks, Ticks = ticks };
         }
 
         /// <summary>Runs the steps, unless a physics message ends the simulation.</summary>
         internal void Advance(Simulation simulation)
         {
-            var settings = simulation.Settings;
-            var steps = (int)Math.Ceiling(settings.deltaTime / settings.physicsStep - 1e-6);
-            var step = settings.deltaTime / steps;
+            var steps = (int)Math.Ceiling(simulation.DeltaTime / simulation.PhysicsStep - 1e-6);
+            var step = simulation.DeltaTime / steps;
             for (var i = 0; i < steps && simulation.IsOpen; i++)
             {
                 if (moves.Count > 0) MoveBodies(steps);

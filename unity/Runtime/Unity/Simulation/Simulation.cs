@@ -40,7 +40,6 @@ namespace Collektive.Unity
         private readonly HashSet<string> changedPrograms = new HashSet<string>();
         private bool isStopReported;
         private long pendingSince;
-        private float lastDeltaTime;
         private double retention;
         private (long Start, long QueriesEnd, long RulesEnd, long SenseEnd) timestamps;
 
@@ -93,8 +92,14 @@ namespace Collektive.Unity
         /// <summary>Simulated seconds.</summary>
         internal double Time => IsOpen ? session.Time : 0;
 
+        /// <summary>Simulated seconds of the current or last tick. A change of the settings during a tick takes effect in the next one.</summary>
+        internal float DeltaTime { get; private set; }
+
+        /// <summary>Longest physics sub-step of the current or last tick, in seconds.</summary>
+        internal float PhysicsStep { get; private set; }
+
         /// <summary>Simulated seconds at the next tick. Until the rounds of a tick have run, this is the tick after it.</summary>
-        internal double NextTickTime => TickInProgress > Tick ? Time + SimulatedSeconds.Exact(Settings.deltaTime) : Time;
+        internal double NextTickTime => TickInProgress > Tick ? Time + SimulatedSeconds.Exact(DeltaTime) : Time;
 
         /// <summary>First 8 bytes of the digest over all rounds so far.</summary>
         internal ulong Digest { get; private set; }
@@ -331,12 +336,14 @@ namespace Collektive.Unity
         private void Begin()
         {
             if (!CheckTimes()) return;
+            var isLonger = Settings.deltaTime > DeltaTime;
+            (DeltaTime, PhysicsStep) = (Settings.deltaTime, Settings.physicsStep);
             timestamps.Start = Stopwatch.GetTimestamp();
             TickInProgress = session.Tick + 1;
             using (TickMarkers.Queries.Auto())
             {
                 Physics.SyncTransforms();
-                FlushChanges();
+                FlushChanges(isLonger);
                 BeginQueries();
             }
             timestamps.QueriesEnd = Stopwatch.GetTimestamp();
@@ -359,7 +366,7 @@ namespace Collektive.Unity
                 session.Request.MeasuresMessages = MeasuresMessages;
                 session.Request.Measures = Measures;
                 session.Request.Inspected = Inspected;
-                session.Step(SimulatedSeconds.Exact(Settings.deltaTime), Settings.stepLimitMs);
+                session.Step(SimulatedSeconds.Exact(DeltaTime), Settings.stepLimitMs);
             }
             Finish();
         }
@@ -393,12 +400,13 @@ namespace Collektive.Unity
         private string PendingCall => IsOpen ? "tick " + TickInProgress : "the opening of the session";
 
         /// <summary>Writes the changes since the last tick to the request: global data, and the nodes that left or joined.</summary>
-        private void FlushChanges()
+        /// <param name="isLonger">Whether a script has increased the delta time.</param>
+        private void FlushChanges(bool isLonger)
         {
             registry.DropLinksOfDeparted(Links);
             var problem = globals.Flush(session.Request);
             if (problem != null) Fail(problem);
-            else CheckShortTimes();
+            else if (isLonger) CheckShortTimes();
             for (var i = 0; i < registry.Joining.Count && IsOpen; i++)
             {
                 var node = registry.Joining[i];
@@ -413,13 +421,10 @@ namespace Collektive.Unity
             isReloadRequested = false;
         }
 
-        /// <summary>Ends the simulation if a script has increased the delta time above the network's retention or a node's period.</summary>
+        /// <summary>Ends the simulation if the delta time exceeds the network's retention or a node's period.</summary>
         private void CheckShortTimes()
         {
-            var isLonger = Settings.deltaTime > lastDeltaTime;
-            lastDeltaTime = Settings.deltaTime;
-            if (!isLonger) return;
-            var problem = NetworkModel.FindRetentionProblem(retention, SimulatedSeconds.Exact(Settings.deltaTime));
+            var problem = NetworkModel.FindRetentionProblem(retention, SimulatedSeconds.Exact(DeltaTime));
             if (problem != null) Fail(problem);
             for (var i = 0; i < Nodes.Count && IsOpen; i++)
             {
@@ -429,7 +434,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>Simulated time up to which nodes are due in this tick, in seconds.</summary>
-        private double Now => session.Time + Tolerance * Settings.deltaTime;
+        private double Now => session.Time + Tolerance * DeltaTime;
 
         /// <summary>Reads positions, chooses the due nodes, and starts the physics queries, which run while the rules are called.</summary>
         private void BeginQueries()
@@ -551,7 +556,7 @@ namespace Collektive.Unity
                 var node = due.Items[place].Node;
                 // An earlier actuator may have removed the node, or removed and added it again.
                 if (!node.IsInTick) continue;
-                node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, Settings.deltaTime);
+                node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, DeltaTime);
                 node.Actuators.Run(this, node, i);
             }
         }
