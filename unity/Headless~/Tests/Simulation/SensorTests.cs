@@ -496,6 +496,28 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
+        [TestCase(1)]
+        [TestCase(-1)]
+        public void Hits_at_equal_offsets_do_not_depend_on_the_order_of_creation(int first)
+        {
+            var node = MakeNode(0).Node;
+            node.gameObject.AddComponent<SphereCollider>();
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            var obstacles = node.gameObject.AddComponent<Obstacles>();
+            var zones = node.gameObject.AddComponent<Zones>();
+            foreach (var side in new[] { first, -first })
+            {
+                // The node is inside of both obstacles, so their closest points are the same.
+                MakeBox(new Vector3(0.3f * side, 0, 0));
+                var zone = MakeBox(Vector3.zero);
+                zone.transform.localScale = (2 + side) * Vector3.one;
+                zone.GetComponent<Collider>().isTrigger = true;
+            }
+            Play(2);
+            Assert.That(obstacles.Values.ConvertAll(obstacle => obstacle.Collider.transform.position.x), Is.EqualTo(new[] { -0.3f, 0.3f }));
+            Assert.That((zones.Events.Count, zones.Last.transform.localScale.x), Is.EqualTo((2, 3f)));
+        }
+
         [TestCase(float.NaN)]
         [TestCase(float.NegativeInfinity)]
         public void A_fan_whose_angle_is_not_a_number_is_an_error(float angle)

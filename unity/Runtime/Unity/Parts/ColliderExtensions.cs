@@ -33,15 +33,31 @@ namespace Collektive.Unity
         private static void ResetStatics() => hasReportedBounds = false;
 
         /// <summary>
-        /// Returns whether <paramref name="a"/> is sorted before <paramref name="b"/>: by length, then by x, z and y. Hits need a defined order, because
-        /// Unity returns them in an undefined one, and a sum of floats depends on the order.
+        /// Returns whether collider <paramref name="a"/> is sorted before <paramref name="b"/>: by the offsets of their hits, then by the ids of their nodes,
+        /// then by their positions and sizes. Hits need a defined order, because Unity returns them in an undefined one, and a sum of floats depends on the
+        /// order.
         /// </summary>
-        internal static bool IsBefore(Vector3 a, Vector3 b)
+        internal static bool IsBefore(Collider a, Vector3 offsetOfA, Collider b, Vector3 offsetOfB)
         {
-            var difference = a.sqrMagnitude - b.sqrMagnitude;
-            if (difference != 0) return difference < 0;
-            if (a.x != b.x) return a.x < b.x;
-            return a.z != b.z ? a.z < b.z : a.y < b.y;
+            var order = Compare(offsetOfA, offsetOfB);
+            if (order == 0) order = NodeId(a).CompareTo(NodeId(b));
+            if (order == 0) order = Compare(a.transform.position, b.transform.position);
+            return (order == 0 ? Compare(a.bounds.size, b.bounds.size) : order) < 0;
+        }
+
+        /// <summary>Compares vectors by length, then by x, z and y.</summary>
+        private static int Compare(Vector3 a, Vector3 b)
+        {
+            var order = a.sqrMagnitude.CompareTo(b.sqrMagnitude);
+            if (order == 0) order = a.x.CompareTo(b.x);
+            if (order == 0) order = a.z.CompareTo(b.z);
+            return order == 0 ? a.y.CompareTo(b.y) : order;
+        }
+
+        private static int NodeId(Collider collider)
+        {
+            var node = collider.GetComponentInParent<Node>();
+            return node == null ? -1 : node.Id;
         }
     }
 }

@@ -91,9 +91,11 @@ namespace Collektive.Unity
                 // The body also reports the contacts of nodes on its children.
                 if (contact.Collider.IsGone() || contact.Own.IsGone() || !Node.Owns(contact.Own)) continue;
                 var index = remaining++;
-                for (; index > 0 && ColliderExtensions.IsBefore(contact.Point - centre, contacts.Items[index - 1].Point - centre); index--)
+                for (; index > 0; index--)
                 {
-                    contacts.Items[index] = contacts.Items[index - 1];
+                    ref var other = ref contacts.Items[index - 1];
+                    if (!ColliderExtensions.IsBefore(contact.Collider, contact.Point - centre, other.Collider, other.Point - centre)) break;
+                    contacts.Items[index] = other;
                     ended.Items[index] = ended.Items[index - 1];
                 }
                 contacts.Items[index] = contact;

@@ -92,9 +92,11 @@ namespace Collektive.Unity
             var centre = Node.Position;
             var obstacle = new Obstacle(collider, collider.PointClosestTo(centre) - centre);
             var index = found++;
-            for (; index > 0 && ColliderExtensions.IsBefore(obstacle.Vector, obstacles[index - 1].Vector); index--) obstacles[index] = obstacles[index - 1];
+            for (; index > 0 && IsBefore(obstacle, obstacles[index - 1]); index--) obstacles[index] = obstacles[index - 1];
             obstacles[index] = obstacle;
         }
+
+        private static bool IsBefore(in Obstacle a, in Obstacle b) => ColliderExtensions.IsBefore(a.Collider, a.Vector, b.Collider, b.Vector);
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, reach);
     }

@@ -151,7 +151,9 @@ namespace Collektive.Unity
             for (var i = 0; i < count; i++)
             {
                 ref var hit = ref queries.Hits[i];
-                if (hit.distance <= first.Distance && !Node.Owns(hit.collider)) first = new RayHit(direction, hit.distance, hit.collider);
+                if (hit.distance > first.Distance || Node.Owns(hit.collider)) continue;
+                if (first.Collider is null || ColliderExtensions.IsBefore(hit.collider, hit.distance * direction, first.Collider, first.Distance * direction))
+                    first = new RayHit(direction, hit.distance, hit.collider);
             }
             return first;
         }

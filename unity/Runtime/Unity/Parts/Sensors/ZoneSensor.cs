@@ -107,7 +107,7 @@ namespace Collektive.Unity
                 for (; index > 0 && visits.Items[index - 1].IsNew; index--)
                 {
                     var other = visits.Items[index - 1].Zone;
-                    if (!other.IsGone() && !ColliderExtensions.IsBefore(offset, other.transform.position - centre)) break;
+                    if (!other.IsGone() && !ColliderExtensions.IsBefore(visit.Zone, offset, other, other.transform.position - centre)) break;
                     visits.Items[index] = visits.Items[index - 1];
                 }
                 visits.Items[index] = visit;
