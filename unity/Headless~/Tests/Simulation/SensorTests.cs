@@ -530,6 +530,37 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Errors[0], Is.StringContaining("Rays of node 0").And.StringContaining("angle"));
         }
 
+        [TestCase(-1)]
+        [TestCase(float.NaN)]
+        public void Negative_settings_and_NaN_are_errors(float value)
+        {
+            MakeNode(0).Node.gameObject.AddComponent<Obstacles>().Reach = value;
+            MakeNode(0).Node.gameObject.AddComponent<Rays>().Range = value;
+            MakeNode(0).Node.gameObject.AddComponent<ActuatorTests.Move>().MaxSpeed = value;
+            MakeNode(0).Node.gameObject.AddComponent<ActuatorTests.Move>().ReachTime = value;
+            Play(1);
+            var names = new[] { "reach", "range", "maximum speed", "reach time" };
+            Assert.That(Errors.Count, Is.EqualTo(names.Length), string.Join("; ", Errors));
+            for (var i = 0; i < names.Length; i++)
+            {
+                var problem = "its " + names[i] + " is " + value + ": set it to 0 or greater";
+                Assert.That(Errors[i], Is.StringContaining("of node " + i).And.StringContaining(problem));
+            }
+        }
+
+        [Test]
+        public void An_infinite_reach_finds_all_obstacles()
+        {
+            var obstacles = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
+            obstacles.Reach = float.PositiveInfinity;
+            MakeBox(new Vector3(0, 0, 1e5f));
+            for (var round = 0; round < 2; round++)
+            {
+                Play(1);
+                Assert.That(obstacles.Values.Count, Is.EqualTo(1));
+            }
+        }
+
         private static string Distances(Rays sensor) =>
             string.Join(" ", sensor.Values.ConvertAll(hit => Math.Round(hit.Distance, 3).ToString(System.Globalization.CultureInfo.InvariantCulture)));
 

@@ -59,6 +59,12 @@ namespace Collektive.Unity
             return owner == null || owner == Node ? body : null;
         }
 
+        /// <summary>Throws an exception if a setting is negative or not a number.</summary>
+        internal static void CheckNotNegative(string name, float value)
+        {
+            if (!(value >= 0)) throw new InvalidOperationException("its " + name + " is " + value + ": set it to 0 or greater");
+        }
+
         internal void Succeeded()
         {
             // The count is nearly always 0 already. Checking it avoids a write, which would dirty a cache line in each call.

@@ -43,6 +43,8 @@ namespace Collektive.Unity
         protected sealed override void Act(TData data)
         {
             var target = Finite(Read(data));
+            CheckNotNegative("maximum speed", maxSpeed);
+            CheckNotNegative("reach time", reachTime);
             if (body == null) MoveTowards(target);
             else if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, Node.AnswerInterval * Velocity(target - Position));
             else Drive(target - Position);

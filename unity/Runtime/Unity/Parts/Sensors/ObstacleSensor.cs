@@ -39,11 +39,15 @@ namespace Collektive.Unity
             set => layers = value;
         }
 
+        /// <summary>The reach for queries, because physics finds nothing within an infinite radius.</summary>
+        private float FiniteReach => Mathf.Min(reach, float.MaxValue);
+
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) => Write(ref data, new Span<Obstacle>(found, 0, foundCount));
 
         internal sealed override void Prepare(TickContext tick)
         {
+            CheckNotNegative("reach", reach);
             var queries = tick.Queries;
             if (!queries.Sensors.Has(this) || !TryTakeHits(queries, out foundCount)) foundCount = Overlap(queries);
             found = queries.Obstacles;
@@ -52,7 +56,7 @@ namespace Collektive.Unity
         internal sealed override void Enqueue(TickContext tick)
         {
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
-            query = tick.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, reach, parameters));
+            query = tick.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, FiniteReach, parameters));
         }
 
         /// <summary>Writes the obstacles, the nearest first. The span is valid during the call only.</summary>
@@ -78,8 +82,9 @@ namespace Collektive.Unity
         private int Overlap(SensorQueries queries)
         {
             int count;
+            var radius = FiniteReach;
             // A full array may lack hits, so the query is repeated with a larger one.
-            while ((count = Physics.OverlapSphereNonAlloc(Node.Position, reach, queries.Near, layers, QueryTriggerInteraction.Ignore)) == queries.Near.Length)
+            while ((count = Physics.OverlapSphereNonAlloc(Node.Position, radius, queries.Near, layers, QueryTriggerInteraction.Ignore)) == queries.Near.Length)
                 queries.Grow();
             var found = 0;
             for (var i = 0; i < count; i++) Take(queries.Near[i], queries.Obstacles, ref found);

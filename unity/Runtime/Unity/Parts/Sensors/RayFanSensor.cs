@@ -82,6 +82,7 @@ namespace Collektive.Unity
         internal sealed override void Prepare(TickContext tick)
         {
             if (!IsAngleValid) throw new InvalidOperationException("its angle is NaN or negative infinity: set it to 0..360");
+            CheckNotNegative("range", range);
             var queries = tick.Queries;
             // The batch is not used if another sensor changed the fan after the batch began.
             var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections && batchedRange == range;
@@ -98,7 +99,7 @@ namespace Collektive.Unity
 
         internal sealed override void Enqueue(TickContext tick)
         {
-            if (!IsAngleValid)
+            if (!IsAngleValid || !(range >= 0))
             {
                 batchedRange = float.NaN;
                 return;
