@@ -14,6 +14,8 @@ namespace Collektive.Headless
         /// <summary>Returns a text that reads back as exactly the same number, with 15 digits if they suffice.</summary>
         internal static string Number(double value)
         {
+            // Mono writes -0 as 0.
+            if (value == 0 && double.IsNegativeInfinity(1 / value)) return "-0";
             var text = value.ToString("G15", CultureInfo.InvariantCulture);
             // Mono parses some texts as a neighbouring number, and "R" relies on that. Within these limits, the conversion from decimal is exact: it divides
             // a whole number by a power of ten, and both have exact values as double.

@@ -1,5 +1,4 @@
 using System.Collections.Generic;
-using System.Globalization;
 using System.IO;
 using System.Text;
 
@@ -79,7 +78,7 @@ namespace Collektive.Headless
         /// <summary>Reads a finite number.</summary>
         internal double Number(string text, int line, string name)
         {
-            if (double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out var value) && !double.IsNaN(value) && !double.IsInfinity(value))
+            if (ExactNumber.TryParse(text, out var value) && !double.IsNaN(value) && !double.IsInfinity(value))
                 return value;
             throw Error(line, "'" + name + "' is '" + text + "'; it must be a number");
         }

@@ -4,6 +4,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.IO;
 using System.Linq;
+using System.Numerics;
 using System.Reflection;
 using System.Text.RegularExpressions;
 using Newtonsoft.Json;
@@ -136,8 +137,9 @@ namespace Collektive.Headless
                 if (type == typeof(int) && kind == JTokenType.Integer) return (int)token;
                 if (type == typeof(long) && kind == JTokenType.Integer) return (long)token;
                 if (type == typeof(ulong) && kind == JTokenType.Integer) return (ulong)token;
-                if (type == typeof(float) && number && (!float.IsInfinity((float)token) || double.IsInfinity((double)token))) return (float)token;
-                if (type == typeof(double) && number) return (double)token;
+                if (type == typeof(float) && number && (!float.IsInfinity((float)Number(token)) || double.IsInfinity(Number(token))))
+                    return (float)Number(token);
+                if (type == typeof(double) && number) return Number(token);
                 if ((type == typeof(float) || type == typeof(double)) && kind == JTokenType.String && NotFinite.Contains((string)token))
                     return System.Convert.ChangeType(double.Parse((string)token, CultureInfo.InvariantCulture), type);
                 if (type == typeof(JObject) && kind == JTokenType.Object) return token;
@@ -221,8 +223,11 @@ namespace Collektive.Headless
             return text.ToString();
         }
 
-        private static JsonTextReader Reader(string text) =>
-            new JsonTextReader(new StringReader(text)) { DateParseHandling = DateParseHandling.None };
+        /// <summary>Returns the nearest double of a number. The conversion of large whole numbers to double does not round.</summary>
+        private static double Number(JToken token) =>
+            token is JValue value && value.Value is BigInteger large && ExactNumber.TryParse(large.ToString(), out var number) ? number : (double)token;
+
+        private static JsonTextReader Reader(string text) => new ExactReader(text);
 
         private static void RejectDuplicateKeys(string path, string text)
         {
@@ -239,6 +244,31 @@ namespace Collektive.Headless
             }
         }
 
+        private sealed class ExactReader : JsonTextReader
+        {
+            private readonly string text;
+            private readonly List<int> lineStarts = new List<int> { 0 };
+
+            internal ExactReader(string text)
+                : base(new StringReader(text))
+            {
+                this.text = text;
+                DateParseHandling = DateParseHandling.None;
+                foreach (Match end in Regex.Matches(text, "\r\n|\r|\n")) lineStarts.Add(end.Index + end.Length);
+            }
+
+            public override bool Read()
+            {
+                if (!base.Read()) return false;
+                if (TokenType != JsonToken.Float) return true;
+                var end = lineStarts[LineNumber - 1] + LinePosition;
+                var start = end;
+                while (start > 0 && "0123456789+-.eE".IndexOf(text[start - 1]) >= 0) start--;
+                if (ExactNumber.TryParse(text.Substring(start, end - start), out var number)) SetToken(JsonToken.Float, number, false);
+                return true;
+            }
+        }
+
         private sealed class ExactWriter : JsonTextWriter
         {
             internal ExactWriter(TextWriter text)
@@ -250,10 +280,15 @@ namespace Collektive.Headless
             public override void WriteValue(double value)
             {
                 var text = CsvText.Number(value);
-                // Mono parses some texts of 15 digits as a neighbouring number.
-                if (double.Parse(text, CultureInfo.InvariantCulture) != value) text = value.ToString("G17", CultureInfo.InvariantCulture);
                 if (double.IsNaN(value) || double.IsInfinity(value)) base.WriteValue(value);
                 else WriteRawValue(text.IndexOfAny(new[] { '.', 'E' }) < 0 ? text + ".0" : text);
+            }
+
+            public override void WriteValue(float value)
+            {
+                // Mono writes -0 as 0.
+                if (value == 0) WriteValue((double)value);
+                else base.WriteValue(value);
             }
         }
     }

@@ -142,7 +142,7 @@ namespace Collektive.Headless
         {
             try
             {
-                var command = JObject.Parse(line);
+                var command = (JObject)JsonFile.Parse(line);
                 if (command["run"] != null) Run((bool)command["run"]);
                 else if (command["step"] != null) Step((int)command["step"]);
                 else if (command["speed"] != null) speed = Math.Min(Math.Max(Number(command["speed"]), 0.01), 100);

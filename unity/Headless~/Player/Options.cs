@@ -150,7 +150,7 @@ namespace Collektive.Headless
                     Seed = seed;
                     break;
                 case "--seconds":
-                    if (!double.TryParse(value, NumberStyles.Float, CultureInfo.InvariantCulture, out var seconds) || !(seconds > 0))
+                    if (!ExactNumber.TryParse(value, out var seconds) || !(seconds > 0))
                     {
                         throw new ScenarioException("--seconds " + value + ": it must be a number greater than 0");
                     }

@@ -54,7 +54,7 @@ namespace Collektive.Headless
         {
             while (true)
             {
-                var request = JObject.Parse(requests.Take());
+                var request = (JObject)JsonFile.Parse(requests.Take());
                 var answer = (bool?)request["check"] == true ? Check(request) : (bool?)request["start"] == true ? Start(request) : Run(request);
                 answer.AddFirst(new JProperty("id", request["id"]));
                 var line = Encoding.UTF8.GetBytes(answer.ToString(Formatting.None) + "\n");

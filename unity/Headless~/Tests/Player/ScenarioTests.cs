@@ -323,7 +323,17 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("2.5e+3", 2500)]
         [TestCase("-0.5E-1 /* 010 */", -0.05)]
-        public void Valid_JSON_numbers_are_read(string text, double number) => Assert.That((double)JsonFile.Parse(text), Is.EqualTo(number));
+        [TestCase("/* \n\r\r\n */ 3.439885336832876e-301", 3.439885336832876e-301)]
+        [TestCase("100000000000000000000000", 1e23)]
+        [TestCase("-0.0", -0.0)]
+        public void Valid_JSON_numbers_are_read_exactly(string text, double number)
+        {
+            var file = Read(Minimal()).File;
+            var read = (double)file.Convert(JsonFile.Parse(text), typeof(double), "");
+            Assert.That(BitConverter.DoubleToInt64Bits(read), Is.EqualTo(BitConverter.DoubleToInt64Bits(number)));
+            var again = (double)file.Convert(JsonFile.Parse(JsonFile.Text(new JValue(read))), typeof(double), "");
+            Assert.That(BitConverter.DoubleToInt64Bits(again), Is.EqualTo(BitConverter.DoubleToInt64Bits(number)));
+        }
 
         [TestCase(0.01f, 10000)]
         [TestCase(0.02f, 5000)]
