@@ -16,7 +16,13 @@ namespace Collektive.Headless
         private const BindingFlags Public = BindingFlags.Public | BindingFlags.Instance;
 
         /// <summary>Returns the values of all fields that a scenario can set, including defaults.</summary>
-        internal static JObject Get(SceneBuilder builder) => (JObject)ToJson(builder, builder.GetType(), new ObjectIDGenerator());
+        internal static JObject Get(SceneBuilder builder)
+        {
+            var lists = new Queue<Action>();
+            var fields = (JObject)ToJson(builder, builder.GetType(), new ObjectIDGenerator(), lists);
+            while (lists.Count > 0) lists.Dequeue()();
+            return fields;
+        }
 
         internal static void Set(SceneBuilder builder, Scenario scenario, IReadOnlyList<string> assignments)
         {
@@ -90,7 +96,8 @@ namespace Collektive.Headless
 
         /// <summary>Returns the value in a form that <see cref="Value"/> reads back; null for types that scenarios cannot set.</summary>
         /// <param name="seen">The objects so far. Another reference to one of them, possibly from itself, is omitted.</param>
-        private static JToken ToJson(object value, Type type, ObjectIDGenerator seen)
+        /// <param name="lists">Adds the lists later. A list with an object that is also the value of a field is omitted: setting it changes both.</param>
+        private static JToken ToJson(object value, Type type, ObjectIDGenerator seen, Queue<Action> lists)
         {
             if (value?.GetType() == type && (value is Vector3 vector ? new JArray(vector.x, vector.y, vector.z) : JsonFile.Token(value)) is JToken token)
                 return token;
@@ -100,7 +107,7 @@ namespace Collektive.Headless
                 foreach (var item in items)
                 {
                     // The scenario would create objects of the element's type.
-                    var json = item != null && IsObject(element) && item.GetType() != element ? null : ToJson(item, element, seen);
+                    var json = item != null && IsObject(element) && item.GetType() != element ? null : ToJson(item, element, seen, lists);
                     if (json == null) return null;
                     list.Add(json);
                 }
@@ -111,8 +118,21 @@ namespace Collektive.Headless
             if (!isFirst) return null;
             var values = new JObject();
             foreach (var field in type.GetFields(Public))
-                if (!values.ContainsKey(field.Name) && ToJson(field.GetValue(value), field.FieldType, seen) is JToken json) values.Add(field.Name, json);
+            {
+                if (values.ContainsKey(field.Name)) continue;
+                // Keeps the order of the fields.
+                values.Add(field.Name, null);
+                void Add() => Set(values, field.Name, ToJson(field.GetValue(value), field.FieldType, seen, lists));
+                if (ElementOf(field.FieldType) != null) lists.Enqueue(Add);
+                else Add();
+            }
             return values;
+        }
+
+        private static void Set(JObject values, string name, JToken value)
+        {
+            if (value == null) values.Remove(name);
+            else values[name] = value;
         }
 
         private static Type ElementOf(Type type) =>

@@ -170,6 +170,19 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void A_shared_object_that_was_set_is_the_same_in_a_repetition()
+        {
+            var root = Minimal();
+            root["fields"] = JObject.Parse("{\"zone\": {\"radius\": 8}, \"others\": [{\"count\": 2}]}");
+            var fields = SceneFields.Get(WithFields<SharedZoneScene>(root));
+            Assert.That(Text(fields), Is.EqualTo("{\"others\":[{\"radius\":1.0,\"count\":2}],\"zone\":{\"radius\":8.0,\"count\":1}}"));
+            root["fields"] = fields;
+            var repeated = WithFields<SharedZoneScene>(root);
+            Assert.That(repeated.zone.radius, Is.EqualTo(8));
+            Assert.That(repeated.zones[0], Is.SameAs(repeated.zone));
+        }
+
+        [Test]
         public void Numbers_in_errors_have_a_decimal_point()
         {
             var culture = Thread.CurrentThread.CurrentCulture;
@@ -448,6 +461,20 @@ namespace Collektive.Headless.Tests.Player
             None = 0,
             a = 1,
             A = 2,
+        }
+
+        /// <summary>A scene with a list whose object is also the value of a field.</summary>
+        public sealed class SharedZoneScene : SceneBuilder
+        {
+            public List<Zone> zones = new List<Zone> { new Zone { radius = 9 } };
+            public List<Zone> others = new List<Zone>();
+            public Zone zone;
+
+            public SharedZoneScene() => zone = zones[0];
+
+            protected override void Build(SimulationManager manager)
+            {
+            }
         }
 
         public class HiddenFieldScene : SceneBuilder
