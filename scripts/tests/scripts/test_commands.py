@@ -47,6 +47,13 @@ def test_nested_keys_do_not_determine_the_kind_of_a_file(tmp_path: Path, text: s
     assert check.find_files(tmp_path) == [(tmp_path / "file.json", kind)]
 
 
+def test_other_files_of_a_folder_are_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "misspelled.json").write_text('{"scenes": "standard"}')
+    (tmp_path / "valid.json").write_text('{"scene": "standard"}')
+    assert check.find_files(tmp_path) == [(tmp_path / "valid.json", check.SCENARIO)]
+    assert capsys.readouterr().err == f"{tmp_path / 'misspelled.json'}: skipped, because it has neither the key 'scene' nor 'scenario'\n"
+
+
 def test_pipes_are_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pipe = tmp_path / "pipe.json"
     os.mkfifo(pipe)
