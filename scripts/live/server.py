@@ -340,6 +340,7 @@ class Live:
             values = plan["file"]
             if self.seed is not None:
                 values["seed"] = int(self.seed)
+            self._keep_texts(values.get("fields", {}), changes)
             with session.new_file(file) as output:
                 output.write((json.dumps(values, indent=2) + "\n").encode())
         except Failure as failure:
@@ -349,6 +350,15 @@ class Live:
         except OSError as error:
             return f"cannot write '{file}': {error.strerror}"
         return f"saved as {os.path.relpath(file)}"
+
+    def _keep_texts(self, fields: dict[str, Any], changes: dict[str, Any]) -> None:
+        """Writes values of text fields as texts. Only the running scene knows the types of its fields, so the player has read "5" as a number."""
+        shown = self.header["sceneFields"] if self.header else {}
+        for key, value in {**self.values, **changes}.items():
+            name = key.removeprefix("fields.")
+            # Numbers that are not finite are also shown as texts.
+            if name in fields and isinstance(shown.get(name), str) and shown[name] not in ("NaN", "Infinity", "-Infinity"):
+                fields[name] = _text(value)
 
     async def close(self) -> None:
         await self.player.stop()

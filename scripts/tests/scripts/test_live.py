@@ -175,16 +175,20 @@ def test_an_interrupted_copy_of_an_example_is_not_used(tmp_path: Path, monkeypat
     assert list(Path("out/live/GradientAscent/programs").glob("**/*.kt"))
 
 
+@pytest.fixture
+def server(monkeypatch: pytest.MonkeyPatch) -> Any:
+    # The environment of this suite does not contain this package.
+    for name in ("asyncio.server", "datastructures", "exceptions", "http11"):
+        monkeypatch.setitem(sys.modules, f"websockets.{name}", MagicMock())
+    return importlib.import_module("live.server")
+
+
 @pytest.mark.parametrize(("error", "message"), [
     (PermissionError(13, "Permission denied", "A.kt"), "[Errno 13] Permission denied: 'A.kt'"),
     # A page can send a value with a null character, which a command line cannot contain.
     (ValueError("embedded null byte"), "embedded null byte"),
 ])
-def test_an_error_at_a_restart_is_reported_to_the_page(error: Exception, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    # The environment of this suite does not contain this package.
-    for name in ("asyncio.server", "datastructures", "exceptions", "http11"):
-        monkeypatch.setitem(sys.modules, f"websockets.{name}", MagicMock())
-    server = importlib.import_module("live.server")
+def test_an_error_at_a_restart_is_reported_to_the_page(error: Exception, message: str, tmp_path: Path, server: Any) -> None:
     live_run = server.Live({"scenario": "a.json", "trust_jvm": False, "seed": None, "values": []}, tmp_path)
     live_run.plan = None
     live_run.player = AsyncMock()
@@ -192,3 +196,13 @@ def test_an_error_at_a_restart_is_reported_to_the_page(error: Exception, message
     asyncio.run(live_run.restart("b.json", None, {}, False))
     assert live_run.stopped == {"event": "stopped", "message": message}
     assert live_run.scenario == "a.json"
+
+
+def test_a_saved_scenario_contains_the_texts_of_text_fields(tmp_path: Path, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    options = {"scenario": str(tmp_path / "a.json"), "trust_jvm": False, "seed": None, "values": ["label=5", "fields.note=6", "nodes=7"]}
+    live_run = server.Live(options, tmp_path)
+    live_run.header = {"sceneFields": {"label": "5", "note": "6", "nodes": 7, "range": "Infinity"}}
+    plan = {"file": {"fields": {"label": 5, "note": 8, "nodes": 7, "range": 9}}}
+    monkeypatch.setattr(server.player, "plan", lambda *_: plan)
+    asyncio.run(live_run.save_scenario("b.json", {"fields.note": 8, "fields.range": 9}))
+    assert json.loads((tmp_path / "b.json").read_text())["fields"] == {"label": "5", "note": "8", "nodes": 7, "range": 9}
