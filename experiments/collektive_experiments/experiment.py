@@ -62,6 +62,8 @@ class Experiment:
     """The keys of `zip`, which vary together."""
     fixed: Values
     """The keys of `set`, which have the same value in all runs."""
+    seed: Any
+    """The seed of runs in which it does not vary."""
     measure: dict[str, str]
     """The units of the metrics in tables and figures, in their order. If empty, all metrics of the scene are measured."""
     figures: list[FigureOptions] = field(hash=False)
@@ -156,8 +158,9 @@ def read(path: str) -> Experiment:
     if "scenario" in settings:
         # The player would repeat the run of a manifest and ignore the values of keys.
         raise located.error(f"'{scenario}' is the manifest of a run or an experiment; name a scenario file", "scenario")
-    experiment = Experiment(path, scenario, _read_vary(located, "vary"), _read_vary(located, "zip"), _read_set(located), _read_measure(located),
-                            read_figures(located), _read_labels(located), located)
+    fixed = _read_set(located)
+    experiment = Experiment(path, scenario, _read_vary(located, "vary"), _read_vary(located, "zip"), fixed, fixed.get("seed", settings.get("seed", 1)),
+                            _read_measure(located), read_figures(located), _read_labels(located), located)
     _check(experiment)
     return experiment
 

@@ -18,7 +18,7 @@ import pyarrow.parquet as pq
 from . import files
 from .experiment import Experiment, Run, text
 from .figure_options import CENSORED, CONVERGED
-from .positions import ExperimentError, Located
+from .positions import ExperimentError
 from .store import Store
 
 BATCH = 2000
@@ -127,7 +127,6 @@ class _Columns:
     def __init__(self, experiment: Experiment, store: Store):
         self._experiment = experiment
         self._store = store
-        self._seed = experiment.fixed.get("seed", Located(experiment.scenario).root.get("seed", 1))
         self._not_finite: dict[str, set[str]] = {}
         metrics: dict[str, None] = {}
         converged: dict[str, None] = {}
@@ -164,7 +163,7 @@ class _Columns:
 
     def values(self, run: Run) -> dict[str, Any]:
         """Returns the parameters of a run. These always include the seed."""
-        found = {"seed": self._seed, **run.values}
+        found = {"seed": self._experiment.seed, **run.values}
         return {key: _value(found.get(key), kind) for key, kind in self.parameters}
 
     def results(self, run: Run, record: Record) -> dict[str, Any]:
