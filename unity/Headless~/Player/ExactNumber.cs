@@ -29,8 +29,16 @@ namespace Collektive.Headless
             if (digits.Length > MaxDigits) digits = digits.Substring(0, MaxDigits) + "1";
             exponent -= digits.Length;
             var bits = 0L;
+            if (digits.Length <= 15 && Math.Abs(exponent) <= 22)
+            {
+                // Both numbers have exact values as double, so the result is rounded only once.
+                var power = 1.0;
+                for (var i = Math.Abs(exponent); i > 0; i--) power *= 10;
+                double whole = digits.Length > 0 ? long.Parse(digits, CultureInfo.InvariantCulture) : 0;
+                bits = BitConverter.DoubleToInt64Bits(exponent < 0 ? whole / power : whole * power);
+            }
             // Smaller numbers are zero.
-            if (digits.Length > 0 && exponent > -2 * MaxDigits)
+            else if (digits.Length > 0 && exponent > -2 * MaxDigits)
             {
                 // Mono reads some texts with many digits as 0.
                 var start = "." + digits.Substring(0, Math.Min(digits.Length, 17)) + "E" + (exponent + digits.Length);
