@@ -119,6 +119,6 @@ namespace Collektive.Headless.Tests.Schema
             return items;
         }
 
-        private static string Name(string member) => member.TrimEnd('_').ToLowerInvariant();
+        private static string Name(string member) => member.Replace("_", "").ToLowerInvariant();
     }
 }

@@ -56,7 +56,7 @@ internal object Objects {
 
             data is Map<*, *> -> {
                 append('{')
-                for ((name, value) in data.mapKeys { (name, _) -> "$name".replace("_", "").lowercase() }.toSortedMap()) {
+                for ((name, value) in data.mapKeys { (name, _) -> normal("$name") }.toSortedMap()) {
                     append(name).append('=')
                     append(value, value?.javaClass)
                     append(' ')
@@ -78,7 +78,10 @@ internal object Objects {
 
     private fun getters(type: Class<*>): Map<String, Method> =
         type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
-            .associateBy { it.name.removePrefix("get").lowercase() }.toSortedMap()
+            .associateBy { normal(it.name.removePrefix("get")) }.toSortedMap()
+
+    /** Returns a name in the form in which all languages have it. */
+    private fun normal(name: String): String = name.replace("_", "").lowercase()
 
     /** Returns a valid random object of flatc's class [type]. */
     fun random(type: Class<*>, random: Random): Any = randomObject(type, random, 0)
@@ -90,11 +93,10 @@ internal object Objects {
     /** Creates a result or a part of one, with the constructor that has a parameter for each field. */
     private fun randomResult(schema: Schema, type: Class<*>, random: Random, nesting: Int): Any {
         val constructor = type.constructors.filter { !it.isSynthetic }.maxBy { it.parameterCount }
-        val names = type.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.map { it.name.lowercase() }
+        val names = type.declaredFields.filter { !Modifier.isStatic(it.modifiers) }.map { normal(it.name) }
         val definition = checkNotNull(schema.objectsByKey(type.name) ?: schema.objectsByKey(type.name.removeSuffix("Value")))
-        val required = List(definition.fieldsLength(), definition::fields).filter {
-            it.required()
-        }.map { it.name().replace("_", "").lowercase() }
+        val required = List(definition.fieldsLength(), definition::fields).filter { it.required() }
+            .map { normal(it.name()) }
         val values = constructor.genericParameterTypes.mapIndexed { index, part ->
             val canBeAbsent = !(part is Class<*> && part.isPrimitive) && names[index] !in required && !definition.isStruct
             if (canBeAbsent && (random.nextBoolean() || nesting >= MAX_NESTING)) {
@@ -112,7 +114,7 @@ internal object Objects {
             val part = setter.parameterTypes[0]
             // Let half of the scalars keep the schema's default.
             if (part.isPrimitive && random.nextBoolean()) continue
-            val absent = isTable(type) && setter.name.removePrefix("set").lowercase() !in REQUIRED && !part.isPrimitive &&
+            val absent = isTable(type) && normal(setter.name.removePrefix("set")) !in REQUIRED && !part.isPrimitive &&
                 (random.nextBoolean() || nesting >= MAX_NESTING)
             val value = if (absent) null else value(part, random, nesting) { randomObject(it, random, nesting + 1) }
             // flatc does not write an optional scalar that is 0.
