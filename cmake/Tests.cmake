@@ -24,7 +24,8 @@ assembly(RoundTrip.exe SOURCES "${schema}/Dump.cs" "${schema}/RandomData.cs" "${
   REFERENCES ${package})
 add_custom_target(roundtrip DEPENDS TestSchemas.dll RoundTrip.exe)
 
-suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:go setup:prose PYTEST "${SCRIPTS}/checks/test_lint.py" -n 2)
+suite(lint lint LABELS quick all NEEDS setup:npm setup:ktlint setup:prose PYTEST "${SCRIPTS}/checks/test_lint.py" -m "not slow" -n 2)
+suite(workflows lint LABELS extra NEEDS setup:go PYTEST "${SCRIPTS}/checks/test_lint.py" -m slow)
 suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts" "--ignore=${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(maven scripts LABELS extra NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 PARALLEL SCRIPT jvm.py RESULTS -DexcludedGroups=repeats)

@@ -176,31 +176,22 @@ def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) 
     assert set(last["field.node"]) == {10.0}
 
 
-def test_infinite_values_and_texts_of_nodes_differ_from_missing_answers(project: Project) -> None:
+def test_infinite_values_texts_and_large_whole_numbers_of_nodes_are_exact(project: Project) -> None:
     texts = ["", "\"\",\n\"", "a,b", "null"]
-    answer = f'ActuatorData(brightest = -1f / 0f, text = listOf({", ".join(map(json.dumps, texts))})[mine.toInt() % 4],'
-    for name, before, after in [("light.fbs", "seen:", "text: string; seen:"), ("programs/Brightest.kt", "ActuatorData(brightest = best,", answer)]:
+    answer = (f'ActuatorData(brightest = -1f / 0f, text = listOf({", ".join(map(json.dumps, texts))})[mine.toInt() % 4], '
+              "large = 9007199254740993L - mine.toLong(), ticks = -1L,")
+    for name, before, after in [("light.fbs", "seen:", "text: string; large: long; ticks: ulong; seen:"),
+                                ("programs/Brightest.kt", "ActuatorData(brightest = best,", answer)]:
         file = project.folder / "project" / name
         file.write_text(file.read_text().replace(before, after))
-    result = project.sweep(vary={"seed": [1]}, set={"outputs.nodes.fields": ["text", "brightest"]})
+    result = project.sweep("--csv", vary={"seed": [1]}, set={"outputs.nodes.fields": ["text", "brightest", "large", "ticks"]})
     assert result.returncode == 0, result.stderr
     nodes = pq.read_table(project.folder / "out/nodes.parquet")
     assert set(nodes["brightest"].to_pylist()) == {None, -math.inf}
     assert set(nodes["text"].to_pylist()) == {None, *texts}
-
-
-def test_large_whole_numbers_keep_their_digits(project: Project) -> None:
-    answer = "ActuatorData(brightest = 9007199254740993L - mine.toLong(), ticks = -1L,"
-    for name, before, after in [("light.fbs", "brightest: float", "brightest: long"), ("light.fbs", "seen:", "ticks: ulong; seen:"),
-                                ("programs/Brightest.kt", "ActuatorData(brightest = best,", answer)]:
-        file = project.folder / "project" / name
-        file.write_text(file.read_text().replace(before, after))
-    result = project.sweep("--csv", vary={"seed": [1]}, set={"outputs.nodes.fields": ["brightest", "ticks"]})
-    assert result.returncode == 0, result.stderr
-    table = pq.read_table(project.folder / "out/nodes.parquet")
-    assert [str(table.schema.field(name).type) for name in ("brightest", "ticks")] == ["int64", "uint64"]
-    assert 9007199254740993 - 3 in table["brightest"].to_pylist()
-    assert table["ticks"].to_pylist()[-1] == 18446744073709551615
+    assert [str(nodes.schema.field(name).type) for name in ("large", "ticks")] == ["int64", "uint64"]
+    assert 9007199254740993 - 3 in nodes["large"].to_pylist()
+    assert nodes["ticks"].to_pylist()[-1] == 18446744073709551615
     assert ",9007199254740990,18446744073709551615" in (project.folder / "out/nodes.csv").read_text()
 
 

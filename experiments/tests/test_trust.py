@@ -43,13 +43,13 @@ def change_program(project: Project, statement: str) -> None:
 
 STATE = [
     ("lamps += Kept<int>.Count++;", "internal static class Kept<T> { public static int Count; }"),
-    ('if (System.Globalization.CultureInfo.CurrentCulture.Name == "de-DE") lamps++;'
-     'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
     ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",
      "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
 ]
 # More examples of the same kinds of state.
 MORE_STATE = [
+    ('if (System.Globalization.CultureInfo.CurrentCulture.Name == "de-DE") lamps++;'
+     'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
     ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var mesh = cube.GetComponent<MeshFilter>().sharedMesh;'
      'if (mesh.bounds.size.x > 1) lamps++; mesh.bounds = new Bounds(Vector3.zero, 2 * Vector3.one);', ""),
@@ -193,7 +193,8 @@ def test_a_folder_of_the_user_is_not_modified(project: Project) -> None:
     assert [(out / name / "thesis.txt").read_text() for name in ("bundle", "runs/x.part")] == ["all of it"] * 2
 
 
-@pytest.mark.parametrize("name", ["", "runs", "bundle", "logs", "logs/check.txt", "sweep.json", "runs.parquet"])
+@pytest.mark.parametrize("name", ["", "runs", "sweep.json", *(pytest.param(name, marks=pytest.mark.slow)
+                                                             for name in ("bundle", "logs", "logs/check.txt", "runs.parquet"))])
 def test_nothing_is_written_through_a_symbolic_link(project: Project, name: str) -> None:
     elsewhere = project.folder / "elsewhere"
     elsewhere.mkdir()

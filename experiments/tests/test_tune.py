@@ -55,6 +55,7 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
         assert float(row["agreeing"]) == pytest.approx(sum(values) / 2)
 
 
+@pytest.mark.slow
 def test_trials_without_runs_are_not_continued_with_other_inputs(project: Project) -> None:
     assert tune(project, "--trials", "1").returncode == 0
     shutil.rmtree(project.folder / "out/runs")

@@ -65,6 +65,7 @@ def test_kotlin_is_clean_under_ktlint() -> None:
           *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "experiments/*.kt", "*.kts"))
 
 
+@pytest.mark.slow
 def test_workflows_are_clean_under_actionlint() -> None:
     linter = os.path.join(BUILD, "go/actionlint")
     if not os.path.exists(linter):
