@@ -1,6 +1,6 @@
-"""Builds everything and runs all test suites, or the named ones. Areas of suites: lint, scripts, jvm, stress, shim, platforms, csharp, assets,
-faults, exits, soak, roundtrip, page, site, acceptance, experiments, chaos, fuzz, bench, gradle. These suites run only if named: platforms-all,
-workflows, site, ray (a cluster), maven, jvm-repeats, acceptance-slow, experiments-slow, csharp-on-coreclr, csharp-slow-on-coreclr, and repetitions on other JDKs.
+"""Builds everything and runs all test suites, or the named ones. Areas of suites: lint, scripts, jvm, stress, shim, platforms, csharp, assets, faults, exits,
+soak, roundtrip, page, site, acceptance, experiments, chaos, fuzz, bench, gradle. These suites run only if named: platforms-all, workflows, site, ray (a
+cluster), maven, jvm-repeats, acceptance-slow, experiments-slow, csharp-on-coreclr, csharp-slow-on-coreclr, and repetitions on other JDKs.
 cmake/Tests.cmake declares the suites.
 
 gradle needs Gradle on the PATH or in COLLEKTIVE_GRADLE, and is skipped otherwise. platforms tests the code of the native library that depends on the
