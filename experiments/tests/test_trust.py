@@ -97,9 +97,10 @@ def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project) -> 
     assert len(set(project.digests().values())) == 1
 
 
-def test_runs_do_not_depend_on_the_locale(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_runs_do_not_depend_on_locale_and_time_zone(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("LC_ALL", "de_DE.UTF-8")
-    change_scene(project, "lamps += 1.5f.ToString().IndexOf('.');")
+    monkeypatch.setenv("TZ", "Asia/Tokyo")
+    change_scene(project, "lamps += 1.5f.ToString().IndexOf('.') + System.TimeZoneInfo.Local.BaseUtcOffset.Hours;")
     assert project.sweep(vary={"seed": [1]}).returncode == 0
     assert list(project.table()["nodes"]) == [11]
 

@@ -51,11 +51,12 @@ def test_without_a_search_path_python_knows_its_own_path(checkout: Checkout) -> 
     assert os.access(result.stdout.strip(), os.X_OK), result.stderr
 
 
-def test_commands_use_the_same_locale_for_any_language(checkout: Checkout) -> None:
-    program = "import locale, os, sys; locale.getencoding = lambda: 'UTF-8'; import collektive; collektive.check_environment(); print(os.environ['LC_ALL'])"
+@pytest.mark.parametrize(("name", "given", "expected"), [("LC_ALL", "de_DE.UTF-8", "C.UTF-8"), ("TZ", "Asia/Tokyo", "UTC")])
+def test_commands_use_the_same_locale_and_time_zone_for_any_user(name: str, given: str, expected: str, checkout: Checkout) -> None:
+    program = f"import locale, os; locale.getencoding = lambda: 'UTF-8'; import collektive; collektive.check_environment(); print(os.environ['{name}'])"
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=checkout.root / "scripts",
-                            env={**os.environ, "LC_ALL": "de_DE.UTF-8"})
-    assert result.stdout == "C.UTF-8\n", result.stderr
+                            env={**os.environ, name: given})
+    assert result.stdout == f"{expected}\n", result.stderr
 
 
 def test_files_are_utf_8_in_any_locale(checkout: Checkout) -> None:
