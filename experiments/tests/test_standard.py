@@ -61,6 +61,8 @@ DATA = {
     <trkpt lat="44.0" lon="12.001"><time>2026-01-31T12:00:04Z</time></trkpt></trkseg></trk>
   <trk><trkseg><trkpt lat="44.001" lon="12.0"><time>2026-01-31T12:00:02Z</time></trkpt></trkseg></trk>
 </gpx>""",
+    "fast.gpx": """<gpx><trk><trkpt lat="0" lon="0"><time>2026-01-31T12:00:00Z</time></trkpt><trkpt lat="0" lon="1"><time>2026-01-31T12:00:00.1Z</time></trkpt>
+<trkpt lat="0" lon="-1"><time>2026-01-31T12:00:00.100003Z</time></trkpt></trk></gpx>""",
     "cities.geojson": json.dumps({"type": "FeatureCollection", "features": [
         {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [12, 44, 30]}},
         {"type": "Feature", "properties": {}, "geometry": {"type": "MultiPoint", "coordinates": [[12.002, 44], [12.001, 44.001]]}}]}),
@@ -82,6 +84,7 @@ DATA = {
     "bad/large.csv": "x,z\n1,1e39\n",
     "bad/xml.gpx": "<gpx>\n<trk>\n</gpx>",
     "bad/time.gpx": '<gpx>\n<trk>\n<trkpt lat="1" lon="1"/></trk></gpx>',
+    "bad/noon.gpx": '<gpx>\n<trk>\n<trkpt lat="1" lon="1"><time>12:00:00Z</time></trkpt></trk></gpx>',
     "bad/line.geojson": '{"type": "Feature",\n"geometry":\n{"type": "LineString", "coordinates": []}}',
     "bad/place.geojson": '{"type": "FeatureCollection", "features": [\n{"type": "Feature", "geometry": null}]}',
     "bad/point.geojson": '{"type": "Point",\n"coordinates": ["a", 1]}',
@@ -165,6 +168,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields", {"deployment": {"kind": "File", "file": "stations.csv"}, "movement": {"kind": "Trace"}}, "stations.csv:1: the column 'time' is missing"),
     ("fields", {"deployment": {"kind": "File", "file": "cities.geojson"}, "movement": {"kind": "Trace"}}, "cities.geojson: GeoJSON has no times"),
     ("fields", {"deployment": {"kind": "File", "file": "bad/time.gpx"}, "movement": {"kind": "Trace"}}, "bad/time.gpx:3: the point has no time"),
+    ("fields", {"deployment": {"kind": "File", "file": "bad/noon.gpx"}, "movement": {"kind": "Trace"}}, "bad/noon.gpx:3: 'time' is '12:00:00Z'; it must have"),
     ("fields", {"deployment": {"kind": "File", "file": "stations.csv"}, "sets": [{"name": "a", "ids": [1]}]},
      "'sets[0].ids' contains node 1, which is not in stations.csv"),
     ("fields.reading", {"expression": "x + tempo"}, "no such column: tempo, at character 5 of 'x + tempo'; columns: id, time, x, y, z"),
@@ -465,6 +469,7 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
     ({"deployment": {"kind": "File", "file": "walk.csv"}, "movement": {"kind": "Trace"}}, 2.5, {"total(x)": (4, 4), "total(z)": (9.9, 10.1)}),
     ({"deployment": {"kind": "File", "file": "walk%20.gpx"}, "movement": {"kind": "Trace"}}, 2,
      {"total(x) filter (where id = 0)": (-0.1, 0.1), "total(x) filter (where id = 1)": (-40, -39.9), "max(z) - min(z)": (111.1, 111.2)}),
+    ({"deployment": {"kind": "File", "file": "fast.gpx"}, "movement": {"kind": "Trace"}}, 0.1, {"max(x)": (111195, 111195.1)}),
     ({"deployment": {"nodes": 4}, "reading": {"expression": "iif(id = 3, null, 10 * x + z + time)"}}, 1,
      {"max(reading)": (30.85, 30.95), "sum(reading = 0)": (1, 1)}),
 ]

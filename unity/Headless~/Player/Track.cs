@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Globalization;
 using System.Linq;
+using System.Text.RegularExpressions;
 using System.Xml;
 using System.Xml.Linq;
 using Newtonsoft.Json;
@@ -105,6 +106,8 @@ namespace Collektive.Headless
         {
             var tracks = new List<Track>();
             var earliest = double.PositiveInfinity;
+            // Seconds since year 1 would be rounded to multiples of 8 microseconds.
+            var start = default(DateTimeOffset?);
             try
             {
                 XDocument document;
@@ -124,7 +127,7 @@ namespace Collektive.Headless
                         RequireGeographic(file, line, lon, lat);
                         // If nodes do not follow the tracks, only the first point counts.
                         if (!isMoving && track.times.Count > 0) break;
-                        var time = isMoving ? TimeOf(file, point) : double.NaN;
+                        var time = isMoving ? SecondsAfter(ref start, TimeOf(file, point)) : double.NaN;
                         earliest = Math.Min(earliest, time);
                         track.Add(file, line, time, lon, lat);
                     }
@@ -142,13 +145,19 @@ namespace Collektive.Headless
             return tracks;
         }
 
-        private static double TimeOf(DataFile file, XElement point)
+        /// <param name="start">The time of the first point; null before it.</param>
+        private static double SecondsAfter(ref DateTimeOffset? start, DateTimeOffset time) =>
+            (time - (start ??= time)).Ticks / (double)TimeSpan.TicksPerSecond;
+
+        private static DateTimeOffset TimeOf(DataFile file, XElement point)
         {
             foreach (var child in point.Elements())
             {
                 if (child.Name.LocalName != "time") continue;
-                if (DateTimeOffset.TryParse(child.Value, CultureInfo.InvariantCulture, DateTimeStyles.AssumeUniversal, out var time))
-                    return time.UtcTicks / (double)TimeSpan.TicksPerSecond;
+                // Without the pattern, a text without a date would be a time of today, and 03/04/2026 a day in March.
+                if (Regex.IsMatch(child.Value, @"^\s*\d{4}-\d\d-\d\dT")
+                    && DateTimeOffset.TryParse(child.Value, CultureInfo.InvariantCulture, DateTimeStyles.AssumeUniversal, out var time))
+                    return time;
                 throw file.Error(LineOf(child), "'time' is '" + child.Value + "'; it must have the form 2026-01-31T12:00:00Z");
             }
             throw file.Error(LineOf(point), "the point has no time");
