@@ -208,11 +208,17 @@ class _Columns:
             return
         with open(path, newline="\n", encoding="utf-8") as file:
             names = [self._node_column(name) for name in next(file).rstrip("\n").split(",")[2:]]
+            lines: list[str] = []
+            quotes = 0
             for line in file:
-                while line.count('"') % 2:
-                    line += next(file)
+                lines.append(line)
+                quotes += line.count('"')
+                # Within a text, the number of quotes is odd.
+                if quotes % 2:
+                    continue
                 # The csv module cannot distinguish a missing answer from an empty text, which has quotes.
-                cells = CELL.findall(line)
+                cells = CELL.findall("".join(lines))
+                lines = []
                 yield {"second": float(cells[0]), "node": int(cells[1]), **{name: convert[name](cell) for name, cell in zip(names, cells[2:]) if cell}}
 
     def warn(self) -> None:

@@ -11,13 +11,16 @@ import sys
 import time
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import pandas as pd
+import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project, processes
 
 from collektive_experiments import ExperimentError, compare, files, load, read, tables
+from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store
 from collektive_experiments.worker import Outcome
 
@@ -193,6 +196,16 @@ def test_infinite_values_texts_and_large_whole_numbers_of_nodes_are_exact(projec
     assert 9007199254740993 - 3 in nodes["large"].to_pylist()
     assert nodes["ticks"].to_pylist()[-1] == 18446744073709551615
     assert ",9007199254740990,18446744073709551615" in (project.folder / "out/nodes.csv").read_text()
+
+
+def test_texts_with_many_lines_are_read_in_linear_time(tmp_path: Path) -> None:
+    lines = "\n" * 200_000
+    (tmp_path / "run").mkdir()
+    (tmp_path / "run/nodes.csv").write_text(f'second,node,text\n0,1,"{lines}"\n')
+    began = time.process_time()
+    rows = tables._Columns.node_rows(Mock(nodes={"text": pa.string()}, _store=Mock(runs=tmp_path), _node_column=str), Run("run", {}, {}))
+    assert list(rows) == [{"second": 0, "node": 1, "text": lines}]
+    assert time.process_time() - began < 2
 
 
 def test_results_cannot_be_in_a_folder_with_an_emoji(project: Project) -> None:
