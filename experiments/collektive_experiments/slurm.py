@@ -32,8 +32,9 @@ exec {python} -P -s -m collektive_experiments task {folder} "${{SLURM_ARRAY_TASK
 def write_job(store: Store, todo: list[Task], threads: int, limit: float, trust: bool) -> str:
     """Writes `tasks.json` and `slurm.sh` to the sweep's folder. Returns the path of the script."""
     folder = os.path.abspath(store.folder)
-    if "\n" in folder or "\r" in folder:
-        raise ExperimentError(f"'{folder}' contains a line break, after which the rest of a comment would be a command: name another folder with --out")
+    # After a line break, the rest of a comment would be a command. After a backslash, Slurm does not replace %a in the path.
+    if any(character in folder for character in "\n\r\\"):
+        raise ExperimentError(f"'{folder}' contains a line break or backslash, which jobs of Slurm do not support: name another folder with --out")
     size = -(-len(todo) // MAX_TASKS)
     chunks = [todo[start:start + size] for start in range(0, len(todo), size)]
     tasks = {"limit": limit, "trust": trust,

@@ -44,5 +44,6 @@ def test_a_script_contains_the_folder_only_in_quotes(tmp_path: Path) -> None:
     os.makedirs(store.logs)
     script = Path(write_job(store, [(Run("run", {}, {}), False)], 1, 60, False)).read_text()
     assert f"#SBATCH --output='{tmp_path}/50 %%j; $(touch x)/logs'/slurm-%a.txt" in script
-    with pytest.raises(ExperimentError, match="contains a line break"):
-        write_job(Store(str(tmp_path / "a\ntouch x")), [], 1, 60, False)
+    for name in ("a\ntouch x", "a\\b"):
+        with pytest.raises(ExperimentError, match="contains a line break or backslash"):
+            write_job(Store(str(tmp_path / name)), [], 1, 60, False)
