@@ -33,6 +33,11 @@ class Results:
     labels: dict[str, str] = field(default_factory=dict)
     """The texts that figures show instead of metrics, keys or values."""
 
+    def __post_init__(self) -> None:
+        """Checks the index of the runs, because labels that occur twice would mix the values of different runs."""
+        if not self.runs.index.is_unique:
+            raise ValueError("the index of the runs contains a label twice: combine tables with ignore_index=True")
+
     @property
     def configuration(self) -> list[str]:
         """The keys that vary, except the seed. Runs are repetitions of each other if they have equal values of these keys."""
@@ -120,6 +125,8 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
         samples = {value: part.set_index("seed")[VALUE] for value, part in group.groupby(by, sort=False)}
         for first, second in itertools.combinations(samples, 2):
             a, b = samples[first], samples[second]
+            if not (a.index.is_unique and b.index.is_unique):
+                raise ValueError("two runs of a configuration have the same seed: add the column that distinguishes them to the keys of the results")
             seeds = a.index.intersection(b.index)
             effect = (paired_effect(a[seeds].to_numpy(float), b[seeds].to_numpy(float)) if len(seeds) else
                       unpaired_effect(a.to_numpy(float), b.to_numpy(float)))
