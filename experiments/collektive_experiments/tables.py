@@ -7,6 +7,7 @@ import re
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -90,22 +91,21 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
                       *((f"version.{name}", pa.string()) for name in VERSIONS)])
     series = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), *((name, pa.float64()) for name in columns.metrics),
                         *((name, pa.int64()) for name in COUNTS), *((name, pa.float64()) for name in TIMES)])
-    with Table(os.path.join(store.folder, "runs"), runs, with_csv) as run_table, Table(os.path.join(store.folder, "series"), series, with_csv) as series_table:
+    schemas = {"runs": runs, "series": series}
+    if columns.nodes:
+        schemas["nodes"] = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), ("node", pa.int64()), *columns.nodes.items()])
+    # The tables replace earlier ones together at the end, so that all contain the same runs even if writing them fails.
+    with ExitStack() as stack:
+        opened = {name: stack.enter_context(Table(os.path.join(store.folder, name), schema, with_csv)) for name, schema in schemas.items()}
         for run, record in columns.records():
             first = {"run": run.name, **columns.values(run)}
             if record["status"] == "complete":
                 for row in columns.series(run):
-                    series_table.add({**first, **row})
-            run_table.add({**first, **columns.results(run, record)})
-    if columns.nodes:
-        nodes = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), ("node", pa.int64()), *columns.nodes.items()])
-        with Table(os.path.join(store.folder, "nodes"), nodes, with_csv) as node_table:
-            for run, record in columns.records():
-                if record["status"] == "complete":
-                    first = {"run": run.name, **columns.values(run)}
-                    for row in columns.node_rows(run):
-                        node_table.add({**first, **row})
-    else:
+                    opened["series"].add({**first, **row})
+                for row in columns.node_rows(run) if columns.nodes else ():
+                    opened["nodes"].add({**first, **row})
+            opened["runs"].add({**first, **columns.results(run, record)})
+    if not columns.nodes:
         # The user may have deleted the runs of an earlier sweep in this folder.
         for ending in (".parquet", ".csv"):
             Path(store.folder, "nodes" + ending).unlink(missing_ok=True)

@@ -20,6 +20,7 @@ import pytest
 from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project, processes
 
 from collektive_experiments import ExperimentError, compare, files, load, read, tables
+from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store
 from collektive_experiments.worker import Outcome
@@ -196,6 +197,17 @@ def test_infinite_values_texts_and_large_whole_numbers_of_nodes_are_exact(projec
     assert 9007199254740993 - 3 in nodes["large"].to_pylist()
     assert nodes["ticks"].to_pylist()[-1] == 18446744073709551615
     assert ",9007199254740990,18446744073709551615" in (project.folder / "out/nodes.csv").read_text()
+
+
+def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = project.experiment(vary={"seed": [1]}, set={"outputs.nodes.fields": ["position"]})
+    command = ["sweep", path, "--out", str(project.folder / "out"), "--jobs", "1"]
+    assert main(command) == 0
+    before = project.table()["run"]
+    project.experiment(vary={"seed": [1, 2]}, set={"outputs.nodes.fields": ["position"]})
+    monkeypatch.setattr(tables._Columns, "node_rows", Mock(side_effect=OSError("No space left on device")))
+    assert main([*command, "--resume"]) == 1
+    assert list(project.table()["run"]) == list(before)
 
 
 def test_texts_with_many_lines_are_read_in_linear_time(tmp_path: Path) -> None:
