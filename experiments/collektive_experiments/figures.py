@@ -372,7 +372,8 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
         if sample.empty:
             continue
         times, *curves = kaplan_meier(sample.to_numpy(float), ~is_censored)
-        places = np.array([start, *times, end])
+        # A Kaplan-Meier estimate ends with the observation of its runs, which can be shorter than that of other groups.
+        places = np.array([start, *times, sample.max() if is_censored.any() else end])
         shares, low, high = (np.array([0, *curve, curve[-1] if len(curve) else 0]) for curve in curves)
         line_style = _line_style(index)
         axes.step(places, shares, where="post", label=str(index), markevery=[*range(1, len(places) - 1, max(1, len(places) // 5))], **line_style)

@@ -344,6 +344,17 @@ def test_runs_that_ended_after_the_tables_were_written_are_counted(tmp_path: Pat
     assert "the figures omit 1 complete runs, which are not in the tables" in capsys.readouterr().err
 
 
+def test_an_estimate_ends_with_the_observation_of_its_runs(tmp_path: Path) -> None:
+    results = load(write_sweep(tmp_path / "out", losses=(0.4,)))
+    is_short = (results.runs["program"] == "bellman-ford") & results.runs["converged.error"].isna()
+    results.runs.loc[is_short, "censored.error"] = 4.0
+    (_, figure, _), = draw(results, read_options({"metric": "converged.error", "kind": "ecdf", "by": "program"}))
+    converged = results.values("converged.error")
+    ends = [converged[results.runs["program"] == program].max() for program in PROGRAMS]
+    assert ends[1] == 4 < ends[0]
+    assert [line.get_xdata()[-1] for line in figure.axes[0].lines if line.get_label() in ("0", "1")] == [ends[0], 4]
+
+
 def test_axes_support_scales_limits_and_points(sweep: str) -> None:
     def axes(**options: str) -> Any:
         (_, figure, _), *_ = draw(load(sweep), read_options({"metric": "error", "by": "program", **options}))
