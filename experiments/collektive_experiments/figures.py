@@ -111,7 +111,8 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     if results.complete.empty:
         raise ExperimentError(f"'{folder}' has no complete runs to plot; their errors are in runs.parquet. Correct them and continue with --resume")
     if later := Store(folder).count_complete_except({*results.complete["run"]}):
-        print(f"collektive: the figures omit {later} complete runs, which are not in the tables: a sweep writes its tables when it ends", file=sys.stderr)
+        print(f"collektive: the figures omit {later} complete runs, which are not in the tables: the sweep has not ended, or their values were removed from "
+              "the experiment file", file=sys.stderr)
     requests = [options] if options else _requests(folder, experiment)
     for request in requests:
         check(results, request)
