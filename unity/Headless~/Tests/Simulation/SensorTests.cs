@@ -548,6 +548,27 @@ namespace Collektive.Headless.Tests.Simulation
             }
         }
 
+        [TestCase(false)]
+        [TestCase(true)]
+        public void A_collider_that_leaves_in_a_tick_is_no_longer_an_obstacle(bool isDestroyed)
+        {
+            var setter = MakeNode(0).Node.gameObject.AddComponent<Setter>();
+            var obstacles = MakeNode(0).Node.gameObject.AddComponent<Obstacles>();
+            obstacles.Reach = 10;
+            var boxes = new List<Collider>();
+            for (var x = 2; x < 5; x++) boxes.Add(MakeBox(new Vector3(x, 0, 0)).GetComponent<Collider>());
+            Play(2);
+            Assert.That(obstacles.Values.Count, Is.EqualTo(3));
+            setter.Sensing = () =>
+            {
+                if (isDestroyed) Object.DestroyImmediate(boxes[0]);
+                else boxes[0].enabled = false;
+            };
+            Play(1);
+            Assert.That(Errors, Is.Empty);
+            Assert.That(obstacles.Values.ConvertAll(obstacle => obstacle.Vector.x), Is.EqualTo(new[] { 2.5f, 3.5f }));
+        }
+
         [Test]
         public void An_infinite_reach_finds_all_obstacles()
         {

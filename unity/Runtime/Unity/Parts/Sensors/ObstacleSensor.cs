@@ -93,7 +93,8 @@ namespace Collektive.Unity
 
         private void Take(Collider collider, Obstacle[] obstacles, ref int found)
         {
-            if (Node.Owns(collider)) return;
+            // Users' code may have disabled or destroyed the collider after the batch began. It then has no closest point.
+            if (collider.IsGone() || Node.Owns(collider)) return;
             var centre = Node.Position;
             var obstacle = new Obstacle(collider, collider.PointClosestTo(centre) - centre);
             var index = found++;
