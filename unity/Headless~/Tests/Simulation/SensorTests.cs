@@ -415,6 +415,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_selected_source_that_is_destroyed_before_the_first_round_has_no_intensity()
+        {
+            MakeSource(Vector3.zero);
+            var source = MakeSource(Vector3.zero);
+            var node = MakeNode(0).Node.gameObject;
+            node.SetActive(false);
+            var sensor = node.AddComponent<Intensity>();
+            // A scene or prefab sets the field, not the property.
+            typeof(IntensitySensor<SensorData>).GetField("source", BindingFlags.NonPublic | BindingFlags.Instance).SetValue(sensor, source);
+            node.SetActive(true);
+            Object.DestroyImmediate(source);
+            Play(1);
+            Assert.That(sensor.Value, Is.EqualTo(0));
+        }
+
+        [Test]
         public void Editing_a_sensor_keeps_its_destroyed_source_but_not_its_cleared_source()
         {
             var sensor = MakeSensorOfDestroyedSource();

@@ -25,6 +25,13 @@ namespace Collektive.Unity
         }
 
         /// <inheritdoc/>
+        protected override void OnEnable()
+        {
+            base.OnEnable();
+            if (source != null) lastSource = source;
+        }
+
+        /// <inheritdoc/>
         protected sealed override void Sense(ref TData data)
         {
             var position = Node.Position;
