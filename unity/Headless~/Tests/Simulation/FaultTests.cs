@@ -817,6 +817,19 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Failure, Is.StringContaining(" is " + value + " s: it must be greater than 0"));
         }
 
+        [TestCase("stopAfter", float.NaN, "stop after is NaN s: it must be 0 or greater")]
+        [TestCase("threads", 0, "threads is 0: it must be from 1 to 256")]
+        [TestCase("threads", 257, "threads is 257: it must be from 1 to 256")]
+        [TestCase("stepLimitMs", 0, "step limit ms is 0: it must be at least 1")]
+        public void Invalid_settings_that_are_set_during_play_stop_the_simulation(string field, object value, string problem)
+        {
+            MakeNode(1);
+            Play(2);
+            typeof(SimulationSettings).GetField(field).SetValue(Manager.Settings, value);
+            Play(1);
+            Assert.That(Manager.Failure, Is.EqualTo(problem));
+        }
+
         [Test]
         public void Clicking_a_rejection_selects_the_rejected_object()
         {

@@ -245,7 +245,7 @@ namespace Collektive.Unity
             if (!simulation.IsOpen && !simulation.TryOpen()) return;
             simulation.Log.Show(Logged);
             if (simulation.IsPending) Step();
-            if (paused || simulation.IsPending || !simulation.CheckTimes()) return;
+            if (paused || simulation.IsPending || !simulation.CheckSettings()) return;
             accumulated = Math.Min(accumulated + Time.deltaTime, MaxTicksPerFrame * (double)settings.deltaTime);
             while (accumulated >= settings.deltaTime * RoundingTolerance && isActiveAndEnabled && !paused && !simulation.IsPending)
             {

@@ -181,11 +181,8 @@ namespace Collektive.Unity
         /// <summary>Returns the first error of a value with its fix, or null.</summary>
         internal string FindProblem()
         {
-            var problem = ArgumentProblem ?? FindTimeProblem();
+            var problem = ArgumentProblem ?? FindTickProblem();
             if (problem != null) return problem;
-            if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
-            if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be from 1 to 256";
-            if (stepLimitMs < 1) return "step limit is " + stepLimitMs + " ms: it must be at least 1";
             if (runtime == AggregateRuntime.Collektive && string.IsNullOrWhiteSpace(runtimeJars))
                 return "runtime is Collektive, but runtime jars is empty: select the folder of Collektive's jars";
             if (jars.Exists(string.IsNullOrWhiteSpace)) return "a jar has no path: enter the path, or remove the entry";
@@ -193,15 +190,17 @@ namespace Collektive.Unity
             return problem ?? network.FindProblem(SimulatedSeconds.Exact(deltaTime));
         }
 
-        /// <summary>Returns the error of the times that are read in each tick, or null.</summary>
-        internal string FindTimeProblem()
+        /// <summary>Returns the error of the values that are read in each tick, or null.</summary>
+        internal string FindTickProblem()
         {
             if (!(deltaTime > 0) || float.IsInfinity(deltaTime)) return "delta time is " + deltaTime + " s: it must be greater than 0";
             if (deltaTime < MinDeltaTime) return "delta time is " + deltaTime + " s: it must be at least " + MinDeltaTime;
             if (!(physicsStep > 0 && physicsStep <= 0.02f)) return "physics step is " + physicsStep + " s: it must be greater than 0 and at most 0.02";
             if (deltaTime / (double)physicsStep > MaxSubSteps)
                 return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would need more than a million steps; raise the physics step";
-            return null;
+            if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
+            if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be from 1 to 256";
+            return stepLimitMs < 1 ? "step limit ms is " + stepLimitMs + ": it must be at least 1" : null;
         }
 
         /// <summary>

@@ -234,11 +234,11 @@ namespace Collektive.Unity
             changedPrograms.Add(program);
         }
 
-        /// <summary>Ends the simulation if a script has set times with which no tick can run.</summary>
-        /// <returns>Whether the times are valid.</returns>
-        internal bool CheckTimes()
+        /// <summary>Ends the simulation if a script has set values with which no tick can run.</summary>
+        /// <returns>Whether the values are valid.</returns>
+        internal bool CheckSettings()
         {
-            var problem = Settings.FindTimeProblem();
+            var problem = Settings.FindTickProblem();
             if (problem != null) Fail(problem);
             return problem == null;
         }
@@ -335,7 +335,7 @@ namespace Collektive.Unity
 
         private void Begin()
         {
-            if (!CheckTimes()) return;
+            if (!CheckSettings()) return;
             var isLonger = Settings.deltaTime > DeltaTime;
             (DeltaTime, PhysicsStep) = (Settings.deltaTime, Settings.physicsStep);
             timestamps.Start = Stopwatch.GetTimestamp();
