@@ -119,6 +119,25 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Changed_parameters_of_a_node_take_effect_only_when_it_joins()
+        {
+            Configure("scaled");
+            var node = MakeNode(2);
+            node.Node.Parameters.Add(new NodeParameter("factor", "10"));
+            Play(1);
+            node.Node.Parameters[0] = new NodeParameter("factor", "20");
+            node.Node.Parameters.Add(new NodeParameter("factor", "30"));
+            var other = MakeNode(2);
+            other.Node.Program = "double";
+            Play(1);
+            other.Node.Program = "scaled";
+            Manager.Simulation.SetParameter("scaled", "factor", "7");
+            Play(1);
+            Assert.That(Manager.Failure, Is.Empty);
+            Assert.That((node.Answer, other.Answer), Is.EqualTo((20f, 4f)));
+        }
+
+        [Test]
         public void The_programs_of_the_jar_are_listed_with_their_parameters()
         {
             MakeNode(0);

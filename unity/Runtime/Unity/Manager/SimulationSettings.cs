@@ -130,7 +130,7 @@ namespace Collektive.Unity
         internal IReadOnlyList<string> Metrics { get; set; } = new string[0];
 
         /// <summary>Returns the name of the program that a node runs.</summary>
-        internal string ProgramOf(Node node) => node.Program.Length > 0 ? node.Program : ProgramName;
+        internal string ProgramOf(Node node) => node.UsedProgram.Length > 0 ? node.UsedProgram : ProgramName;
 
         /// <summary>Returns the program with the given name in the libraries, or null.</summary>
         internal AggregateProgram FindProgram(string name)
@@ -154,11 +154,11 @@ namespace Collektive.Unity
         /// <summary>Returns the parameters of a node. The manager's values are used for parameters that the node does not set.</summary>
         internal List<NodeParameter> ParametersOf(Node node)
         {
-            if (!ProgramParameters.TryGetValue(ProgramOf(node), out var common)) return node.Parameters;
-            var all = new List<NodeParameter>(node.Parameters);
+            if (!ProgramParameters.TryGetValue(ProgramOf(node), out var common)) return node.UsedParameters;
+            var all = new List<NodeParameter>(node.UsedParameters);
             foreach (var parameter in common)
             {
-                if (!node.Parameters.Exists(own => own.name == parameter.name)) all.Add(parameter);
+                if (!node.UsedParameters.Exists(own => own.name == parameter.name)) all.Add(parameter);
             }
             return all;
         }

@@ -52,6 +52,13 @@ namespace Collektive.Unity
         [Tooltip("Timing of this node's rounds if Own Timing is on.")]
         private RoundTiming timing = new RoundTiming();
 
+        // Copies of the settings with which the node joined, because scripts may change them afterwards; null before that.
+        [NonSerialized]
+        private string joinedProgram;
+
+        [NonSerialized]
+        private List<NodeParameter> joinedParameters;
+
         private RandomStream random;
         private int enabledIndex;
         private ActuatorBuffer answers;
@@ -94,6 +101,12 @@ namespace Collektive.Unity
 
         /// <summary>Values of the program's parameters. Read when the node joins.</summary>
         public List<NodeParameter> Parameters => parameters;
+
+        /// <summary>The value of <see cref="Program"/> with which the node joined; before that, the present value.</summary>
+        internal string UsedProgram => joinedProgram ?? Program;
+
+        /// <summary>The values of <see cref="Parameters"/> with which the node joined; before that, the present values.</summary>
+        internal List<NodeParameter> UsedParameters => joinedParameters ?? parameters;
 
         /// <summary>Whether <see cref="Timing"/> replaces the manager's timing under the asynchronous schedule. Read when the node joins.</summary>
         public bool OwnTiming
@@ -245,12 +258,16 @@ namespace Collektive.Unity
             Id = newId;
             JoinTick = simulation.TickInProgress;
             Position = Body.position;
+            (joinedProgram, joinedParameters) = (null, null);
             random = new RandomStream(simulation.Seed, newId, RandomPurpose.Node);
             LastError = "";
             ForgetAnswer();
             timer = null;
             asleepUntil = 0;
         }
+
+        /// <summary>Keeps the program and the parameters that are sent to the JVM.</summary>
+        internal void KeepProgram() => (joinedProgram, joinedParameters) = (Program, new List<NodeParameter>(parameters));
 
         internal void SetAnswer(ActuatorBuffer buffer, int index, ulong tick, double time, float deltaTime)
         {

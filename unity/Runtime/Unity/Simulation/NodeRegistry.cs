@@ -92,6 +92,7 @@ namespace Collektive.Unity
             for (var i = 0; i < joining.Count; i++)
             {
                 if (joining[i] is null) continue;
+                joining[i].KeepProgram();
                 var parameters = joining[i].Simulation.Settings.ParametersOf(joining[i]);
                 request.AddNode(joining[i].Id, joining[i].Program, Pairs(parameters));
                 Joined?.Invoke(joining[i], parameters);
@@ -107,7 +108,7 @@ namespace Collektive.Unity
             foreach (var node in nodes)
             {
                 var settings = node.Simulation.Settings;
-                if (IsKnown[node.Id] && settings.ProgramOf(node) == program) request.ChangeNode(node.Id, node.Program, Pairs(settings.ParametersOf(node)));
+                if (IsKnown[node.Id] && settings.ProgramOf(node) == program) request.ChangeNode(node.Id, node.UsedProgram, Pairs(settings.ParametersOf(node)));
             }
         }
 
