@@ -249,6 +249,29 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Links(), Is.EqualTo("0>1 0>2 1>0 2>0"));
         }
 
+        [TestCase(-1)]
+        [TestCase(float.NaN)]
+        public void A_ready_made_rule_with_a_negative_setting_fails_and_keeps_its_links(float value)
+        {
+            var line = MakeLine(0, 1, 2, 3, 4);
+            var radius = line[0].Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            var tolerance = line[1].Node.gameObject.AddComponent<RadiusNeighbourhood>();
+            var sight = AddLineOfSight(line[2], 1);
+            var nearest = line[3].Node.gameObject.AddComponent<KNearestNeighbourhood>();
+            radius.Radius = tolerance.Radius = nearest.Count = 1;
+            Play(1);
+            var links = Links();
+            radius.Radius = sight.Radius = tolerance.LengthTolerance = value;
+            nearest.Count = -1;
+            Play(1);
+            Assert.That(Links(), Is.EqualTo(links));
+            var names = new[] { "radius", "length tolerance", "radius", "count" };
+            Assert.That(Errors.Count, Is.EqualTo(names.Length), string.Join("; ", Errors));
+            for (var i = 0; i < names.Length; i++)
+                Assert.That(Errors[i], Is.StringContaining("of node " + i).And.StringContaining("its " + names[i] + " is "));
+            Assert.That(Manager.Failure, Is.Empty);
+        }
+
         [Test]
         public void Neighbours_can_be_added_only_within_FindNeighbours()
         {

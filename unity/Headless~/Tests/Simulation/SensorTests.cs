@@ -534,7 +534,17 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That((zones.Events.Count, zones.Last.transform.localScale.x), Is.EqualTo((2, 3f)));
         }
 
+        [TestCase(0)]
+        [TestCase(-3)]
+        public void A_fan_without_rays_is_an_error(int rays)
+        {
+            MakeNode(0).Node.gameObject.AddComponent<Rays>().Rays = rays;
+            Play(2);
+            Assert.That(Errors[0], Is.StringContaining("Rays of node 0").And.StringContaining("its rays is " + rays + ": set it to 1 or greater"));
+        }
+
         [TestCase(float.NaN)]
+        [TestCase(-90)]
         [TestCase(float.NegativeInfinity)]
         public void A_fan_whose_angle_is_not_a_number_is_an_error(float angle)
         {

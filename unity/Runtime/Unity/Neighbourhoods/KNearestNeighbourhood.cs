@@ -21,9 +21,11 @@ namespace Collektive.Unity
             set => count = value;
         }
 
-        internal override bool IsSearch => true;
+        internal override bool IsSearch => count >= 0;
 
         /// <inheritdoc/>
         protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.SearchNearest(count);
+
+        internal override void Prepare(TickContext tick) => CheckNotNegative("count", count);
     }
 }

@@ -85,6 +85,7 @@ namespace Collektive.Unity
 
         internal override void Prepare(TickContext tick)
         {
+            CheckNotNegative("radius", radius);
             // A rule is not yet in the batch in the tick that added it.
             var isBatched = tick.SightLines.Rules.Has(this);
             if (!isBatched) FindNear(tick);

@@ -127,8 +127,8 @@ namespace Collektive.Unity
             search.Outer = radius;
         }
 
-        /// <summary>Requests a search for the nearest nodes. A count below 1 finds none.</summary>
-        internal void SearchNearest(int count) => Searches.Items[Searches.Count - 1].Nearest = Math.Max(count, 0);
+        /// <summary>Requests a search for the nearest nodes.</summary>
+        internal void SearchNearest(int count) => Searches.Items[Searches.Count - 1].Nearest = count;
 
         private static bool IsAmount(float value) => value >= 0 && !float.IsInfinity(value);
 

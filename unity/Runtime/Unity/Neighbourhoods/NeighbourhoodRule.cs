@@ -42,7 +42,13 @@ namespace Collektive.Unity
             set => lengthTolerance = value;
         }
 
-        /// <summary>Whether <see cref="FindNeighbours"/> only requests a search. The searches of all nodes then run together.</summary>
+        /// <summary>
+        /// Whether <see cref="FindNeighbours"/> only requests a search. The searches of all nodes then run together. A rule with an invalid setting is called
+        /// instead, and throws an exception.
+        /// </summary>
+        internal bool MustSearch => lengthTolerance >= 0 && IsSearch;
+
+        /// <summary>Whether <see cref="FindNeighbours"/> only requests a search with valid settings.</summary>
         internal virtual bool IsSearch => false;
 
         internal sealed override ref PartList ListOf(Node node)
@@ -53,10 +59,11 @@ namespace Collektive.Unity
 
         internal sealed override void Detached() => ReleaseAll();
 
-        /// <summary>Updates the links of this rule. Does nothing if <see cref="IsSearch"/> is true.</summary>
+        /// <summary>Updates the links of this rule. Does nothing if <see cref="MustSearch"/> is true.</summary>
         internal sealed override void Run(TickContext tick, int index)
         {
-            if (IsSearch) return;
+            if (MustSearch) return;
+            CheckNotNegative("length tolerance", lengthTolerance);
             var neighbours = tick.Neighbours;
             var centre = Node;
             if (!isOwn) tick.Queries.Finish();
@@ -77,7 +84,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Adds this rule's search to the searches of the tick, if <see cref="IsSearch"/> is true. <paramref name="nodeIndex"/> is the node's index in the
+        /// Adds this rule's search to the searches of the tick, if <see cref="MustSearch"/> is true. <paramref name="nodeIndex"/> is the node's index in the
         /// grid.
         /// </summary>
         internal void AddSearch(TickContext tick, int nodeIndex)

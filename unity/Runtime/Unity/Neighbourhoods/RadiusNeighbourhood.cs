@@ -18,10 +18,12 @@ namespace Collektive.Unity
             set => radius = value;
         }
 
-        internal override bool IsSearch => true;
+        internal override bool IsSearch => radius >= 0;
 
         /// <inheritdoc/>
         protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.SearchWithin(radius);
+
+        internal override void Prepare(TickContext tick) => CheckNotNegative("radius", radius);
 
         private void OnDrawGizmosSelected() => Gizmos.DrawWireSphere(transform.position, radius);
     }

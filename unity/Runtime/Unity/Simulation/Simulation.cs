@@ -482,7 +482,7 @@ namespace Collektive.Unity
                 for (var r = 0; r < rules.Count; r++)
                 {
                     var rule = (NeighbourhoodRule)rules[r];
-                    if (rule.IsSearch) rule.AddSearch(Context, i);
+                    if (rule.MustSearch) rule.AddSearch(Context, i);
                     else areSearches = false;
                 }
                 if (!areSearches) withOwnRules.Add(i);

@@ -72,16 +72,15 @@ namespace Collektive.Unity
         /// Whether the directions no longer match the settings. The number of hits is compared, because only the directions survive when scripts are
         /// compiled during play.
         /// </summary>
-        private bool MustUpdateDirections => hits.Length != Math.Max(rays, 0) || !angleOfDirections.Equals(angle);
-
-        private bool IsAngleValid => angle > float.NegativeInfinity;
+        private bool MustUpdateDirections => hits.Length != rays || !angleOfDirections.Equals(angle);
 
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) => Write(ref data, hits);
 
         internal sealed override void Prepare(TickContext tick)
         {
-            if (!IsAngleValid) throw new InvalidOperationException("its angle is NaN or negative infinity: set it to 0..360");
+            if (rays < 1) throw new InvalidOperationException("its rays is " + rays + ": set it to 1 or greater");
+            CheckNotNegative("angle", angle);
             CheckNotNegative("range", range);
             var queries = tick.Queries;
             // The batch is not used if another sensor changed the fan after the batch began.
@@ -99,7 +98,7 @@ namespace Collektive.Unity
 
         internal sealed override void Enqueue(TickContext tick)
         {
-            if (!IsAngleValid || !(range >= 0))
+            if (rays < 1 || !(angle >= 0 && range >= 0))
             {
                 batchedRange = float.NaN;
                 return;
@@ -126,7 +125,7 @@ namespace Collektive.Unity
 
         private void ComputeLocalDirections()
         {
-            hits = new RayHit[Math.Max(rays, 0)];
+            hits = new RayHit[rays];
             worldDirections = new Vector3[hits.Length];
             directions = new Vector3[hits.Length];
             angleOfDirections = angle;
