@@ -50,6 +50,28 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_mirrored_parent_mirrors_rotations_of_children()
+        {
+            for (var trial = 0; trial < Trials; trial++)
+            {
+                var transform = Chain(1 + trial % 5);
+                for (var level = transform; level != null; level = level.parent)
+                {
+                    var size = level == transform ? level.localScale : Vector3.one;
+                    level.localScale = Vector3.Scale(size, new Vector3(random.Next(2) * 2 - 1, random.Next(2) * 2 - 1, random.Next(2) * 2 - 1));
+                }
+                var value = Vector(5f);
+                Near(transform.position + transform.rotation * Vector3.Scale(transform.lossyScale, value), transform.TransformPoint(value));
+                var rotation = RandomRotation();
+                transform.rotation = rotation;
+                Assert.That(Quaternion.Angle(transform.rotation, rotation), Is.LessThan(0.1f));
+                var position = Vector(5f);
+                transform.SetPositionAndRotation(position, rotation);
+                Near(transform.position + rotation * Vector3.Scale(transform.lossyScale, value), transform.TransformPoint(value));
+            }
+        }
+
+        [Test]
         public void SetPositionAndRotation_sets_the_world_pose()
         {
             for (var trial = 0; trial < Trials; trial++)

@@ -170,8 +170,21 @@ namespace UnityEngine
 
         public Quaternion rotation
         {
-            get => parentOrNull is null ? ownRotation : parentOrNull.rotation * ownRotation;
-            set => localRotation = parentOrNull is null ? value : Quaternion.Inverse(parentOrNull.rotation) * value;
+            get => parentOrNull is null ? ownRotation : parentOrNull.rotation * parentOrNull.Mirror(ownRotation);
+            set => localRotation = parentOrNull is null ? value : parentOrNull.Mirror(Quaternion.Inverse(parentOrNull.rotation) * value);
+        }
+
+        /// Returns a child's rotation, mirrored along the axes in which this object and its parents have a negative scale. A second call undoes the first.
+        Quaternion Mirror(Quaternion turn)
+        {
+            bool x = false, y = false, z = false;
+            for (var level = this; !(level is null); level = level.parentOrNull)
+            {
+                x ^= level.ownScale.x < 0f;
+                y ^= level.ownScale.y < 0f;
+                z ^= level.ownScale.z < 0f;
+            }
+            return new Quaternion(y ^ z ? -turn.x : turn.x, x ^ z ? -turn.y : turn.y, x ^ y ? -turn.z : turn.z, turn.w);
         }
 
         public Vector3 eulerAngles { get => rotation.eulerAngles; set => rotation = Quaternion.Euler(value); }
@@ -204,7 +217,7 @@ namespace UnityEngine
                 return;
             }
             placed = parentOrNull.InverseTransformPoint(position);
-            turned = (Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
+            turned = parentOrNull.Mirror(Quaternion.Inverse(parentOrNull.rotation) * rotation).normalized;
         }
 
         /// The world scale along the local axes, without shear.
