@@ -59,6 +59,13 @@ def test_commands_use_the_same_locale_and_time_zone_for_any_user(name: str, give
     assert result.stdout == f"{expected}\n", result.stderr
 
 
+def test_mono_has_no_other_optimizations(checkout: Checkout) -> None:
+    result = subprocess.run([checkout.root / "collektive", "run", "x.json"], capture_output=True, text=True,
+                            env={**os.environ, "MONO_ENV_OPTIONS": "--debug -O=-float32"})
+    assert (result.returncode, result.stderr.count("\n")) == (1, 1)
+    assert "MONO_ENV_OPTIONS sets optimizations" in result.stderr
+
+
 def test_files_are_utf_8_in_any_locale(checkout: Checkout) -> None:
     (checkout.root / "scripts/collektive.py").write_text("import sys; print(sys.flags.utf8_mode)")
     result = subprocess.run([checkout.root / "collektive"], capture_output=True, text=True, env={**os.environ, "LC_ALL": "C.UTF-8"})
