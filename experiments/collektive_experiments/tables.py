@@ -40,7 +40,7 @@ Record = dict[str, Any]
 
 
 class Table:
-    """A table that is written row by row, and gets its final name when it is complete."""
+    """A table that is written row by row. `publish` gives it its final name."""
 
     def __init__(self, path: str, schema: pa.Schema, with_csv: bool):
         self._schema = schema
@@ -69,9 +69,11 @@ class Table:
         finally:
             for file in self._files:
                 file.close()
-        if error is None:
-            for path in self._paths:
-                files.publish(path)
+
+    def publish(self) -> None:
+        """Replaces the earlier table. Call it after the end of the `with` block."""
+        for path in self._paths:
+            files.publish(path)
 
     def _flush(self) -> None:
         table = pa.Table.from_pylist(self._rows, schema=self._schema)
@@ -94,7 +96,6 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     schemas = {"runs": runs, "series": series}
     if columns.nodes:
         schemas["nodes"] = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), ("node", pa.int64()), *columns.nodes.items()])
-    # The tables replace earlier ones together at the end, so that all contain the same runs even if writing them fails.
     with ExitStack() as stack:
         opened = {name: stack.enter_context(Table(os.path.join(store.folder, name), schema, with_csv)) for name, schema in schemas.items()}
         for run, record in columns.records():
@@ -105,6 +106,9 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
                 for row in columns.node_rows(run) if columns.nodes else ():
                     opened["nodes"].add({**first, **row})
             opened["runs"].add({**first, **columns.results(run, record)})
+    # All tables must contain the same runs, even if writing one of them fails.
+    for table in opened.values():
+        table.publish()
     if not columns.nodes:
         # The user may have deleted the runs of an earlier sweep in this folder.
         for ending in (".parquet", ".csv"):

@@ -203,11 +203,18 @@ def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: P
     path = project.experiment(vary={"seed": [1]}, set={"outputs.nodes.fields": ["position"]})
     command = ["sweep", path, "--out", str(project.folder / "out"), "--jobs", "1"]
     assert main(command) == 0
-    before = project.table()["run"]
+    before = {name: list(project.table(name=name)["run"]) for name in ("runs", "series", "nodes")}
     project.experiment(vary={"seed": [1, 2]}, set={"outputs.nodes.fields": ["position"]})
-    monkeypatch.setattr(tables._Columns, "node_rows", Mock(side_effect=OSError("No space left on device")))
+    flush = tables.Table._flush
+
+    def fail_at_the_end(table: tables.Table) -> None:
+        if table._paths[0].endswith("runs.parquet"):
+            raise OSError("No space left on device")
+        flush(table)
+
+    monkeypatch.setattr(tables.Table, "_flush", fail_at_the_end)
     assert main([*command, "--resume"]) == 1
-    assert list(project.table()["run"]) == list(before)
+    assert {name: list(project.table(name=name)["run"]) for name in before} == before
 
 
 def test_texts_with_many_lines_are_read_in_linear_time(tmp_path: Path) -> None:
