@@ -111,8 +111,8 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
     if results.complete.empty:
         raise ExperimentError(f"'{folder}' has no complete runs to plot; their errors are in runs.parquet. Correct them and continue with --resume")
     if later := Store(folder).count_complete_except({*results.complete["run"]}):
-        print(f"collektive: the figures omit {later} complete runs, which are not in the tables: the sweep has not ended, or their values were removed from "
-              "the experiment file", file=sys.stderr)
+        print(f"collektive: complete runs that the figures omit because they are not in the tables: {later}; the sweep has not ended, or their values were "
+              "removed from the experiment file", file=sys.stderr)
     requests = [options] if options else _requests(folder, experiment)
     for request in requests:
         check(results, request)
@@ -373,8 +373,8 @@ def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str,
         if sample.empty:
             continue
         times, *curves = kaplan_meier(sample.to_numpy(float), ~is_censored)
-        # A Kaplan-Meier estimate ends with the observation of its runs, which can be shorter than that of other groups.
-        places = np.array([start, *times, sample.max() if is_censored.any() else end])
+        # A Kaplan-Meier estimate is unknown after its last run if this run is censored.
+        places = np.array([start, *times, sample.max() if is_censored[sample == sample.max()].any() else end])
         shares, low, high = (np.array([0, *curve, curve[-1] if len(curve) else 0]) for curve in curves)
         line_style = _line_style(index)
         axes.step(places, shares, where="post", label=str(index), markevery=[*range(1, len(places) - 1, max(1, len(places) // 5))], **line_style)

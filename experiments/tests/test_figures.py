@@ -341,7 +341,7 @@ def test_runs_that_ended_after_the_tables_were_written_are_counted(tmp_path: Pat
         record = {"name": name.removesuffix(".part"), "status": status, "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}
         (tmp_path / "out/runs" / name / "run.json").write_text(json.dumps(record))
     plot(folder)
-    assert "the figures omit 1 complete runs, which are not in the tables: the sweep has not ended, or" in capsys.readouterr().err
+    assert "the figures omit because they are not in the tables: 1; the sweep has not ended, or" in capsys.readouterr().err
 
 
 def test_an_estimate_ends_with_the_observation_of_its_runs(tmp_path: Path) -> None:
@@ -353,6 +353,11 @@ def test_an_estimate_ends_with_the_observation_of_its_runs(tmp_path: Path) -> No
     ends = [converged[results.runs["program"] == program].max() for program in PROGRAMS]
     assert ends[1] == 4 < ends[0]
     assert [line.get_xdata()[-1] for line in figure.axes[0].lines if line.get_label() in ("0", "1")] == [ends[0], 4]
+
+    # An estimate whose last run has converged is known until the end.
+    results.runs.loc[is_short.idxmax(), "converged.error"] = 5.0
+    (_, figure, _), = draw(results, read_options({"metric": "converged.error", "kind": "ecdf", "by": "program"}))
+    assert [line.get_xdata()[-1] for line in figure.axes[0].lines if line.get_label() in ("0", "1")] == [ends[0]] * 2
 
 
 def test_axes_support_scales_limits_and_points(sweep: str) -> None:
