@@ -23,7 +23,6 @@ namespace Collektive.Unity.Editor
 
         private ProgramArchive(ZipArchive jar)
         {
-            CheckMetadata(jar);
             var schemas = Lines(jar, SchemaService);
             if (schemas.Count != 1)
                 throw new InvalidDataException("it contains " + schemas.Count + " schemas: it must contain the programs and the code of one schema");
@@ -61,37 +60,53 @@ namespace Collektive.Unity.Editor
         /// <exception cref="IOException">The file cannot be read.</exception>
         internal static ProgramArchive Read(string path)
         {
-            using (var file = File.OpenRead(path))
+            var file = File.ReadAllBytes(path);
+            try
             {
-                try
+                using (var jar = new ZipArchive(new MemoryStream(file), ZipArchiveMode.Read))
                 {
-                    using (var jar = new ZipArchive(file, ZipArchiveMode.Read)) return new ProgramArchive(jar);
+                    CheckEntries(file, jar);
+                    return new ProgramArchive(jar);
                 }
-                // Damaged archives make the decoders throw these exceptions, too.
-                catch (Exception error) when (error is ArgumentException || error is NotSupportedException || error is EndOfStreamException)
-                {
-                    throw new InvalidDataException(error.Message, error);
-                }
+            }
+            // Damaged archives make the decoders throw these exceptions, too.
+            catch (Exception error) when (error is ArgumentException || error is NotSupportedException || error is EndOfStreamException
+                || error is IndexOutOfRangeException)
+            {
+                throw new InvalidDataException(error.Message, error);
             }
         }
 
-        /// <summary>Compares the checksums of the entries that the editor reads, because <see cref="ZipArchive"/> ignores them.</summary>
-        private static void CheckMetadata(ZipArchive jar)
+        /// <summary>Compares names and checksums of entries with the directory at the end of the file, because <see cref="ZipArchive"/> does not.</summary>
+        private static void CheckEntries(byte[] file, ZipArchive jar)
         {
+            // A comment can follow the end record.
+            var end = file.Length - 22;
+            while (BitConverter.ToUInt32(file, end) != 0x06054B50) end--;
+            var at = BitConverter.ToInt32(file, end + 16);
             foreach (var entry in jar.Entries)
             {
-                if (!entry.FullName.StartsWith("META-INF/", StringComparison.Ordinal)) continue;
-                var crc = uint.MaxValue;
-                using (var content = new BufferedStream(entry.Open()))
-                {
-                    for (var value = content.ReadByte(); value >= 0; value = content.ReadByte())
-                    {
-                        crc ^= (uint)value;
-                        for (var bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (crc & 1) * 0xEDB88320;
-                    }
-                }
-                if (~crc != entry.Crc32) throw new InvalidDataException("its entry " + entry.FullName + " is damaged: build or download the file again");
+                var (nameLength, local) = (BitConverter.ToUInt16(file, at + 28), BitConverter.ToInt32(file, at + 42));
+                var isSame = true;
+                for (var i = 0; i < nameLength; i++) isSame &= file[at + 46 + i] == file[local + 30 + i];
+                if (!isSame || entry.FullName.StartsWith("META-INF/", StringComparison.Ordinal) && Crc32(entry) != BitConverter.ToUInt32(file, at + 16))
+                    throw new InvalidDataException("its entry " + entry.FullName + " is damaged: build or download the file again");
+                at += 46 + nameLength + BitConverter.ToUInt16(file, at + 30) + BitConverter.ToUInt16(file, at + 32);
             }
+        }
+
+        private static uint Crc32(ZipArchiveEntry entry)
+        {
+            var crc = uint.MaxValue;
+            using (var content = new BufferedStream(entry.Open()))
+            {
+                for (var value = content.ReadByte(); value >= 0; value = content.ReadByte())
+                {
+                    crc ^= (uint)value;
+                    for (var bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (crc & 1) * 0xEDB88320;
+                }
+            }
+            return ~crc;
         }
 
         private static Stream Open(ZipArchive jar, string name) =>

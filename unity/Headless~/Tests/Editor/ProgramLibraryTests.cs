@@ -118,17 +118,18 @@ namespace Collektive.Headless.Tests.Editor
             Logged(Path + " is not a library of programs: ");
         }
 
-        [Test]
-        public void A_wrong_checksum_is_an_import_error()
+        // In the directory at the end of the file, an entry's CRC is 30 bytes before its name.
+        [TestCase(-30)]
+        [TestCase(40)]
+        public void A_wrong_checksum_or_name_is_an_import_error(int place)
         {
             const string Index = "META-INF/collektive/programs/swarm.HopsKt";
             Pack(Path, ("swarm.HopsKt", Program("hops")));
             var jar = File.ReadAllBytes(Path);
-            // In the directory at the end of the file, an entry's CRC is 30 bytes before its name.
-            jar[System.Text.Encoding.GetEncoding("ISO-8859-1").GetString(jar).LastIndexOf(Index, StringComparison.Ordinal) - 30] ^= 1;
+            jar[System.Text.Encoding.GetEncoding("ISO-8859-1").GetString(jar).LastIndexOf(Index, StringComparison.Ordinal) + place] ^= 1;
             File.WriteAllBytes(Path, jar);
             Assert.That(Load(Path).Programs, Is.Empty);
-            Logged("Error: " + Path + " is not a library of programs: its entry " + Index + " is damaged");
+            Logged("Error: " + Path + " is not a library of programs: its entry META-INF/collektive/programs/");
         }
 
         [Test]
