@@ -16,8 +16,9 @@ namespace Collektive.Headless
         {
             if (!double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out value)) return false;
             var parts = text.Trim().Trim('\0').Split('e', 'E');
-            var scale = 0;
-            if (double.IsNaN(value) || double.IsInfinity(value) || parts.Length > 1 && !int.TryParse(parts[1], out scale)) return true;
+            var scale = 0L;
+            if (double.IsNaN(value) || double.IsInfinity(value)) return true;
+            if (parts.Length > 1 && !long.TryParse(parts[1], NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out scale)) return true;
             var isNegative = parts[0][0] == '-';
             var mantissa = parts[0].TrimStart('+', '-');
             var point = (mantissa + ".").IndexOf('.');
@@ -29,7 +30,7 @@ namespace Collektive.Headless
             if (digits.Length > MaxDigits) digits = digits.Substring(0, MaxDigits) + "1";
             exponent -= digits.Length;
             var bits = 0L;
-            if (digits.Length <= 15 && Math.Abs(exponent) <= 22)
+            if (digits.Length <= 15 && exponent >= -22 && exponent <= 22)
             {
                 // Both numbers have exact values as double, so the result is rounded only once.
                 var power = 1.0;
@@ -43,8 +44,8 @@ namespace Collektive.Headless
                 // Mono reads some texts with many digits as 0.
                 var start = "." + digits.Substring(0, Math.Min(digits.Length, 17)) + "E" + (exponent + digits.Length);
                 bits = BitConverter.DoubleToInt64Bits(double.Parse(start, CultureInfo.InvariantCulture));
-                var number = BigInteger.Parse(digits, CultureInfo.InvariantCulture) * BigInteger.Pow(10, Math.Max(exponent, 0));
-                var divisor = BigInteger.Pow(10, Math.Max(-exponent, 0));
+                var number = BigInteger.Parse(digits, CultureInfo.InvariantCulture) * BigInteger.Pow(10, (int)Math.Max(exponent, 0));
+                var divisor = BigInteger.Pow(10, (int)Math.Max(-exponent, 0));
                 while (RoundsUp(number, divisor, bits)) bits++;
                 while (bits > 0 && !RoundsUp(number, divisor, bits - 1)) bits--;
             }
