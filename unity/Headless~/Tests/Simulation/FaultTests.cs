@@ -820,7 +820,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase("stopAfter", float.NaN, "stop after is NaN s: it must be 0 or greater")]
         [TestCase("threads", 0, "threads is 0: it must be from 1 to 256")]
         [TestCase("threads", 257, "threads is 257: it must be from 1 to 256")]
-        [TestCase("stepLimitMs", 0, "step limit ms is 0: it must be at least 1")]
+        [TestCase("stepLimitMs", 0, "step limit is 0 ms: it must be at least 1")]
         public void Invalid_settings_that_are_set_during_play_stop_the_simulation(string field, object value, string problem)
         {
             MakeNode(1);

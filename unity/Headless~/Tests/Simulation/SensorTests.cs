@@ -524,13 +524,13 @@ namespace Collektive.Headless.Tests.Simulation
             foreach (var side in new[] { first, -first })
             {
                 // The node is inside of both obstacles, so their closest points are the same.
-                MakeBox(new Vector3(0.3f * side, 0, 0));
+                MakeBox(Vector3.zero).GetComponent<BoxCollider>().center = new Vector3(0.3f * side, 0, 0);
                 var zone = MakeBox(Vector3.zero);
                 zone.transform.localScale = (2 + side) * Vector3.one;
                 zone.GetComponent<Collider>().isTrigger = true;
             }
             Play(2);
-            Assert.That(obstacles.Values.ConvertAll(obstacle => obstacle.Collider.transform.position.x), Is.EqualTo(new[] { -0.3f, 0.3f }));
+            Assert.That(obstacles.Values.ConvertAll(obstacle => obstacle.Collider.bounds.center.x), Is.EqualTo(new[] { -0.3f, 0.3f }));
             Assert.That((zones.Events.Count, zones.Last.transform.localScale.x), Is.EqualTo((2, 3f)));
         }
 
@@ -540,13 +540,13 @@ namespace Collektive.Headless.Tests.Simulation
         {
             MakeNode(0).Node.gameObject.AddComponent<Rays>().Rays = rays;
             Play(2);
-            Assert.That(Errors[0], Is.StringContaining("Rays of node 0").And.StringContaining("its rays is " + rays + ": set it to 1 or greater"));
+            Assert.That(Errors[0], Is.StringContaining("Rays of node 0").And.StringContaining("its number of rays is " + rays + ": set it to 1 or greater"));
         }
 
         [TestCase(float.NaN)]
         [TestCase(-90)]
         [TestCase(float.NegativeInfinity)]
-        public void A_fan_whose_angle_is_not_a_number_is_an_error(float angle)
+        public void A_fan_whose_angle_is_negative_or_not_a_number_is_an_error(float angle)
         {
             var rays = MakeNode(0).Node.gameObject.AddComponent<Rays>();
             Play(2);

@@ -200,7 +200,7 @@ namespace Collektive.Unity
                 return "physics step is " + physicsStep + " s: a tick of " + deltaTime + " s would need more than a million steps; raise the physics step";
             if (!(stopAfter >= 0)) return "stop after is " + stopAfter + " s: it must be 0 or greater";
             if (threads < 1 || threads > 256) return "threads is " + threads + ": it must be from 1 to 256";
-            return stepLimitMs < 1 ? "step limit ms is " + stepLimitMs + ": it must be at least 1" : null;
+            return stepLimitMs < 1 ? "step limit is " + stepLimitMs + " ms: it must be at least 1" : null;
         }
 
         /// <summary>

@@ -258,7 +258,6 @@ namespace Collektive.Unity
             Id = newId;
             JoinTick = simulation.TickInProgress;
             Position = Body.position;
-            (joinedProgram, joinedParameters) = (null, null);
             random = new RandomStream(simulation.Seed, newId, RandomPurpose.Node);
             LastError = "";
             ForgetAnswer();
@@ -289,6 +288,7 @@ namespace Collektive.Unity
             Simulation = null;
             Id = -1;
             random = null;
+            (joinedProgram, joinedParameters) = (null, null);
             ForgetAnswer();
         }
 

@@ -41,7 +41,7 @@ namespace Collektive.Unity
         {
             var order = Compare(offsetOfA, offsetOfB);
             if (order == 0) order = NodeId(a).CompareTo(NodeId(b));
-            if (order == 0) order = Compare(a.transform.position, b.transform.position);
+            if (order == 0) order = Compare(a.bounds.center, b.bounds.center);
             return (order == 0 ? Compare(a.bounds.size, b.bounds.size) : order) < 0;
         }
 

@@ -40,7 +40,7 @@ namespace Collektive.Unity
         }
 
         /// <summary>The reach for queries, because physics finds nothing within an infinite radius.</summary>
-        private float FiniteReach => Mathf.Min(reach, float.MaxValue);
+        private float FiniteReach => Mathf.Min(float.MaxValue, reach);
 
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) => Write(ref data, new Span<Obstacle>(found, 0, foundCount));

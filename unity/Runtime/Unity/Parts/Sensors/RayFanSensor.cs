@@ -79,7 +79,7 @@ namespace Collektive.Unity
 
         internal sealed override void Prepare(TickContext tick)
         {
-            if (rays < 1) throw new InvalidOperationException("its rays is " + rays + ": set it to 1 or greater");
+            if (rays < 1) throw new InvalidOperationException("its number of rays is " + rays + ": set it to 1 or greater");
             CheckNotNegative("angle", angle);
             CheckNotNegative("range", range);
             var queries = tick.Queries;
