@@ -129,7 +129,7 @@ class RayPool:
             if self._losses[name] < MAX_LOSSES:
                 self._tasks.appendleft(task)
                 return False
-            outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers were lost during the run: {str(error).splitlines()[0]}"), 0.0, b""
+            outcome, seconds, packed = Outcome("crashed", f"{MAX_LOSSES} workers were lost during the run ({type(error).__name__})"), 0.0, b""
             self._finish(task[0], outcome, seconds, packed)
             return False
         self._finish(task[0], outcome, seconds, packed)

@@ -67,8 +67,8 @@ class _Process:
                  "--host-jar", os.path.relpath(os.path.realpath(jar), os.path.realpath(os.path.dirname(log))),
                  "--java-home", java_home(), "--channel", str(child_end.fileno()), "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
                 stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()],
-                # Nodes of a cluster may have different locales and time zones, in which scripts and programs would format numbers and times differently.
-                env={**os.environ, "LC_ALL": "C.UTF-8", "TZ": "UTC"})
+                # Nodes of a cluster may have different settings, with which scripts and programs would have different results.
+                env={**os.environ, "LC_ALL": "C.UTF-8", "TZ": "UTC", "MONO_ENV_OPTIONS": ""})
         self._ready = "" if settings is None else self._send({"start": True, "set": start})
 
     def keeps_state(self) -> bool | Outcome:

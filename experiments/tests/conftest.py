@@ -76,7 +76,7 @@ def processes(*words: str) -> list[int]:
 
 @pytest.fixture
 def project(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """A new copy of the project. All copies are in the same folder, so that scripts that no test has changed are compiled only once."""
+    """A new copy of the project. All copies are in the same folder: scripts that no test has changed are compiled only once."""
     folder = tmp_path_factory.getbasetemp() / "project"
     if folder.exists():
         shutil.rmtree(folder)

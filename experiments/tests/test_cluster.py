@@ -51,4 +51,4 @@ def test_a_run_whose_workers_are_killed_for_memory_crashes_alone(monkeypatch: py
     assert [pool._take(None, task) for _ in range(3)] == [False] * 3
     assert list(pool._tasks) == [task] * 2, "the run must be repeated twice"
     outcome = store.finish.call_args.args[1]
-    assert (outcome.status, outcome.message) == ("crashed", "3 workers were lost during the run: the memory is full")
+    assert (outcome.status, outcome.message) == ("crashed", "3 workers were lost during the run (OutOfMemoryError)")

@@ -53,7 +53,7 @@ def test_without_a_search_path_python_knows_its_own_path(checkout: Checkout) -> 
 
 @pytest.mark.parametrize(("name", "given", "expected"), [("LC_ALL", "de_DE.UTF-8", "C.UTF-8"), ("TZ", "Asia/Tokyo", "UTC")])
 def test_commands_use_the_same_locale_and_time_zone_for_any_user(name: str, given: str, expected: str, checkout: Checkout) -> None:
-    program = f"import locale, os; locale.getencoding = lambda: 'UTF-8'; import collektive; collektive.check_environment(); print(os.environ['{name}'])"
+    program = f"import collektive, os; collektive.check_environment(); print(os.environ['{name}'])"
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=checkout.root / "scripts",
                             env={**os.environ, name: given})
     assert result.stdout == f"{expected}\n", result.stderr

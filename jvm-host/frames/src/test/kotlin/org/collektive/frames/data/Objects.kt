@@ -80,7 +80,7 @@ internal object Objects {
         type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
             .associateBy { normal(it.name.removePrefix("get")) }.toSortedMap()
 
-    /** Returns a name in the form in which all languages have it. */
+    /** Returns a name without underscores and in lower case, because languages have different forms. */
     private fun normal(name: String): String = name.replace("_", "").lowercase()
 
     /** Returns a valid random object of flatc's class [type]. */
