@@ -190,7 +190,7 @@ class _Columns:
 
     def series(self, run: Run) -> Iterator[dict[str, Any]]:
         """Yields the rows of metrics.csv, with the second, metrics, counts and times."""
-        table = self._table(run, "metrics.csv")
+        table = self._metrics(run)
         names = next(table)[1:-len(COUNTS + TIMES)]
         self.rows[run.name] = 0
         for cells in table:
@@ -252,9 +252,9 @@ class _Columns:
             return {}
         return manifest
 
-    def _table(self, run: Run, name: str) -> Iterator[list[str]]:
-        """Yields the rows of a CSV file."""
-        with open(os.path.join(self._store.runs, run.name, name), newline="", encoding="utf-8") as file:
+    def _metrics(self, run: Run) -> Iterator[list[str]]:
+        """Yields the lines of metrics.csv."""
+        with open(os.path.join(self._store.runs, run.name, "metrics.csv"), newline="", encoding="utf-8") as file:
             yield from csv.reader(file)
 
 

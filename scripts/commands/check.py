@@ -41,11 +41,12 @@ def run(arguments: argparse.Namespace) -> int:
 def find_files(path: Path) -> list[tuple[Path, str]]:
     """Returns scenarios and experiments with their kinds: those in a folder, or the given file."""
     if path.is_dir():
-        kinds = [(file, _kind(file)) for file in sorted(path.glob("*.json"))]
-        for file, kind in kinds:
-            if kind is None:
+        found = []
+        for file in sorted(path.glob("*.json")):
+            if (kind := _kind(file)) is not None:
+                found.append((file, kind))
+            else:
                 print(f"{file}: skipped, because it has neither the key '{SCENARIO}' nor '{EXPERIMENT}'", file=sys.stderr)
-        found = [(file, kind) for file, kind in kinds if kind is not None]
         if not found:
             raise Failure(f"'{path}' contains no scenarios or experiments; name a folder with scenario files")
         return found

@@ -15,9 +15,9 @@ namespace Collektive.Headless
         internal static bool TryParse(string text, out double value)
         {
             if (!double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out value)) return false;
+            if (double.IsNaN(value) || double.IsInfinity(value)) return true;
             var parts = text.Trim().Trim('\0').Split('e', 'E');
             var scale = 0L;
-            if (double.IsNaN(value) || double.IsInfinity(value)) return true;
             if (parts.Length > 1 && !long.TryParse(parts[1], NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out scale)) return true;
             var isNegative = parts[0][0] == '-';
             var mantissa = parts[0].TrimStart('+', '-');
