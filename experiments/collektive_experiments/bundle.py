@@ -3,6 +3,7 @@ import hashlib
 import json
 import os
 import subprocess
+import sys
 from collections.abc import Sequence
 from typing import Any
 
@@ -65,7 +66,7 @@ def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = (
         script = os.path.join(os.path.dirname(os.environ["COLLEKTIVE"]), "scripts/build/bundle.py")
         options = [*(["--only-inputs"] if os.path.isdir(bundle) else []), *(["--trust-jvm"] if trust else []),
                    *(f"--runtime={runtime}" for runtime in runtimes)]
-        if subprocess.run(["python3", "-I", script, os.path.abspath(scenario), os.path.abspath(work), *options]).returncode != 0:
+        if subprocess.run([sys.executable, "-I", script, os.path.abspath(scenario), os.path.abspath(work), *options]).returncode != 0:
             raise ExperimentError("the scenario could not be built; the messages are above")
         write_scenario(scenario, work)
         if os.path.isdir(bundle):

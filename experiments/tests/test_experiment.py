@@ -1,6 +1,8 @@
 """Tests that errors in experiment files are reported with their line, before the first run."""
 import json
 import os
+import subprocess
+import sys
 import tracemalloc
 from pathlib import Path
 
@@ -143,3 +145,8 @@ def test_values_of_a_column_stay_different() -> None:
         column = pa.array([_value(value, _type_of(values)) for value in values], _type_of(values))
         assert len(column.unique()) == len(values)
     assert _type_of([large, 0.5]) == pa.float64()
+
+
+def test_a_sweep_starts_without_the_packages_for_figures() -> None:
+    code = "import sys, collektive_experiments.__main__; print({'matplotlib', 'pandas'} & set(sys.modules))"
+    assert subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True).stdout == "set()\n"
