@@ -30,7 +30,6 @@ suite(scripts scripts LABELS quick all UNLOCKED PYTEST "${SCRIPTS}/tests/scripts
 suite(maven scripts LABELS extra NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPTS}/tests/scripts/test_maven.py" -n 2)
 suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 PARALLEL SCRIPT jvm.py RESULTS -DexcludedGroups=repeats)
 suite(jvm-repeats jvm LABELS extra NEEDS build:jvm_tests SCRIPT jvm.py RESULTS -Dgroups=repeats)
-# Most of these JVMs run too briefly for the second compiler.
 suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests
   SCRIPT jvm.py RESULTS -DexcludedGroups=slow,repeats "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
 # Takes under a minute on two idle processors, with the server compiler only, one fork and about 100,000 attempts of each race. Pool threads must
@@ -113,6 +112,6 @@ suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing
   SCRIPT chaos/chaos.py 4 3 3 1 8 --results RESULTS/chaos.xml)
 # Corpora and random inputs of the other fuzzers are cases of the suites jvm, roundtrip and shim.
 suite(fuzz fuzz LABELS all NEEDS build:runtime build:Collektive.Fuzz.exe SCRIPT fuzz.py 5 RESULTS/scenario.xml)
-suite(bench bench LABELS all NEEDS build:runtime build:jvm_modules build:Collektive.Headless.Bench.exe UNLOCKED
+suite(bench bench LABELS all NEEDS build:runtime build:jvm_modules build:Collektive.Headless.Bench.exe UNLOCKED PARALLEL
   PYTEST "${SCRIPTS}/tests/bench")
 suite(gradle gradle LABELS all NEEDS build:jvm_modules UNLOCKED TIMEOUT 3600 PYTEST "${SCRIPTS}/tests/gradle")
