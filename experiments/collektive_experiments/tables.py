@@ -106,8 +106,10 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
                 for row in columns.node_rows(run) if columns.nodes else ():
                     opened["nodes"].add({**first, **row})
             opened["runs"].add({**first, **columns.results(run, record)})
-    # All tables must contain the same runs, even if writing one of them fails.
-    for table in opened.values():
+    # All tables must contain the same runs, even if writing one of them fails. After a kill between two renames, runs.parquet is missing.
+    for ending in (".parquet", ".csv"):
+        Path(store.folder, "runs" + ending).unlink(missing_ok=True)
+    for table in reversed(opened.values()):
         table.publish()
     if not columns.nodes:
         # The user may have deleted the runs of an earlier sweep in this folder.

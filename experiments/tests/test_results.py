@@ -63,12 +63,14 @@ def test_incomplete_runs_are_ignored() -> None:
     assert compare(some, "error", "program").iloc[0]["n_a"] == 19
 
 
-def test_combined_tables_without_distinct_labels_or_seeds_are_rejected() -> None:
+def test_combined_tables_without_distinct_labels_names_or_seeds_are_rejected() -> None:
     some = results(2)
     with pytest.raises(ValueError, match="ignore_index"):
         replace(some, runs=pd.concat([some.runs, some.runs]))
     with pytest.raises(ValueError, match="have the same seed"):
         compare(replace(some, runs=pd.concat([some.runs, some.runs], ignore_index=True)), "error", "program")
+    with pytest.raises(ValueError, match="two runs have the same name"):
+        over_time(replace(some, series=pd.concat([some.series, some.series], ignore_index=True)), "error")
 
 
 def test_axes_have_units_and_captions_the_number_of_runs() -> None:

@@ -217,6 +217,22 @@ def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: P
     assert {name: list(project.table(name=name)["run"]) for name in before} == before
 
 
+def test_tables_are_not_mixed_after_a_kill_between_two_renames(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    command = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out"), "--jobs", "1"]
+    assert main(command) == 0
+    project.experiment(vary={"seed": [1, 2]})
+    publish = tables.Table.publish
+
+    def publish_once(table: tables.Table) -> None:
+        publish(table)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(tables.Table, "publish", publish_once)
+    assert main([*command, "--resume"]) == 130
+    with pytest.raises(ExperimentError, match=r"no usable runs.parquet .*: write the tables with .* --resume"):
+        load(str(project.folder / "out"))
+
+
 def test_texts_with_many_lines_are_read_in_linear_time(tmp_path: Path) -> None:
     lines = "\n" * 200_000
     (tmp_path / "run").mkdir()
