@@ -85,6 +85,8 @@ class Live:
         self.trust: bool = options["trust_jvm"]
         self.seed: str | None = options["seed"]
         self.values: dict[str, str] = dict(value.partition("=")[::2] for value in options["values"])
+        # The values that the page has set since the start, by program and parameter.
+        self.parameters: dict[tuple[str, str], str] = {}
         self.examples = examples.catalogue()
         self.pages: list[Page] = []
         self.work = work
@@ -112,6 +114,7 @@ class Live:
         # The plan and its sources change together, because the file watcher compares them.
         self.plan, self._sources = plan, self.read_sources(plan)
         self.header = self.last_frame = self.stopped = self.compiled = None
+        self.parameters = {}
         jar, dll = await asyncio.gather(asyncio.to_thread(plan.programs_jar), asyncio.to_thread(plan.scripts_dll))
         session.replace(self.jar, jar)
         projects.record_own_program(self.jar)
@@ -254,6 +257,8 @@ class Live:
         elif "record" in command:
             page.event({"event": "warning", "message": await self.save_record(command["record"])})
         elif PLAYER_COMMANDS & command.keys():
+            if "parameter" in command:
+                self.parameters[command["program"], command["parameter"]] = command["value"]
             self.player.send(command)
         else:
             raise KeyError(next(iter(command), ""))
@@ -341,6 +346,8 @@ class Live:
             if self.seed is not None:
                 values["seed"] = int(self.seed)
             self._keep_texts(values.get("fields", {}), changes)
+            for (program, name), value in self.parameters.items():
+                values.setdefault("parameters", {}).setdefault(program, {})[name] = _typed(value)
             with session.new_file(file) as output:
                 output.write((json.dumps(values, indent=2) + "\n").encode())
         except Failure as failure:
@@ -367,6 +374,15 @@ class Live:
 
 def _text(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
+
+
+def _typed(text: str) -> Any:
+    """Returns the number or Boolean that is written as this text, or the text."""
+    with contextlib.suppress(ValueError):
+        value = json.loads(text, parse_constant=_refuse)
+        if isinstance(value, int | float) and json.dumps(value) == text:
+            return value
+    return text
 
 
 def _refuse(constant: str) -> None:

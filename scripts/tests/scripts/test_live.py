@@ -206,3 +206,14 @@ def test_a_saved_scenario_contains_the_texts_of_text_fields(tmp_path: Path, serv
     monkeypatch.setattr(server.player, "plan", lambda *_: plan)
     asyncio.run(live_run.save_scenario("b.json", {"fields.note": 8, "fields.range": 9}))
     assert json.loads((tmp_path / "b.json").read_text())["fields"] == {"label": "5", "note": "8", "nodes": 7, "range": 9}
+
+
+def test_a_saved_scenario_contains_the_parameters_that_the_page_has_set(tmp_path: Path, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    live_run = server.Live({"scenario": str(tmp_path / "a.json"), "trust_jvm": False, "seed": None, "values": []}, tmp_path)
+    live_run.pages = [page := MagicMock()]
+    for name, value in {"gain": "1", "width": "0.5", "shape": "1.50", "on": "false", "end": "NaN"}.items():
+        asyncio.run(live_run.execute(page, {"parameter": name, "program": "a.b", "value": value}))
+    monkeypatch.setattr(server.player, "plan", lambda *_: {"file": {"parameters": {"a.b": {"gain": 3, "other": 4}}}})
+    asyncio.run(live_run.save_scenario("b.json", {}))
+    expected = {"gain": 1, "other": 4, "width": 0.5, "shape": "1.50", "on": False, "end": "NaN"}
+    assert json.loads((tmp_path / "b.json").read_text())["parameters"] == {"a.b": expected}
