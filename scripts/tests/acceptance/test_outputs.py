@@ -81,6 +81,13 @@ class Outputs(Project):
             self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
             self.assertEqual(self.contents(), before, arguments)
 
+    def test_a_run_that_crashes_in_its_first_tick_keeps_earlier_results(self) -> None:
+        self.assertEqual(self.run_it().returncode, 0)
+        before = self.contents()
+        self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "System.Diagnostics.Process.GetCurrentProcess().Kill();")
+        self.assertEqual(self.run_it("--overwrite").returncode, 137)
+        self.assertEqual(self.contents(), before)
+
     def test_a_killed_run_leaves_its_rows_and_an_incomplete_manifest(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)

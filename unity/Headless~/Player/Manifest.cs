@@ -36,7 +36,8 @@ namespace Collektive.Headless
                 new JProperty("file", scenario.OriginalRun?.File ?? Path.GetFileName(scenario.Path)),
                 new JProperty("folder", scenario.Folder),
                 new JProperty("inputs", options.Inputs),
-                new JProperty("programs", Hashes(options.Jars)));
+                new JProperty("programs", Hashes(options.Jars)),
+                new JProperty("ticks", 0));
         }
 
         internal JObject Root { get; }
@@ -47,11 +48,13 @@ namespace Collektive.Headless
         /// </summary>
         internal string Outcome { set => Root["outcome"] = value; }
 
-        /// <summary>Sets the outcome of a failed run. If it completed no tick, the command keeps the results that it would have replaced.</summary>
-        internal void Fail(string problem, int completedTicks)
+        internal void Fail(string problem) => Outcome = "failed: " + problem;
+
+        /// <summary>Writes the manifest after the first tick. Before, it has 0 ticks, and the command keeps the results that the run would replace.</summary>
+        internal void Begin()
         {
-            Outcome = "failed: " + problem;
-            if (completedTicks == 0) Root["ticks"] = 0;
+            Root.Remove("ticks");
+            Write();
         }
 
         /// <summary>Adds the results and the versions.</summary>
@@ -67,7 +70,7 @@ namespace Collektive.Headless
             var description = Jvm.Description.Split('\n');
             Root.Add(new JProperty("parameters", parameters));
             Root.Add(new JProperty("nodes", manager.Nodes.Count));
-            Root.Add(new JProperty("ticks", ticks));
+            Root["ticks"] = ticks;
             Root.Add(new JProperty("shim_calls", calls));
             Root.Add(new JProperty("digest", manager.Digest.ToString("x16")));
             Root.Add(new JProperty("errors", manager.ErrorCount));

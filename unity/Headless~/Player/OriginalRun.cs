@@ -18,7 +18,7 @@ namespace Collektive.Headless
             manifest = file.Root;
             File = file.Required<string>(manifest, "file");
             Folder = file.Required<string>(manifest, "folder");
-            if (manifest["ticks"] == null) throw new ScenarioException(path
+            if (manifest["digest"] == null) throw new ScenarioException(path
                 + ": the run was not completed and has no results to compare with: choose the manifest of a complete run");
             Ticks = file.Required<int>(manifest, "ticks");
             file.Required<string>(manifest, "digest");

@@ -78,12 +78,12 @@ namespace Collektive.Headless
             catch (ThreadAbortException) when (limit?.IsExceeded == true)
             {
                 Thread.ResetAbort();
-                manifest.Fail(limit.Message, completedTicks);
+                manifest.Fail(limit.Message);
                 throw new ScenarioException(limit.Message + "; the stack trace is above");
             }
             catch (Exception error)
             {
-                manifest.Fail(error.Message, completedTicks);
+                manifest.Fail(error.Message);
                 throw;
             }
             finally
@@ -140,7 +140,7 @@ namespace Collektive.Headless
         private void GiveUp()
         {
             Console.Error.WriteLine("collektive: " + limit.Message);
-            manifest.Fail(limit.Message, completedTicks);
+            manifest.Fail(limit.Message);
             manifest.Write();
             Syscall._exit(1);
         }
@@ -231,6 +231,7 @@ namespace Collektive.Headless
                     limit.Begin(completedTicks + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();
+                    if (before == 0 && completedTicks > 0) manifest.Begin();
                     if (manager.Failure.Length > 0) throw Stopped(manager);
                     if (completedTicks > frame)
                         throw new ScenarioException("stopped at tick " + completedTicks
