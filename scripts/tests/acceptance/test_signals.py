@@ -56,13 +56,23 @@ class Signals(Project):
                 self.assertIn("interrupted before the first tick", self.assert_ends(process, number))
                 self.assertFalse(os.path.exists(self.path("out", "manifest.json")))
 
+    def test_the_same_signal_from_two_processes_ends_the_run_after_its_tick(self) -> None:
+        self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "System.Threading.Thread.Sleep(50);\n            data.Brightness = Brightness;")
+        process = self.start()
+        self.await_metrics()
+        # Slurm signals all processes of a job, and the command forwards its signal to the player.
+        for pid in processes("Collektive.Player.exe", self.path("out")):
+            os.kill(pid, signal.SIGTERM)
+        time.sleep(0.1)
+        self.assertIn("interrupted after", self.assert_ends(process, signal.SIGTERM))
+
     def test_a_second_signal_ends_an_endless_tick(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;",
                     "if (SimulationManager.Current.Tick == 0) System.Threading.Thread.Sleep(60000);\n            data.Brightness = Brightness;")
         process = self.start()
         self.await_metrics()
         process.send_signal(signal.SIGINT)
-        time.sleep(0.5)
+        time.sleep(1.5)
         self.assertIn("interrupted twice", self.assert_ends(process, signal.SIGINT))
 
     def test_a_signal_ends_compilers_and_the_next_run_compiles_again(self) -> None:

@@ -1,4 +1,5 @@
 using System;
+using System.Diagnostics;
 using System.Threading;
 using Mono.Unix;
 using Mono.Unix.Native;
@@ -7,12 +8,16 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// Handles Ctrl-C and SIGTERM. The first signal during a run ends the run after the current tick, and its outputs are written. A second signal, or a signal
-    /// before the run, ends the process immediately, because user code may not return. A process must have only one object of this class.
+    /// before the run, ends the process immediately, because user code may not return. Signals within a second count as one, because `timeout` and Slurm
+    /// signal the process as well as the command, which forwards the signal. A process must have only one object of this class.
     /// </summary>
     internal sealed class Interrupt
     {
+        private const int SameSignalMs = 1000;
+
         // Console.CancelKeyPress is not used, because it is raised only for a terminal.
         private readonly UnixSignal[] signals = { new UnixSignal(Signum.SIGINT), new UnixSignal(Signum.SIGTERM) };
+        private readonly Stopwatch sinceFirst = new Stopwatch();
         private volatile bool isPlaying;
         private volatile int number;
 
@@ -33,9 +38,9 @@ namespace Collektive.Headless
             {
                 var signal = signals[UnixSignal.WaitAny(signals)];
                 signal.Reset();
-                var isFirst = number == 0;
+                sinceFirst.Start();
                 number = (int)signal.Signum;
-                if (isPlaying && isFirst) continue;
+                if (isPlaying && sinceFirst.ElapsedMilliseconds < SameSignalMs) continue;
                 Console.Error.WriteLine("collektive: interrupted " + (isPlaying ? "twice: the outputs are incomplete" : "before the first tick"));
                 Syscall._exit(ExitCode);
             }
