@@ -1,4 +1,5 @@
 """Runs scenarios in player processes."""
+import contextlib
 import glob
 import json
 import os
@@ -95,6 +96,9 @@ class _Process:
         """Ends the process and waits for its exit."""
         self._channel.close()
         self.kill()
+        # The JVM would remove this socket in an exit handler.
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(f"/tmp/.java_pid{self._process.pid}")
         self._process.wait()
 
     def _send(self, request: dict[str, Any]) -> str:

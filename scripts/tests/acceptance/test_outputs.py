@@ -88,6 +88,13 @@ class Outputs(Project):
         self.assertEqual(self.run_it("--overwrite").returncode, 137)
         self.assertEqual(self.contents(), before)
 
+    def test_a_run_leaves_no_socket_of_the_jvm(self) -> None:
+        self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = Brightness;\n            "
+                    f'System.IO.File.WriteAllText("{self.path("pid")}", System.Diagnostics.Process.GetCurrentProcess().Id.ToString());')
+        self.assertEqual(self.run_it().returncode, 0)
+        with open(self.path("pid")) as file:
+            self.assertFalse(os.path.lexists(f"/tmp/.java_pid{file.read()}"))
+
     def test_a_killed_run_leaves_its_rows_and_an_incomplete_manifest(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)

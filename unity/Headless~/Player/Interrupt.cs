@@ -42,7 +42,7 @@ namespace Collektive.Headless
                 number = (int)signal.Signum;
                 if (isPlaying && sinceFirst.ElapsedMilliseconds < SameSignalMs) continue;
                 Console.Error.WriteLine("collektive: interrupted " + (isPlaying ? "twice: the outputs are incomplete" : "before the first tick"));
-                Syscall._exit(ExitCode);
+                Program.Exit(ExitCode);
             }
         }
     }

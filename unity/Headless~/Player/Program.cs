@@ -22,8 +22,16 @@ namespace Collektive.Headless
             var code = StopJvm(Run(arguments));
             Console.Out.Flush();
             // A return from Main would wait for the foreground threads that scripts have started.
-            Syscall._exit(code);
+            Exit(code);
             return code;
+        }
+
+        /// <summary>Ends the process immediately, even if scripts have started threads.</summary>
+        internal static void Exit(int code)
+        {
+            // The JVM would remove this socket in an exit handler, which does not run here.
+            Syscall.unlink("/tmp/.java_pid" + Syscall.getpid());
+            Syscall._exit(code);
         }
 
         /// <summary>Stops the JVM. This must happen before Mono ends, because the JVM's threads and signal handlers must not outlive it.</summary>

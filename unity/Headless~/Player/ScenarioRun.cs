@@ -142,7 +142,7 @@ namespace Collektive.Headless
             Console.Error.WriteLine("collektive: " + limit.Message);
             manifest.Fail(limit.Message);
             manifest.Write();
-            Syscall._exit(1);
+            Program.Exit(1);
         }
 
         private void Count(SimulationManager manager)

@@ -68,7 +68,7 @@ namespace Collektive.Headless
             var reader = new StreamReader(channel, Encoding.UTF8);
             for (string line; (line = reader.ReadLine()) != null;) requests.Add(line);
             // The sweep has ended and closed the channel.
-            Syscall._exit(1);
+            Program.Exit(1);
         }
 
         private JObject Start(JObject request)
