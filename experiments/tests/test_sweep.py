@@ -308,7 +308,7 @@ def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(proje
     await_no_worker(project)
 
 
-@pytest.mark.slow  # the suite chaos kills sweeps at random moments, too
+@pytest.mark.slow  # an acceptance test examines a single run
 def test_a_sweep_leaves_no_sockets_of_the_jvm(project: Project) -> None:
     pids = project.folder / "pids"
     pids.mkdir()
@@ -320,6 +320,7 @@ def test_a_sweep_leaves_no_sockets_of_the_jvm(project: Project) -> None:
     assert [pid.name for pid in pids.iterdir() if os.path.lexists(f"/tmp/.java_pid{pid.name}")] == []
 
 
+@pytest.mark.slow  # the suite chaos kills sweeps at random moments, too
 def test_a_sweep_killed_with_sigkill_resumes_to_the_same_table(project: Project) -> None:
     driver = project.start(**MANY)
     await_runs(project, 3)

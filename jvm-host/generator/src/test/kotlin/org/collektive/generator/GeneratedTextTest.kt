@@ -165,10 +165,10 @@ internal class GeneratedTextTest {
         for (ending in listOf("cs", "kt", "java")) {
             val file = Fixture.files(output).first { "$it".endsWith(".$ending") }
             val generated = Files.readAllBytes(file)
-            Files.writeString(file, "// Written by hand.")
+            Files.writeString(file, "using Swarm.Generated;")
             val error = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
             assertEquals("$file exists and was not generated: move it, or choose another folder", error.message)
-            assertEquals("// Written by hand.", Files.readString(file))
+            assertEquals("using Swarm.Generated;", Files.readString(file))
             Files.delete(file)
             Files.createSymbolicLink(file, elsewhere)
             val link = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
