@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using System.Reflection;
 using Collektive.Bridge;
 using Collektive.Unity;
@@ -43,6 +44,10 @@ namespace Collektive.Headless
 
         /// <summary>Returns the type of a field or property; null for other members.</summary>
         internal static Type TypeOf(MemberInfo member) => member is FieldInfo field ? field.FieldType : (member as PropertyInfo)?.PropertyType;
+
+        /// <summary>Returns the name in generated C# of a field with a name in the schema or in Kotlin.</summary>
+        internal static string GeneratedName(string name) =>
+            string.Concat(name.Split('_').Where(part => part.Length > 0).Select(part => char.ToUpperInvariant(part[0]) + part.Substring(1)));
 
         internal static object ValueOf(MemberInfo member, object owner) =>
             member is FieldInfo field ? field.GetValue(owner) : ((PropertyInfo)member).GetValue(owner);

@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Linq.Expressions;
 using System.Reflection;
 using System.Text;
+using System.Text.RegularExpressions;
 using Collektive.Bridge;
 using Collektive.Unity;
 using UnityEngine;
@@ -31,8 +32,8 @@ namespace Collektive.Headless
 
         internal NodeColumns(DataSchema schema)
         {
-            foreach (var name in new[] { "id", "time", "degree", "x", "y", "z" }) Add(name, Kind.Node, columns.Count, null);
-            foreach (var name in new[] { "message_values", "message_bytes" }) Add(name, Kind.Message, columns.Count, null);
+            foreach (var name in new[] { "id", "time", "degree", "x", "y", "z" }) Add("", name, Kind.Node, columns.Count, "");
+            foreach (var name in new[] { "message_values", "message_bytes" }) Add("", name, Kind.Message, columns.Count, "");
             answers = Reader.Of(typeof(AnswerReader<>), typeof(ActuatorBuffer<>), schema.CreateActuators());
             sensors = Reader.Of(typeof(SensorReader<>), typeof(SensorBuffer<>), schema.CreateSensors());
             AddFields(answers, Kind.Answer, "answer_");
@@ -45,6 +46,17 @@ namespace Collektive.Headless
             get
             {
                 foreach (var column in columns) yield return column.Name;
+            }
+        }
+
+        /// <summary>Adds names of the schema that a query uses and that differ from those of the columns, such as is_a_leader for IsALeader.</summary>
+        internal void AddSchemaNames(string query)
+        {
+            foreach (Match word in Regex.Matches(query, @"\w*[^\W_]\w*"))
+            {
+                if (byName.ContainsKey(word.Value)) continue;
+                var column = columns.Find(each => each.Generated == AnswerField.GeneratedName(word.Value));
+                if (column != null) byName.Add(word.Value, column);
             }
         }
 
@@ -155,17 +167,18 @@ namespace Collektive.Headless
             for (var i = 0; i < reader.Fields.Count; i++)
             {
                 var name = SnakeCase(reader.Fields[i]);
-                Add(byName.ContainsKey(name) ? prefix + name : name, kind, i, reader.Fields[i]);
+                Add(byName.ContainsKey(name) ? prefix : "", name, kind, i, reader.Fields[i]);
             }
         }
 
-        private void Add(string name, Kind kind, int index, string generated)
+        private void Add(string prefix, string name, Kind kind, int index, string generated)
         {
+            name = prefix + name;
             if (byName.ContainsKey(name)) return;
-            var column = new Column { Name = name, Kind = kind, Index = index };
+            var column = new Column { Name = name, Generated = AnswerField.GeneratedName(prefix + generated), Kind = kind, Index = index };
             columns.Add(column);
             byName.Add(name, column);
-            if (generated != null && !byName.ContainsKey(generated)) byName.Add(generated, column);
+            if (generated.Length > 0 && !byName.ContainsKey(generated)) byName.Add(generated, column);
         }
 
         private static void Grow<T>(ref T[] array, int count)
@@ -196,6 +209,9 @@ namespace Collektive.Headless
         private sealed class Column
         {
             internal string Name;
+
+            /// <summary>Name in generated code with the prefix, without underscores; empty for data about nodes.</summary>
+            internal string Generated;
             internal Kind Kind;
             internal int Index;
 

@@ -66,16 +66,13 @@ namespace Collektive.Headless
 
         private static Column Find(List<AnswerField> answers, string wanted)
         {
-            var known = new List<string> { Position };
-            foreach (var field in answers)
-            {
-                if (!Column.IsSupported(field.Type)) continue;
-                if (Normalize(field.Name) == Normalize(wanted)) return new Column(wanted, field, field.Type);
-                known.Add(field.Name);
-            }
-            throw new ScenarioException(
-                "'outputs.nodes.fields': the answers have no field '" + wanted + "' of type number, string, boolean or vector; the fields are: "
-                    + string.Join(", ", known));
+            var known = answers.FindAll(field => Column.IsSupported(field.Type));
+            var found = known.Find(field => field.Name == AnswerField.GeneratedName(wanted))
+                ?? known.Find(field => Normalize(field.Name) == Normalize(wanted))
+                ?? throw new ScenarioException(
+                    "'outputs.nodes.fields': the answers have no field '" + wanted + "' of type number, string, boolean or vector; the fields are: "
+                        + string.Join(", ", known.Select(field => field.Name).Prepend(Position)));
+            return new Column(wanted, found, found.Type);
         }
 
         /// <summary>Returns a name in a form in which names in the schema equal those in generated code.</summary>

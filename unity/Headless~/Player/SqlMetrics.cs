@@ -37,6 +37,7 @@ namespace Collektive.Headless
             var queries = root.Properties().Where(property => !FunctionMetrics.IsFunction(property)).ToList();
             if (queries.Count == 0) return;
             columns = new NodeColumns(schema);
+            foreach (var property in queries) columns.AddSchemaNames(property.Value.ToString());
             database = new Sqlite(limitMs);
             try
             {

@@ -152,8 +152,12 @@ namespace Collektive.Headless.Tests.Player
         public void Optional_answers_are_columns_and_colourings()
         {
             Manager.Settings.schema = "test.features.FeaturesSchema";
-            using (var table = new NodesTable(Path.Combine(folder, "nodes.csv"), new[] { "maybe_speed", "maybe_mode" }, Manager))
-                Assert.That(table.Types.ToString(Formatting.None), Is.EqualTo("{\"maybe_speed\":\"float64\",\"maybe_mode\":\"string\"}"));
+            using (var table = new NodesTable(Path.Combine(folder, "nodes.csv"), new[] { "maybe_speed", "maybe_mode", "x_y", "xy" }, Manager))
+            {
+                Assert.That(
+                    table.Types.ToString(Formatting.None),
+                    Is.EqualTo("{\"maybe_speed\":\"float64\",\"maybe_mode\":\"string\",\"x_y\":\"float64\",\"xy\":\"int64\"}"));
+            }
             Assert.That(AnswerColourings.Of(Manager).ConvertAll(colouring => colouring.Name), Has.Member("maybeSpeed").And.Member("maybeMode"));
         }
 

@@ -168,6 +168,7 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("count(maybeNumber) + count(maybe_number) + count(MAYBE_NUMBER)")]
         [TestCase("avg(position_x) + count(mode)")]
+        [TestCase("max(x_y)")]
         public void Columns_accept_schema_and_Kotlin_names(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
 
         [DllImport("collektive_sqlite")]
