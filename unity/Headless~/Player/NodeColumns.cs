@@ -55,7 +55,8 @@ namespace Collektive.Headless
             foreach (Match word in Regex.Matches(query, @"\w*[^\W_]\w*"))
             {
                 if (byName.ContainsKey(word.Value)) continue;
-                var column = columns.Find(each => each.Generated == AnswerField.GeneratedName(word.Value));
+                var generated = AnswerField.GeneratedName(word.Value);
+                var column = columns.Find(each => each.Generated == generated || AnswerField.GeneratedName(each.Prefix + each.Generated) == generated);
                 if (column != null) byName.Add(word.Value, column);
             }
         }
@@ -164,10 +165,15 @@ namespace Collektive.Headless
 
         private void AddFields(Reader reader, Kind kind, string prefix)
         {
-            for (var i = 0; i < reader.Fields.Count; i++)
+            // A field with exactly this name has it: "xy" is the column of Xy, even if XY, which may be x_y, comes first.
+            foreach (var isExact in new[] { true, false })
             {
-                var name = SnakeCase(reader.Fields[i]);
-                Add(byName.ContainsKey(name) ? prefix : "", name, kind, i, reader.Fields[i]);
+                for (var i = 0; i < reader.Fields.Count; i++)
+                {
+                    var name = SnakeCase(reader.Fields[i]);
+                    if (AnswerField.GeneratedName(name) == AnswerField.GeneratedName(reader.Fields[i]) == isExact)
+                        Add(byName.ContainsKey(name) ? prefix : "", name, kind, i, reader.Fields[i]);
+                }
             }
         }
 
@@ -175,7 +181,7 @@ namespace Collektive.Headless
         {
             name = prefix + name;
             if (byName.ContainsKey(name)) return;
-            var column = new Column { Name = name, Generated = AnswerField.GeneratedName(prefix + generated), Kind = kind, Index = index };
+            var column = new Column { Prefix = prefix, Name = name, Generated = AnswerField.GeneratedName(generated), Kind = kind, Index = index };
             columns.Add(column);
             byName.Add(name, column);
             if (generated.Length > 0 && !byName.ContainsKey(generated)) byName.Add(generated, column);
@@ -208,9 +214,10 @@ namespace Collektive.Headless
 
         private sealed class Column
         {
+            internal string Prefix;
             internal string Name;
 
-            /// <summary>Name in generated code with the prefix, without underscores; empty for data about nodes.</summary>
+            /// <summary>Name in generated code, without underscores; empty for data about nodes.</summary>
             internal string Generated;
             internal Kind Kind;
             internal int Index;

@@ -168,7 +168,7 @@ namespace Collektive.Headless.Tests.Player
 
         [TestCase("count(maybeNumber) + count(maybe_number) + count(MAYBE_NUMBER)")]
         [TestCase("avg(position_x) + count(mode)")]
-        [TestCase("max(x_y)")]
+        [TestCase("max(x_y) + max(answer_x_y) + max(xy)")]
         public void Columns_accept_schema_and_Kotlin_names(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
 
         [DllImport("collektive_sqlite")]
