@@ -19,6 +19,10 @@ _LAZY = {name: module for module, names in {"figures": ("at_end", "draw", "over_
                                             "statistics": ("holm", "interval", "kaplan_meier")}.items() for name in names}
 
 
+def __dir__() -> list[str]:
+    return __all__
+
+
 def __getattr__(name: str) -> Any:
     if name not in _LAZY:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

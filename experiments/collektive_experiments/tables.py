@@ -66,6 +66,9 @@ class Table:
                 self._flush()
             for writer in self._writers:
                 writer.close()
+            for file in self._files:
+                file.flush()
+                os.fsync(file.fileno())
         finally:
             for file in self._files:
                 file.close()
@@ -87,7 +90,7 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     store.require_owned()
     columns = _Columns(experiment, store)
     # Existing CSV tables are always written again, so that they do not become outdated.
-    with_csv = with_csv or os.path.exists(os.path.join(store.folder, "runs.csv"))
+    with_csv = with_csv or any(os.path.exists(os.path.join(store.folder, f"{name}.csv")) for name in ("runs", "series"))
     runs = pa.schema([("run", pa.string()), *columns.parameters, *RUN_COLUMNS, *((name, pa.float64()) for name in columns.metrics),
                       *((prefix + name, pa.float64()) for name in columns.converged for prefix in (CONVERGED, CENSORED)), *RUN_TIMES,
                       *((f"version.{name}", pa.string()) for name in VERSIONS)])
@@ -106,15 +109,12 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
                 for row in columns.node_rows(run) if columns.nodes else ():
                     opened["nodes"].add({**first, **row})
             opened["runs"].add({**first, **columns.results(run, record)})
-    # All tables must contain the same runs, even if writing one of them fails. After a kill between two renames, runs.parquet is missing.
-    for ending in (".parquet", ".csv"):
-        Path(store.folder, "runs" + ending).unlink(missing_ok=True)
+    # All tables must contain the same runs, even if writing one of them fails. After a kill between two steps, runs.parquet is missing.
+    for name in ("runs", "nodes"):
+        for ending in (".parquet", ".csv"):
+            Path(store.folder, name + ending).unlink(missing_ok=True)
     for table in reversed(opened.values()):
         table.publish()
-    if not columns.nodes:
-        # The user may have deleted the runs of an earlier sweep in this folder.
-        for ending in (".parquet", ".csv"):
-            Path(store.folder, "nodes" + ending).unlink(missing_ok=True)
     columns.warn()
     return _count_rows(experiment, store, columns.rows)
 

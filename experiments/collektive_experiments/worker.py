@@ -96,8 +96,8 @@ class _Process:
         """Ends the process and waits for its exit."""
         self._channel.close()
         self.kill()
-        # The JVM would remove this socket in an exit handler.
-        with contextlib.suppress(FileNotFoundError):
+        # The JVM would remove this socket in an exit handler. An earlier process of another user may have left one of this name.
+        with contextlib.suppress(OSError):
             os.unlink(f"/tmp/.java_pid{self._process.pid}")
         self._process.wait()
 

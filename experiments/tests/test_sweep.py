@@ -219,7 +219,7 @@ def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: P
 
 def test_tables_are_not_mixed_after_a_kill_between_two_renames(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     command = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out"), "--jobs", "1"]
-    assert main(command) == 0
+    assert main([*command, "--csv"]) == 0
     project.experiment(vary={"seed": [1, 2]})
     publish = tables.Table.publish
 
@@ -231,6 +231,9 @@ def test_tables_are_not_mixed_after_a_kill_between_two_renames(project: Project,
     assert main([*command, "--resume"]) == 130
     with pytest.raises(ExperimentError, match=r"no usable runs.parquet .*: write the tables with .* --resume"):
         load(str(project.folder / "out"))
+    monkeypatch.undo()
+    assert main([*command, "--resume"]) == 0
+    assert sorted({*pd.read_csv(project.folder / "out/series.csv")["seed"]}) == [1, 2]
 
 
 def test_texts_with_many_lines_are_read_in_linear_time(tmp_path: Path) -> None:

@@ -46,22 +46,8 @@ class Plan:
         jar = projects.programs_jar(self.parts["schema"], self.parts["programs"], self.parts.get("runtimeJars"), self.parts.get("runtimePlugin"))
         # A manifest contains the scenario of its run.
         if parameters := self["file"].get("scenario", self["file"]).get("parameters"):
-            self._check_parameters(parameters, projects.parameters(jar))
+            check_parameters(parameters, projects.parameters(jar))
         return jar
-
-    def _check_parameters(self, parameters: dict[str, Any], known: dict[str, dict[str, list[str]]]) -> None:
-        for program, values in parameters.items() if known else ():
-            if program not in known:
-                raise Failure(f"'parameters.{program}': unknown program; the programs are: {', '.join(sorted(known))}")
-            for name, value in values.items():
-                if name not in known[program]:
-                    raise Failure(f"'parameters.{program}.{name}': unknown parameter; the program declares: {', '.join(sorted(known[program])) or 'none'}")
-                default, _, *constants = known[program][name]
-                text = value if isinstance(value, str) else json.dumps(value)
-                if constants and text not in constants:
-                    raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be one of {', '.join(constants)}")
-                if NUMBER.fullmatch(default) and not NUMBER.fullmatch(text):
-                    raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be a number like its default {default}")
 
     def require_unchanged(self) -> None:
         """Raises `Failure` if the scenario or a file of the project was changed, added or removed since this plan was made."""
@@ -77,6 +63,22 @@ class Plan:
     def hashes(self) -> dict[str, str]:
         """Returns the hashes of the parts, which manifests contain."""
         return {key: part.digest for key, part in self.parts.items()}
+
+
+def check_parameters(parameters: dict[str, Any], known: dict[str, dict[str, list[str]]]) -> None:
+    """Raises `Failure` if a parameter is unknown or its value is invalid. `known` is from `projects.parameters`, and may be empty."""
+    for program, values in parameters.items() if known else ():
+        if program not in known:
+            raise Failure(f"'parameters.{program}': unknown program; the programs are: {', '.join(sorted(known))}")
+        for name, value in values.items():
+            if name not in known[program]:
+                raise Failure(f"'parameters.{program}.{name}': unknown parameter; the program declares: {', '.join(sorted(known[program])) or 'none'}")
+            default, _, *constants = known[program][name]
+            text = value if isinstance(value, str) else json.dumps(value)
+            if constants and text not in constants:
+                raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be one of {', '.join(constants)}")
+            if NUMBER.fullmatch(default) and not NUMBER.fullmatch(text):
+                raise Failure(f"'parameters.{program}.{name}' is '{text}'; it must be a number like its default {default}")
 
 
 def plan(scenario: str, options: Sequence[str]) -> Plan:

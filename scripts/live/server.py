@@ -346,8 +346,12 @@ class Live:
             if self.seed is not None:
                 values["seed"] = int(self.seed)
             self._keep_texts(values.get("fields", {}), changes)
-            for (program, name), value in self.parameters.items():
-                values.setdefault("parameters", {}).setdefault(program, {})[name] = _typed(value)
+            known = projects.parameters(self.jar)
+            for (program, parameter), value in self.parameters.items():
+                # An edit of the program may have removed the parameter.
+                if not known or parameter in known.get(program, {}):
+                    values.setdefault("parameters", {}).setdefault(program, {})[parameter] = _typed(value)
+            player.check_parameters(values.get("parameters", {}), known)
             with session.new_file(file) as output:
                 output.write((json.dumps(values, indent=2) + "\n").encode())
         except Failure as failure:

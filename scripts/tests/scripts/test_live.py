@@ -214,6 +214,11 @@ def test_a_saved_scenario_contains_the_parameters_that_the_page_has_set(tmp_path
     for name, value in {"gain": "1", "width": "0.5", "shape": "1.50", "on": "false", "end": "NaN"}.items():
         asyncio.run(live_run.execute(page, {"parameter": name, "program": "a.b", "value": value}))
     monkeypatch.setattr(server.player, "plan", lambda *_: {"file": {"parameters": {"a.b": {"gain": 3, "other": 4}}}})
+    # The program declares no parameter `on`, because it was edited.
+    known = {name: ["1", "Float"] for name in ("gain", "other", "width", "shape", "end")}
+    monkeypatch.setattr(server.projects, "parameters", lambda _: {"a.b": known})
     asyncio.run(live_run.save_scenario("b.json", {}))
-    expected = {"gain": 1, "other": 4, "width": 0.5, "shape": "1.50", "on": False, "end": "NaN"}
+    expected = {"gain": 1, "other": 4, "width": 0.5, "shape": "1.50", "end": "NaN"}
     assert json.loads((tmp_path / "b.json").read_text())["parameters"] == {"a.b": expected}
+    asyncio.run(live_run.execute(page, {"parameter": "gain", "program": "a.b", "value": "fast"}))
+    assert "not saved: 'parameters.a.b.gain' is 'fast'; it must be a number" in asyncio.run(live_run.save_scenario("c.json", {}))

@@ -86,7 +86,7 @@ namespace Collektive.Headless
             var reader = new StreamReader(stream, Encoding.UTF8);
             for (string line; (line = reader.ReadLine()) != null;) commands.Add(line);
             // The command has ended and closed the connection.
-            Syscall._exit(1);
+            Program.Exit(1);
         }
 
         private void WriteMessages()
@@ -110,7 +110,7 @@ namespace Collektive.Headless
             }
             catch (Exception error) when (error is IOException || error is UnixIOException)
             {
-                Syscall._exit(1);
+                Program.Exit(1);
             }
         }
     }

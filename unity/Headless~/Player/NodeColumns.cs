@@ -36,8 +36,12 @@ namespace Collektive.Headless
             foreach (var name in new[] { "message_values", "message_bytes" }) Add("", name, Kind.Message, columns.Count, "");
             answers = Reader.Of(typeof(AnswerReader<>), typeof(ActuatorBuffer<>), schema.CreateActuators());
             sensors = Reader.Of(typeof(SensorReader<>), typeof(SensorBuffer<>), schema.CreateSensors());
-            AddFields(answers, Kind.Answer, "answer_");
-            AddFields(sensors, Kind.Sensor, "sensor_");
+            // Fields whose names in the schema equal those of their columns come first: "xy" is the column of xy, not of x_y, which is XY in generated code.
+            foreach (var isExact in new[] { true, false })
+            {
+                AddFields(answers, Kind.Answer, "answer_", isExact);
+                AddFields(sensors, Kind.Sensor, "sensor_", isExact);
+            }
         }
 
         /// <summary>Names of all columns.</summary>
@@ -163,17 +167,13 @@ namespace Collektive.Headless
             }
         }
 
-        private void AddFields(Reader reader, Kind kind, string prefix)
+        private void AddFields(Reader reader, Kind kind, string prefix, bool isExact)
         {
-            // A field with exactly this name has it: "xy" is the column of Xy, even if XY, which may be x_y, comes first.
-            foreach (var isExact in new[] { true, false })
+            for (var i = 0; i < reader.Fields.Count; i++)
             {
-                for (var i = 0; i < reader.Fields.Count; i++)
-                {
-                    var name = SnakeCase(reader.Fields[i]);
-                    if (AnswerField.GeneratedName(name) == AnswerField.GeneratedName(reader.Fields[i]) == isExact)
-                        Add(byName.ContainsKey(name) ? prefix : "", name, kind, i, reader.Fields[i]);
-                }
+                var name = SnakeCase(reader.Fields[i]);
+                if (AnswerField.GeneratedName(name) == AnswerField.GeneratedName(reader.Fields[i]) == isExact)
+                    Add(byName.ContainsKey(name) ? prefix : "", name, kind, i, reader.Fields[i]);
             }
         }
 

@@ -231,7 +231,13 @@ namespace Collektive.Headless
                     limit.Begin(completedTicks + 1);
                     Loop.Frame(scenario.Settings.deltaTime);
                     limit.End();
-                    if (before == 0 && completedTicks > 0) manifest.Begin();
+                    if (before == 0 && completedTicks > 0)
+                    {
+                        var began = Stopwatch.GetTimestamp();
+                        manifest.Begin();
+                        // The tick's time does not include writing the file.
+                        ended += Stopwatch.GetTimestamp() - began;
+                    }
                     if (manager.Failure.Length > 0) throw Stopped(manager);
                     if (completedTicks > frame)
                         throw new ScenarioException("stopped at tick " + completedTicks

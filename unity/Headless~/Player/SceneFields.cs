@@ -97,8 +97,7 @@ namespace Collektive.Headless
         /// <summary>Returns the value in a form that <see cref="Value"/> reads back; null for types that scenarios cannot set.</summary>
         /// <param name="seen">The objects so far. Another reference to one of them, possibly from itself, is omitted.</param>
         /// <param name="lists">Adds the lists later. A list with an object that is also the value of a field is omitted: setting it changes both.</param>
-        /// <param name="isInList">The scenario would create this object, so it is omitted if it contains an object that is omitted.</param>
-        private static JToken ToJson(object value, Type type, ObjectIDGenerator seen, Queue<Action> lists, bool isInList = false)
+        private static JToken ToJson(object value, Type type, ObjectIDGenerator seen, Queue<Action> lists)
         {
             if (value?.GetType() == type && (value is Vector3 vector ? new JArray(vector.x, vector.y, vector.z) : JsonFile.Token(value)) is JToken token)
                 return token;
@@ -108,7 +107,7 @@ namespace Collektive.Headless
                 foreach (var item in items)
                 {
                     // The scenario would create objects of the element's type.
-                    var json = item != null && IsObject(element) && item.GetType() != element ? null : ToJson(item, element, seen, lists, true);
+                    var json = item != null && IsObject(element) && item.GetType() != element ? null : ToJson(item, element, seen, lists);
                     if (json == null) return null;
                     list.Add(json);
                 }
@@ -123,15 +122,9 @@ namespace Collektive.Headless
                 if (values.ContainsKey(field.Name)) continue;
                 // Keeps the order of the fields.
                 values.Add(field.Name, null);
-                JToken Json() => ToJson(field.GetValue(value), field.FieldType, seen, lists, isInList);
-                if (ElementOf(field.FieldType) != null)
-                {
-                    lists.Enqueue(() => Set(values, field.Name, Json()));
-                    continue;
-                }
-                var json = Json();
-                if (isInList && json == null && field.GetValue(value) != null && IsObject(field.FieldType)) return null;
-                Set(values, field.Name, json);
+                void Add() => Set(values, field.Name, ToJson(field.GetValue(value), field.FieldType, seen, lists));
+                if (ElementOf(field.FieldType) != null) lists.Enqueue(Add);
+                else Add();
             }
             return values;
         }
