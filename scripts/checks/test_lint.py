@@ -61,7 +61,8 @@ def test_c_and_cpp_are_formatted_by_clang_format() -> None:
 
 
 def test_kotlin_is_clean_under_ktlint() -> None:
-    assert_clean(str(find_jdk() / "bin/java"), "-cp", os.path.join(BUILD, "ktlint/*"), "com.pinterest.ktlint.Main", "--relative", "--log-level=error",
+    assert_clean(str(find_jdk() / "bin/java"), "-XX:TieredStopAtLevel=1", "-XX:+UseSerialGC", "-cp", os.path.join(BUILD, "ktlint/*"),
+          "com.pinterest.ktlint.Main", "--relative", "--log-level=error",
           *sources("jvm-host/*.kt", "scripts/*.kt", "unity/*.kt", "experiments/*.kt", "*.kts"))
 
 
