@@ -13,7 +13,7 @@ import kotlin.system.exitProcess
 /**
  * Summarises a flight recording as text: tick times, hot methods per program, allocations and garbage collection pauses.
  *
- * A sample belongs to the program whose function is on its stack; `collektive.ProgramRound` events contain the function of each program.
+ * A sample belongs to the outermost program on its stack; `collektive.ProgramRound` events contain the function of each program.
  */
 internal class ProfileReport {
     private val ticks = ArrayList<RecordedEvent>()
@@ -88,7 +88,7 @@ internal class ProfileReport {
         for (sample in samples) {
             val frames = sample.stackTrace?.frames.orEmpty().filter(RecordedFrame::isJavaFrame)
             if (frames.isEmpty()) continue
-            val owner = programs.values.firstOrNull { program -> frames.any { it.place() == program.function } }
+            val owner = frames.asReversed().firstNotNullOfOrNull { frame -> programs.values.firstOrNull { it.function == frame.place() } }
             (owner?.methods ?: others).add(frames.first().place(), 1, frames.first().lineNumber)
         }
         for ((name, program) in programs) {

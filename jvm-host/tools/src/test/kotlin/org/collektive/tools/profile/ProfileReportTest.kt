@@ -1,14 +1,18 @@
 package org.collektive.tools.profile
 
+import jdk.jfr.Event
+import jdk.jfr.Name
 import jdk.jfr.Recording
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import java.io.IOException
 import java.nio.file.Path
+import java.time.Duration
 import kotlin.io.path.readBytes
 import kotlin.io.path.writeBytes
 import kotlin.test.assertContains
 import kotlin.test.assertFailsWith
+import kotlin.test.assertFalse
 
 /** Tests the summary of flight recordings. */
 internal class ProfileReportTest {
@@ -27,6 +31,47 @@ internal class ProfileReportTest {
         for (length in bytes.indices step bytes.size / 40) {
             part.writeBytes(bytes.copyOf(length))
             assertFailsWith<IOException>("$length of ${bytes.size} bytes") { ProfileReport().read(part) }
+        }
+    }
+
+    @Test
+    fun `a sample belongs to the program that calls another program`(@TempDir folder: Path) {
+        val file = folder.resolve("nested.jfr")
+        Recording().use {
+            it.enable("jdk.ExecutionSample").withPeriod(Duration.ofMillis(10))
+            it.start()
+            for ((name, function) in listOf("a" to "called", "b" to "calling")) {
+                RoundEvent().apply {
+                    program = name
+                    this.function = "${javaClass.packageName}.ProfileReportTest\$Programs.$function"
+                }.commit()
+            }
+            Programs.calling()
+            it.stop()
+            it.dump(file)
+        }
+        val (called, calling) = ProfileReport().read(file).text().substringAfter("program a ").split("program b ")
+        assertFalse("% " in called, called)
+        assertContains(calling, "Programs.called:")
+    }
+
+    @Name("collektive.ProgramRound")
+    private class RoundEvent : Event() {
+        @JvmField var program = ""
+
+        @JvmField var function = ""
+
+        @JvmField var exports = 1
+    }
+
+    private object Programs {
+        fun calling() = called()
+
+        fun called(): Double {
+            val end = System.nanoTime() + Duration.ofSeconds(1).toNanos()
+            var sum = 0.0
+            while (System.nanoTime() < end) sum += StrictMath.sqrt(sum + 1)
+            return sum
         }
     }
 }
