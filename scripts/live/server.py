@@ -350,7 +350,7 @@ class Live:
             for (program, parameter), value in self.parameters.items():
                 # An edit of the program may have removed the parameter.
                 if not known or parameter in known.get(program, {}):
-                    values.setdefault("parameters", {}).setdefault(program, {})[parameter] = _typed(value)
+                    values.setdefault("parameters", {}).setdefault(program, {})[parameter] = value
             player.check_parameters(values.get("parameters", {}), known)
             with session.new_file(file) as output:
                 output.write((json.dumps(values, indent=2) + "\n").encode())
@@ -378,15 +378,6 @@ class Live:
 
 def _text(value: Any) -> str:
     return value if isinstance(value, str) else json.dumps(value)
-
-
-def _typed(text: str) -> Any:
-    """Returns the number or Boolean that is written as this text, or the text."""
-    with contextlib.suppress(ValueError):
-        value = json.loads(text, parse_constant=_refuse)
-        if isinstance(value, int | float) and json.dumps(value) == text:
-            return value
-    return text
 
 
 def _refuse(constant: str) -> None:

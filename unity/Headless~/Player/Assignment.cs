@@ -44,7 +44,12 @@ namespace Collektive.Headless
                 field = null;
                 return nested;
             }
-            return field == null ? new Assignment(key, Json(text.Substring(equals + 1))) : null;
+            if (field != null) return null;
+            var value = Json(text.Substring(equals + 1));
+            // The type of a parameter is known only when the programs are loaded. A text parameter must keep "1.0", which is a number in JSON.
+            if (key.StartsWith(Parameters + ".", StringComparison.Ordinal) && (value.Type == JTokenType.Integer || value.Type == JTokenType.Float))
+                value = new JValue(text.Substring(equals + 1));
+            return new Assignment(key, value);
         }
 
         /// <summary>Converts <c>FIELD=VALUE</c> for a field of the scene to an assignment. The value is JSON or a string.</summary>

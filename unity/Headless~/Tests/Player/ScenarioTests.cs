@@ -96,8 +96,8 @@ namespace Collektive.Headless.Tests.Player
             var root = Minimal();
             root["network"] = JObject.Parse("{\"loss\": 0.5, \"delay\": 2}");
             var scenario = Read(
-                root, "network.loss=0.25", "timing.period=0.5", "program=other", "parameters.a.b.width=3", "parameters.a.b.wide=true", "jvm.maximumHeapMb=100",
-                "outputs.interval=2", "seed=18446744073709551615");
+                root, "network.loss=0.25", "timing.period=0.5", "program=other", "parameters.a.b.width=3", "parameters.a.b.wide=true",
+                "parameters.a.b.version=1.0", "jvm.maximumHeapMb=100", "outputs.interval=2", "seed=18446744073709551615");
             Assert.That(scenario.Settings.network.loss, Is.EqualTo(0.25));
             Assert.That(scenario.Settings.network.delay, Is.EqualTo(2));
             Assert.That(scenario.Settings.timing.period, Is.EqualTo(0.5f));
@@ -106,7 +106,7 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(scenario.Jvm.maximumHeapMb, Is.EqualTo(100));
             Assert.That(scenario.Interval, Is.EqualTo(2));
             var set = scenario.Settings.ProgramParameters["a.b"];
-            Assert.That(set.ConvertAll(parameter => parameter.name + "=" + parameter.value), Is.EqualTo(new[] { "width=3", "wide=true" }));
+            Assert.That(set.ConvertAll(parameter => parameter.name + "=" + parameter.value), Is.EqualTo(new[] { "width=3", "wide=true", "version=1.0" }));
         }
 
         [TestCase("nodes=3", "nodes=3")]
