@@ -393,7 +393,10 @@ class Live {
         note.textContent = 'at restart';
       }
     };
-    const note = part('span', '', { className: 'quiet' });
+    // A header, for example after a reload of the programs, must not hide a change that takes effect at the next start.
+    const isChanged = !apply && key in this.changes;
+    if (isChanged) value = this.changes[key];
+    const note = part('span', isChanged ? 'at restart' : '', { className: 'quiet' });
     const number = Number(value);
     let input;
     if (value === true || value === false || value === 'true' || value === 'false') {
