@@ -59,7 +59,7 @@ def _compile_jvm(generated: Path, classes: Path) -> None:
     """Compiles the Java and then the Kotlin of a folder into a folder of classes."""
     classes.mkdir(parents=True, exist_ok=True)
     _run([find_jdk() / "bin/javac", "--release", "17", "-nowarn", "-proc:none", "-cp", HOST_JAR, "-d", classes, *sorted(generated.rglob("*.java"))])
-    _run([JAVA, "-Xmx1g", "-XX:+UseSerialGC", "-cp", BUILD / "kotlinc/*", "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler", "-no-stdlib", "-no-reflect",
+    _run([*projects.compiler_jvm(), "org.jetbrains.kotlin.cli.jvm.K2JVMCompiler", "-no-stdlib", "-no-reflect",
           "-jvm-target", "17", "-cp", f"{HOST_JAR}:{LIBRARY_JAR}:{classes}", "-d", classes, generated])
     shutil.copytree(generated / "META-INF", classes / "META-INF", dirs_exist_ok=True)
 

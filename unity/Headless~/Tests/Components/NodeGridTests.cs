@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Components
 {
     /// <summary>Compares searches for nodes with a linear scan. The C tests compare many more cases.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class NodeGridTests
     {
         private readonly List<Node> nodes = new List<Node>();

@@ -9,7 +9,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>Tests that users can select programs in inspectors or drop them there, and that each parameter has a field of its type.</summary>
-    [Category("Mono")]
+    [Category("Mono"), Category("AnyPlacement")]
     public sealed class ProgramDrawerTests : ProjectFixture
     {
         private SimulationManager manager;

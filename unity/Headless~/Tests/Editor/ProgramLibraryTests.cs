@@ -13,7 +13,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>Tests that a jar with programs is an asset, which the editor imports without a JVM.</summary>
-    [Category("Mono")]
+    [Category("Mono"), Category("AnyPlacement")]
     public sealed class ProgramLibraryTests : ProjectFixture
     {
         private const string Path = "Assets/Swarm/swarm.clkprograms";

@@ -11,7 +11,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Editor
 {
     /// <summary>Tests scenes of earlier versions, which refer to their schema, jars and programs by name.</summary>
-    [Category("Mono")]
+    [Category("Mono"), Category("AnyPlacement")]
     public sealed class ProgramNamesTests : ProjectFixture
     {
         private SimulationManager manager;

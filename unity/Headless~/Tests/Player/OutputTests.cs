@@ -17,7 +17,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Player
 {
     /// <summary>Tests live runs, recordings and tables of runs.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class OutputTests : SimulationFixture
     {
         private const int LimitMs = 20000;

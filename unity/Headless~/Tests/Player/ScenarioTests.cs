@@ -14,7 +14,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Player
 {
     /// <summary>Tests that settings in the inspector are keys of scenario files and manifests, without separate code for each setting.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class ScenarioTests
     {
         private static readonly string[] RenamedKeys = { "schema", "jars", "libraries", "defaultProgram", "record", "stopAfter", "jvm" };

@@ -9,7 +9,7 @@ using NUnit.Framework;
 namespace Collektive.Headless.Tests.Player
 {
     /// <summary>Tests metrics in SQL. They are untrusted, so they must be able to read only the table of nodes.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class SqlMetricsTests : SimulationFixture
     {
         private const int LimitMs = 100;

@@ -9,8 +9,8 @@ using Collektive.FlatBuffers;
 namespace Collektive.Headless.Tests.Schema
 {
     /// <summary>
-    /// Converts drafts, mirrors and flatc's readers to a canonical text, which equals the text of flatc's Java objects. Members are sorted by lower-case
-    /// name. Floating-point numbers are printed as bits, integers as signed 64-bit numbers, and absent lists as empty lists.
+    /// Converts drafts, mirrors and flatc's readers to a canonical text, which equals the text of flatc's Java objects. Members are sorted by name.
+    /// Floating-point numbers are printed as bits, integers as signed 64-bit numbers, and absent lists as empty lists.
     /// </summary>
     internal static class Dump
     {
@@ -119,6 +119,7 @@ namespace Collektive.Headless.Tests.Schema
             return items;
         }
 
-        private static string Name(string member) => member.Replace("_", "").ToLowerInvariant();
+        private static string Name(string member) =>
+            string.Concat(Array.ConvertAll(member.Split('_'), part => part.Length == 0 ? "" : char.ToUpperInvariant(part[0]) + part.Substring(1)));
     }
 }

@@ -7,7 +7,7 @@ using Features = test.features;
 
 namespace Collektive.Headless.Tests.Schema
 {
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public class SensorBufferTests
     {
         private SensorBuffer<Features.SensorData> tables;

@@ -7,7 +7,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>Tests the effects of the ready-made actuators. The program doubles the sensed value.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class ActuatorTests : SimulationFixture
     {
         [Test]

@@ -7,7 +7,7 @@ using UnityEngine;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>Tests the links of each built-in rule.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class NeighbourhoodTests : SimulationFixture
     {
         [Test]

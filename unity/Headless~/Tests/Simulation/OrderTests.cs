@@ -10,6 +10,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>Tests that digests do not depend on orders that Unity does not specify.</summary>
+    [TestFixture, Category("AnyPlacement")]
     public sealed class OrderTests : SimulationFixture
     {
         private const int Few = 5;

@@ -8,6 +8,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>Tests that sensors and line-of-sight rules query physics in batches, with the same results as single queries.</summary>
+    [TestFixture, Category("AnyPlacement")]
     public sealed class QueryBatchTests : SimulationFixture
     {
         private readonly List<Node> nodes = new List<Node>();

@@ -10,7 +10,7 @@ using Object = UnityEngine.Object;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>Tests the values of each built-in sensor in scenes with known results.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class SensorTests : SimulationFixture
     {
         [Test]

@@ -11,7 +11,7 @@ using UnityEngine.Headless;
 namespace Collektive.Headless.Tests.Simulation
 {
     /// <summary>Tests the data that the views pass to Unity's Graphics and renderers.</summary>
-    [TestFixture]
+    [TestFixture, Category("AnyPlacement")]
     public sealed class ViewTests : SimulationFixture
     {
         [Test]

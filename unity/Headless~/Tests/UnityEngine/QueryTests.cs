@@ -8,6 +8,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Engine
 {
+    [TestFixture, Category("AnyPlacement")]
     public sealed class QueryTests : PhysicsFixture
     {
         static readonly Collider[] Results = new Collider[4096];

@@ -4,6 +4,7 @@ using UnityEngine.Headless;
 
 namespace Collektive.Headless.Tests.Engine
 {
+    [TestFixture, Category("AnyPlacement")]
     public sealed class RigidbodyTests : PhysicsFixture
     {
         [Test]

@@ -3,6 +3,7 @@ using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
 {
+    [TestFixture, Category("AnyPlacement")]
     public sealed class TerrainColliderTests : PhysicsFixture
     {
         /// Returns a terrain of 64 m by 64 m whose height is half of x.

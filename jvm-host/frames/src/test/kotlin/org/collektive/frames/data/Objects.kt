@@ -15,7 +15,7 @@ internal object Objects {
     /**
      * Returns the data as canonical text, identical to the text that the C# tests print.
      *
-     * Members are sorted by lower-case name. Floating-point numbers are printed as bits, integers as signed 64-bit numbers, and absent
+     * Members are sorted by their names in C#. Floating-point numbers are printed as bits, integers as signed 64-bit numbers, and absent
      * lists as empty lists.
      */
     fun dump(data: Any?): String = buildString { append(data, data?.javaClass) }
@@ -80,8 +80,8 @@ internal object Objects {
         type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
             .associateBy { normal(it.name.removePrefix("get")) }.toSortedMap()
 
-    /** Returns a name without underscores and in lower case, because languages have different forms. */
-    private fun normal(name: String): String = name.replace("_", "").lowercase()
+    /** Returns the form of C# of a name, because languages have different forms. */
+    private fun normal(name: String): String = name.split('_').joinToString("") { it.replaceFirstChar(Char::uppercaseChar) }
 
     /** Returns a valid random object of flatc's class [type]. */
     fun random(type: Class<*>, random: Random): Any = randomObject(type, random, 0)
