@@ -172,5 +172,5 @@ internal object Objects {
     private const val MAX_NESTING = 4
 
     /** The required fields of the test schemas. */
-    private val REQUIRED: Set<String> = setOf("label", "anchor", "points", "main", "name", "corner")
+    private val REQUIRED: Set<String> = setOf("Label", "Anchor", "Points", "Main", "Name", "Corner")
 }
