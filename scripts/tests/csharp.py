@@ -1,7 +1,8 @@
 """Runs the C# tests on one runtime and one JVM: `csharp.py RESULTS JDK RUNTIME [OPTION OF THE TEST RUNNER]...`.
 
 With COLLEKTIVE_TEST_PLACEMENT=OwnProcess, the JVM runs in a separate process. Tests of the category OwnProcess need this placement. Tests of the category
-Debugger also need it, or must run without other tests (`--only Debugger`). Tests of the category AnyPlacement are omitted with it, because the placement does not affect them.
+Debugger also need it, or must run without other tests (`--only Debugger`). Tests of the category AnyPlacement are omitted with it, because the placement
+does not affect them.
 """
 import os
 import re
