@@ -31,7 +31,7 @@ suite(maven scripts LABELS extra NEEDS build:jvm_tests UNLOCKED PYTEST "${SCRIPT
 suite(jvm jvm LABELS all NEEDS build:jvm_tests TIMEOUT 1800 PARALLEL SCRIPT jvm.py RESULTS -DexcludedGroups=repeats)
 suite(jvm-repeats jvm LABELS extra NEEDS build:jvm_tests SCRIPT jvm.py RESULTS -Dgroups=repeats)
 suite(jvm-quick jvm LABELS quick NEEDS build:jvm_tests
-  SCRIPT jvm.py RESULTS -DexcludedGroups=slow,repeats "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1")
+  SCRIPT jvm.py RESULTS -DexcludedGroups=slow,repeats "-Dtest.jvm.flags=-XX:+UseSerialGC -XX:TieredStopAtLevel=1 -XX:ReservedCodeCacheSize=128m")
 # Takes under a minute on two idle processors, with the server compiler only, one fork and about 100,000 attempts of each race. Pool threads must
 # not inherit the processor to which jcstress pins an actor.
 suite(stress stress LABELS all NEEDS build:jvm_modules

@@ -290,9 +290,9 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
     counts = set()
     parts = _split(results, data, by)
     for index, runs in parts:
-        # Times at which no run has a value interrupt the line.
         if runs.duplicated(["run", "second"]).any():
             raise ValueError("two runs have the same name: rename the runs of one sweep in both tables before you combine them")
+        # Times at which no run has a value interrupt the line.
         table = runs.pivot(index="run", columns="second", values=metric)
         # Runs that end earlier have no values at later times, so the number of runs differs between times.
         counts.update(count for count in table.notna().sum() if count)

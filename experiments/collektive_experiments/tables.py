@@ -66,6 +66,7 @@ class Table:
                 self._flush()
             for writer in self._writers:
                 writer.close()
+            # `publish` also syncs, but a full disk must be reported before the earlier tables are deleted.
             for file in self._files:
                 file.flush()
                 os.fsync(file.fileno())

@@ -45,10 +45,11 @@ namespace Collektive.Headless
                 return nested;
             }
             if (field != null) return null;
-            var value = Json(text.Substring(equals + 1));
+            var given = text.Substring(equals + 1);
+            var value = Json(given);
             // The type of a parameter is known only when the programs are loaded. A text parameter must keep "1.0", which is a number in JSON.
             if (key.StartsWith(Parameters + ".", StringComparison.Ordinal) && (value.Type == JTokenType.Integer || value.Type == JTokenType.Float))
-                value = new JValue(text.Substring(equals + 1));
+                value = new JValue(given);
             return new Assignment(key, value);
         }
 

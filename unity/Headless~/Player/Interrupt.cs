@@ -8,7 +8,7 @@ namespace Collektive.Headless
 {
     /// <summary>
     /// Handles Ctrl-C and SIGTERM. The first signal during a run ends the run after the current tick, and its outputs are written. A second signal, or a signal
-    /// before the run, ends the process immediately, because user code may not return. Signals within a second count as one, because `timeout` and Slurm
+    /// before the run, ends the process immediately, because user code may not return. Signals within a second count as one, because <c>timeout</c> and Slurm
     /// signal the process as well as the command, which forwards the signal. A process must have only one object of this class.
     /// </summary>
     internal sealed class Interrupt

@@ -80,7 +80,7 @@ internal object Objects {
         type.declaredMethods.filter { it.name.startsWith("get") && it.parameterCount == 0 }
             .associateBy { normal(it.name.removePrefix("get")) }.toSortedMap()
 
-    /** Returns the form of C# of a name, because languages have different forms. */
+    /** Returns the name of a member in generated C#, because languages have different forms. */
     private fun normal(name: String): String = name.split('_').joinToString("") { it.replaceFirstChar(Char::uppercaseChar) }
 
     /** Returns a valid random object of flatc's class [type]. */
