@@ -295,7 +295,7 @@ def run_failing(at: int, folder: Path, *words: str) -> tuple[int, int]:
     variables = {**os.environ, "LD_PRELOAD": str(BUILD / "failing.so"), "FAILING_CALLS": str(calls), "FAILING_AT": str(at),
                  "FAILING_BELOW": f"{folder}:{BUILD}"}
     result = subprocess.run([sys.executable, "-P", "-s", "-m", "collektive_experiments", *words], env=variables, stdout=subprocess.DEVNULL,
-                            stderr=subprocess.PIPE, text=True, timeout=300)
+                            stderr=subprocess.PIPE, text=True, timeout=1800)
     count = int.from_bytes(calls.read_bytes(), sys.byteorder)
     require(result.returncode in (0, 1) and "Traceback" not in result.stderr,
             f"exit code {result.returncode} with call {at} of {count} failing: {result.stderr}")
