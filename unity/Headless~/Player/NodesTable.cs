@@ -61,7 +61,10 @@ namespace Collektive.Headless
         private static List<Column> ColumnsOf(DataSchema schema, IEnumerable<string> fields)
         {
             var answers = AnswerField.Of(schema);
-            return fields.Select(field => field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field)).ToList();
+            var columns = fields.Select(field => field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field)).ToList();
+            if (columns.GroupBy(column => column.Field?.Name).FirstOrDefault(group => group.Count() > 1) is IGrouping<string, Column> repeated)
+                throw new ScenarioException("'outputs.nodes.fields' contains '" + (repeated.Key ?? Position) + "' twice");
+            return columns;
         }
 
         private static Column Find(List<AnswerField> answers, string wanted)
@@ -140,6 +143,7 @@ namespace Collektive.Headless
                 {
                     case null: return "";
                     case bool truth: return truth ? "true" : "false";
+                    case 0f: return CsvText.Number((float)value);
                     case float number: return number.ToString("R", CultureInfo.InvariantCulture);
                     case double number: return CsvText.Number(number);
                     case string text: return CsvText.Quoted(text);

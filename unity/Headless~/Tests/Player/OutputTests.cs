@@ -161,6 +161,23 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(AnswerColourings.Of(Manager).ConvertAll(colouring => colouring.Name), Has.Member("maybeSpeed").And.Member("maybeMode"));
         }
 
+        [TestCase("maybe_speed", "maybeSpeed")]
+        [TestCase("position", "position")]
+        public void A_field_is_a_column_only_once(string name, string sameName)
+        {
+            var error = Assert.Throws<ScenarioException>(() => NodesTable.Check(Schemas.Find("test.features.FeaturesSchema"), new[] { name, sameName }));
+            Assert.That(error.Message, Is.StringContaining("'outputs.nodes.fields' contains"));
+        }
+
+        [Test]
+        public void Cells_distinguish_negative_zero()
+        {
+            MakeNode(1, new Vector3(-0f, 0, 0.1f), 7);
+            var file = Path.Combine(folder, "nodes.csv");
+            using (var table = new NodesTable(file, new[] { "position" }, Manager)) table.Add(0);
+            Assert.That(File.ReadAllText(file), Is.EqualTo("second,node,position.x,position.y,position.z\n0,7,-0,0,0.1\n"));
+        }
+
         [TestCase(double.MaxValue, "1.7976931348623157E+308")]
         [TestCase(0.1, "0.1")]
         [TestCase(7.8486013961250904, "7.8486013961250904")]
