@@ -276,7 +276,12 @@ def convergence_times(experiment: Experiment, others: Iterable[str] = ()) -> lis
 def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
     """Checks that the metrics in `figures` and `labels` exist."""
     numbers = [name for name, kind in tables.RUN_COLUMNS + tables.RUN_TIMES if not pa.types.is_string(kind)]
-    at_end = [*metrics, *convergence_times(experiment)]
+    converged = convergence_times(experiment)
+    for key in experiment.keys:
+        if key in converged:
+            raise experiment.located.error(f"'{key}' is also the name of a column for the convergence time of a metric: rename the metric",
+                                           "vary" if key in dict(experiment.product) else "zip", key)
+    at_end = [*metrics, *converged]
     for options in experiment.figures:
         check_metrics(options, at_end + numbers, metrics)
     check_labels(experiment, at_end + numbers)

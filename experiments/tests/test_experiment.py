@@ -12,6 +12,7 @@ import pytest
 from collektive_experiments import ExperimentError, read
 from collektive_experiments.experiment import name_of
 from collektive_experiments.positions import Located
+from collektive_experiments.sweep import _check_figures
 from collektive_experiments.tables import _type_of, _value
 
 
@@ -77,6 +78,14 @@ def test_an_object_does_not_replace_keys_in_it(tmp_path: Path) -> None:
     experiment = read(write(tmp_path, json.dumps({
         "version": 1, "scenario": "scenario.json", "vary": {"network.jitter": [1]}, "set": {"network.loss": 0.5, "network": {"delay": 1}}})))
     assert [list(run.settings) for run in experiment.runs()] == [["network", "network.loss", "network.jitter"]]
+
+
+def test_a_key_cannot_be_the_convergence_time_of_another_metric(tmp_path: Path) -> None:
+    (tmp_path / "scenario.json").write_text('{"converged": {"m": {"to": 1}, "m.to": {"to": 1}}}')
+    file = tmp_path / "experiment.json"
+    file.write_text('{"version": 1, "scenario": "scenario.json", "vary": {"converged.m.to": [1, 2]}}')
+    with pytest.raises(ExperimentError, match=r"'converged\.m\.to' is also the name of a column"):
+        _check_figures(read(str(file)), ["m", "m.to"])
 
 
 def test_a_file_that_is_not_utf_8_is_a_one_line_error(tmp_path: Path) -> None:

@@ -23,8 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     out: Path = arguments.out
-    if os.path.lexists(out) and (out.is_symlink() or not (out / MARKER).is_file()):
-        raise Failure(f"site: '{out}' exists and is not a site built by this command: name another folder with --out, or remove it")
+    require_replaceable(out)
     graph.build("documentation")
     fetch.fetch("site-tools")
     # In its own folder first, so that several commands can build at once.
@@ -39,6 +38,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def require_replaceable(out: Path) -> None:
+    """Raises `Failure` if `out` exists and is not a site built by this command."""
+    if os.path.lexists(out) and (out.is_symlink() or not (out / MARKER).is_file()):
+        raise Failure(f"site: '{out}' exists and is not a site built by this command: name another folder with --out, or remove it")
+
+
 def replace(site: Path, out: Path) -> None:
     """Copies a site to `out`, in place of an earlier site, which stays if the copy fails."""
     out.parent.mkdir(parents=True, exist_ok=True)
@@ -47,6 +52,8 @@ def replace(site: Path, out: Path) -> None:
             shutil.copytree(site, Path(part, "new"))
         except shutil.Error as error:
             raise Failure(f"site: cannot write '{out}': {error.args[0][0][2]}") from error
+        # The folder may have appeared during the build.
+        require_replaceable(out)
         if out.exists():
             out.rename(Path(part, "earlier"))
         Path(part, "new").rename(out)

@@ -22,6 +22,7 @@ def test_a_site_that_cannot_be_copied_keeps_the_earlier_one(tmp_path: Path, monk
     for folder, content in ((new, "new"), (out, "earlier")):
         folder.mkdir(parents=True)
         (folder / "index.html").write_text(content)
+        (folder / site.MARKER).touch()
 
     def copy(_: str, target: str, **__: Any) -> None:
         Path(target).write_text("half")
@@ -34,6 +35,15 @@ def test_a_site_that_cannot_be_copied_keeps_the_earlier_one(tmp_path: Path, monk
     assert ((out / "index.html").read_text(), os.listdir(out.parent)) == ("earlier", ["site"])
     site.replace(new, out)
     assert ((out / "index.html").read_text(), os.listdir(out.parent)) == ("new", ["site"])
+
+
+def test_a_folder_that_appears_during_the_build_is_not_replaced(tmp_path: Path) -> None:
+    for name in ("new", "out"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "out/thesis.txt").touch()
+    with pytest.raises(Failure, match="exists and is not a site"):
+        site.replace(tmp_path / "new", tmp_path / "out")
+    assert os.listdir(tmp_path / "out") == ["thesis.txt"]
 
 
 def test_an_archive_that_cannot_be_moved_keeps_the_earlier_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
