@@ -73,9 +73,12 @@ class Results:
 def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     """Reads the tables in a sweep's folder. `labels` replaces the labels of the experiment file."""
     settings = Store(folder).settings()
+    before = _version(folder)
     nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
     results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
                       settings.get("labels", {}) if labels is None else labels)
+    if _version(folder) != before:
+        raise ExperimentError(f"the tables of '{folder}' were replaced while they were read: try again")
     needed = {"run", "status", "seed", *results.keys, *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
     columns = list(results.runs.columns)
     # Figures would combine the runs with different values of a key that is missing in the settings.
@@ -87,6 +90,15 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     units = settings["measure"]
     return replace(results, units={column: units[name] for column in results.metrics for name in (re.sub(r"^(metric\.)+", "", column), column)
                                    if name in units})
+
+
+def _version(folder: str) -> tuple[int, int] | None:
+    """Identifies the tables in a sweep's folder. A sweep deletes runs.parquet before it replaces any table, and creates it again last."""
+    path = os.path.join(folder, "runs.parquet")
+    if not os.path.exists(path):
+        return None
+    status = os.stat(path)
+    return status.st_ino, status.st_mtime_ns
 
 
 def _read(folder: str, name: str) -> pd.DataFrame:
