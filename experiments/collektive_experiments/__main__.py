@@ -9,7 +9,7 @@ from typing import NoReturn
 from . import experiment as experiments
 from . import figure_options
 from .options import add_plot_arguments, add_sweep_arguments, add_tune_arguments
-from .positions import ExperimentError, Located
+from .positions import ExperimentError
 from .search import check_search, read_search
 from .slurm import run_task, write_job
 from .store import Store
@@ -104,7 +104,7 @@ def _pool(options: argparse.Namespace, store: Store) -> Pool:
 
 def _threads(experiment: experiments.Experiment) -> int:
     """Returns the largest number of threads that a run uses."""
-    threads = Located(experiment.scenario).root.get("threads", 1)
+    threads = experiment.scenario.root.get("threads", 1)
     return int(max(run.settings.get("threads", threads) for run in experiment.runs()))
 
 

@@ -12,15 +12,15 @@ from .files import PART
 from .positions import ExperimentError, Located
 
 
-def write_scenario(scenario: str, folder: str) -> None:
+def write_scenario(scenario: Located, folder: str) -> None:
     """Writes the scenario to the bundle, with the paths and hashes of the copied inputs from inputs.json."""
-    root: dict[str, Any] = Located(scenario).root
+    root: dict[str, Any] = {**scenario.root}
     with open(os.path.join(folder, "inputs.json"), encoding="utf-8") as file:
         root.update(json.load(file)["paths"])
     # Runs of a sweep do not write replay pages.
-    outputs = root.setdefault("outputs", {})
+    outputs = root.get("outputs", {})
     if isinstance(outputs, dict):
-        outputs.update(metrics=True, replay=False, pictures=False)
+        root["outputs"] = {**outputs, "metrics": True, "replay": False, "pictures": False}
     with open(os.path.join(folder, "inputs/scenario.json"), "w", encoding="utf-8") as file:
         json.dump(root, file, indent=2)
 
@@ -48,7 +48,7 @@ def programs_jar(bundle: str, runtime: str) -> str:
     return os.path.join(bundle, f"programs-{runtime.lower()}.jar" if runtime else "programs.jar")
 
 
-def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = ()) -> None:
+def prepare(scenario: Located, bundle: str, trust: bool, runtimes: Sequence[str] = ()) -> None:
     """
     Creates the bundle, or checks that an existing bundle has the same inputs, so that all runs of a sweep use the same code.
 
@@ -66,8 +66,10 @@ def prepare(scenario: str, bundle: str, trust: bool, runtimes: Sequence[str] = (
         script = os.path.join(os.path.dirname(os.environ["COLLEKTIVE"]), "scripts/build/bundle.py")
         options = [*(["--only-inputs"] if os.path.isdir(bundle) else []), *(["--trust-jvm"] if trust else []),
                    *(f"--runtime={runtime}" for runtime in runtimes)]
-        if subprocess.run([sys.executable, "-I", script, os.path.abspath(scenario), os.path.abspath(work), *options]).returncode != 0:
+        if subprocess.run([sys.executable, "-I", script, os.path.abspath(scenario.path), os.path.abspath(work), *options]).returncode != 0:
             raise ExperimentError("the scenario could not be built; the messages are above")
+        if Located(scenario.path).text != scenario.text:
+            raise ExperimentError(f"'{scenario.path}' changed during compilation: run the command again")
         write_scenario(scenario, work)
         if os.path.isdir(bundle):
             if fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):

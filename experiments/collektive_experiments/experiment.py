@@ -54,8 +54,8 @@ class Run:
 class Experiment:
     """A validated experiment file."""
     path: str
-    scenario: str
-    """The path of the scenario file."""
+    scenario: Located
+    """The scenario file."""
     product: list[tuple[str, list[Any]]]
     """The keys of `vary`, whose values are combined with all values of the other keys."""
     together: list[tuple[str, list[Any]]]
@@ -152,14 +152,14 @@ def read(path: str) -> Experiment:
     scenario = os.path.join(os.path.dirname(path), root["scenario"])
     if not os.path.isfile(scenario):
         raise located.error(f"the scenario file '{scenario}' does not exist", "scenario")
-    settings = Located(scenario).root
-    if not isinstance(settings, dict):
+    settings = Located(scenario)
+    if not isinstance(settings.root, dict):
         raise ExperimentError(f"{scenario}: the file must contain one JSON object")
-    if "scenario" in settings:
+    if "scenario" in settings.root:
         # The player would repeat the run of a manifest and ignore the values of keys.
         raise located.error(f"'{scenario}' is the manifest of a run or an experiment; name a scenario file", "scenario")
     fixed = _read_set(located)
-    experiment = Experiment(path, scenario, _read_vary(located, "vary"), _read_vary(located, "zip"), fixed, fixed.get("seed", settings.get("seed", 1)),
+    experiment = Experiment(path, settings, _read_vary(located, "vary"), _read_vary(located, "zip"), fixed, fixed.get("seed", settings.root.get("seed", 1)),
                             _read_measure(located), read_figures(located), _read_labels(located), located)
     _check(experiment)
     return experiment

@@ -10,7 +10,7 @@ from typing import Any, BinaryIO
 from . import files
 from .experiment import FIXED, Experiment, Run
 from .files import MARKER, PART
-from .positions import ExperimentError, Located
+from .positions import ExperimentError
 from .worker import Outcome
 
 VERSION = 3
@@ -51,9 +51,9 @@ class Store:
         if any(character > "\uffff" for character in folder):
             raise ExperimentError(f"'{folder}' contains an emoji or another character beyond U+FFFF, and the JVM cannot load classes from there: "
                                   "name another folder with --out")
-        root = Located(experiment.scenario).root
+        root = experiment.scenario.root
         for key in FIXED:
-            part = os.path.join(os.path.dirname(os.path.abspath(experiment.scenario)), str(root.get(key, "")))
+            part = os.path.join(os.path.dirname(os.path.abspath(experiment.scenario.path)), str(root.get(key, "")))
             if key in root and Path(os.path.realpath(part)) in Path(folder).parents:
                 raise ExperimentError(f"the results would be inside '{part}', the scenario's '{key}': name another folder with --out")
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):

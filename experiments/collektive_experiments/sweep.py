@@ -20,7 +20,7 @@ from . import tables
 from .bundle import prepare
 from .experiment import Experiment, Run, check_labels
 from .figure_options import CONVERGED, check_metrics
-from .positions import ExperimentError, Located
+from .positions import ExperimentError
 from .store import Store
 from .worker import Outcome, Worker, WorkerError
 
@@ -268,7 +268,7 @@ def check_keys(experiment: Experiment, store: Store, trust: bool, others: Iterab
 
 def convergence_times(experiment: Experiment, others: Iterable[str] = ()) -> list[str]:
     """Returns the columns of convergence times, which the scenario, the experiment's keys or the keys `others` define."""
-    converged = [*Located(experiment.scenario).root.get("converged", {}), *experiment.fixed.get("converged", {})]
+    converged = [*experiment.scenario.root.get("converged", {}), *experiment.fixed.get("converged", {})]
     keys = [key for key in [*experiment.fixed, *experiment.keys, *others] if key.startswith(CONVERGED)]
     return list(dict.fromkeys([*(CONVERGED + name for name in converged), *(re.sub(r"\.(from|to|seconds)$", "", key) for key in keys)]))
 

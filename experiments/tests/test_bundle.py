@@ -2,6 +2,7 @@
 import json
 import os
 from pathlib import Path
+from unittest.mock import Mock
 
 import pytest
 from conftest import Project
@@ -54,10 +55,18 @@ def test_runs_use_copies_of_linked_and_included_files(project: Project) -> None:
     assert "differ from those of the runs in" in again.stderr
 
 
+def test_a_scenario_that_changes_before_it_is_copied_is_an_error(project: Project) -> None:
+    experiment = read(project.experiment(vary={"network.loss": [0]}))
+    scenario = project.folder / "project/lamps.json"
+    scenario.write_text(scenario.read_text().replace("{", '{ "seed": 7,', 1))
+    with pytest.raises(ExperimentError, match="changed during compilation: run the command again"):
+        prepare(experiment.scenario, str(project.folder / "bundle"), False)
+
+
 def test_a_runtime_cannot_be_added_to_a_bundle(tmp_path: Path) -> None:
     (tmp_path / "programs-collektive.jar").touch()
     with pytest.raises(ExperimentError, match="contains no programs for the runtime 'builtin': name another folder with --out"):
-        prepare("scenario.json", str(tmp_path), False, ["builtin", "collektive"])
+        prepare(Mock(), str(tmp_path), False, ["builtin", "collektive"])
 
 
 def test_a_sweep_without_its_bundle_is_not_continued_with_other_inputs(project: Project) -> None:
