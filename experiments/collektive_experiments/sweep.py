@@ -149,6 +149,8 @@ def sweep(experiment: Experiment, store: Store, todo: list[Task], pool: Pool, jo
         tables.write(experiment, store, with_csv)
         raise
     written = tables.write(experiment, store, with_csv)
+    if code == 1:
+        print("collektive: to repeat the incomplete runs, add --resume", file=sys.stderr)
     if code == 0 and written != experiment.count:
         raise ExperimentError(f"the tables have {written} of {experiment.count} runs: files in '{store.runs}' were changed; "
                               "repeat the missing runs with --resume")
@@ -225,7 +227,7 @@ def drive(store: Store, total: int, todo: list[Task], pool: Pool, jobs: int, max
         print(f"collektive: interrupted; {progress.done} of {total} runs are complete; to continue, add --resume", file=sys.stderr)
         return 128 + interrupted[0]
     if failed:
-        print(f"collektive: {failed} of {total} runs are not complete; to repeat them, add --resume", file=sys.stderr)
+        print(f"collektive: {failed} of {total} runs are not complete", file=sys.stderr)
     return 1 if failed else 0
 
 

@@ -301,6 +301,7 @@ def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(proje
     result = project.sweep("--time-limit", "8", **keys)
     assert result.returncode == 1
     assert "3 of 5 runs are not complete" in result.stderr
+    assert "to repeat the incomplete runs, add --resume" in result.stderr
     runs = project.table().set_index("fields.fate")
     assert list(runs["status"]) == ["complete", "failed", "crashed", "timeout", "complete"]
     assert list(map(str, runs["seed"])) == ["9007199254740993"] * 5
