@@ -347,9 +347,10 @@ class Live:
                 values["seed"] = int(self.seed)
             self._keep_texts(values.get("fields", {}), changes)
             known = projects.parameters(self.jar)
+            # An edit of the programs may have removed a parameter, or have been rejected because it renames the program that runs.
+            missing = [key for key in self.parameters if known and key[1] not in known.get(key[0], {})]
             for (program, parameter), value in self.parameters.items():
-                # An edit of the program may have removed the parameter.
-                if not known or parameter in known.get(program, {}):
+                if (program, parameter) not in missing:
                     values.setdefault("parameters", {}).setdefault(program, {})[parameter] = value
             player.check_parameters(values.get("parameters", {}), known)
             with session.new_file(file) as output:
@@ -360,7 +361,8 @@ class Live:
             return f"'{file.name}' already exists: enter another name"
         except OSError as error:
             return f"cannot write '{file}': {error.strerror}"
-        return f"saved as {os.path.relpath(file)}"
+        omitted = f" without {', '.join(map('.'.join, missing))}, which the edited programs do not declare" if missing else ""
+        return f"saved as {os.path.relpath(file)}{omitted}"
 
     def _keep_texts(self, fields: dict[str, Any], changes: dict[str, Any]) -> None:
         """Writes values of text fields as texts. Only the running scene knows the types of its fields, so the player has read "5" as a number."""

@@ -219,7 +219,8 @@ def test_a_saved_scenario_contains_the_parameters_that_the_page_has_set(tmp_path
     # The program declares no parameter `on`, because it was edited.
     known = {name: ["1", "Float"] for name in ("gain", "other", "version", "big", "end")}
     monkeypatch.setattr(server.projects, "parameters", lambda _: {"a.b": known})
-    asyncio.run(live_run.save_scenario("b.json", {}))
+    message = asyncio.run(live_run.save_scenario("b.json", {}))
+    assert message.endswith("b.json without a.b.on, which the edited programs do not declare")
     del changed["on"]
     assert json.loads((tmp_path / "b.json").read_text())["parameters"] == {"a.b": {**changed, "other": 4}}
     asyncio.run(live_run.execute(page, {"parameter": "gain", "program": "a.b", "value": "fast"}))
