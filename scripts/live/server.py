@@ -198,7 +198,7 @@ class Live:
         page = Page(connection)
         self.pages.append(page)
         self.send_welcome(page)
-        for event in (self.header, self.compiled, self.stopped):
+        for event in (self.compiled, self.stopped):
             if event is not None:
                 page.event(event)
         if self.last_frame is not None:
@@ -220,6 +220,11 @@ class Live:
     def send_welcome(self, page: Page) -> None:
         page.event({"event": "welcome", "controls": self.pages[0] is page, "title": Path(self.scenario).parent.name, "scenario": self.scenario,
                     "files": self.files, "editable": self.is_editable, "examples": self.examples, **self.identity()})
+        if self.header is not None:
+            # The player sends no header after a change of a parameter, because pages would build their controls again.
+            for (program, parameter), value in self.parameters.items():
+                self.header["parameters"].setdefault(program, {})[parameter] = value
+            page.event(self.header)
 
     async def receive(self, page: Page) -> None:
         start, count = time.monotonic(), 0

@@ -225,3 +225,13 @@ def test_a_saved_scenario_contains_the_parameters_that_the_page_has_set(tmp_path
     assert json.loads((tmp_path / "b.json").read_text())["parameters"] == {"a.b": {**changed, "other": 4}}
     asyncio.run(live_run.execute(page, {"parameter": "gain", "program": "a.b", "value": "fast"}))
     assert "not saved: 'parameters.a.b.gain' is 'fast'; it must be a number" in asyncio.run(live_run.save_scenario("c.json", {}))
+
+
+def test_a_page_that_begins_to_control_the_run_shows_the_current_parameters(tmp_path: Path, server: Any) -> None:
+    live_run = server.Live({"scenario": str(tmp_path / "a.json"), "trust_jvm": False, "seed": "1", "values": []}, tmp_path)
+    live_run.plan = SimpleNamespace(parts={"programs": SimpleNamespace(path=tmp_path)})
+    live_run.header = {"event": "header", "parameters": {"a": {"gain": "1", "on": "true"}}}
+    live_run.pages = [page := MagicMock()]
+    asyncio.run(live_run.execute(page, {"parameter": "gain", "program": "a", "value": "2"}))
+    live_run.send_welcome(page)
+    assert page.event.call_args.args[0]["parameters"] == {"a": {"gain": "2", "on": "true"}}
