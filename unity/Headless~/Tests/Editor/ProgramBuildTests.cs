@@ -227,7 +227,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             var seen = new HashSet<string> { Swarm().Sources };
             Write("Assets/Swarm/shapes/box.fbs", "namespace swarm;\nstruct Box { size: float; }\n");
-            Write(Schema, "include \"shapes/box.fbs\";\ninclude \"types.fbs\";\n" + BuildTests.Schema);
+            Write(Schema, "include/* box */\"shapes/box.fbs\";\ninclude \"types.fbs\";\n" + BuildTests.Schema);
             Assert.That(seen.Add(Swarm().Sources), Is.True);
             Write("Assets/Swarm/shapes/box.fbs", "namespace swarm;\nstruct Box { size: double; }\n");
             Assert.That(seen.Add(Swarm().Sources), Is.True);

@@ -11,7 +11,7 @@ internal class SourceHashTest {
     fun `the hash covers each included file`() {
         val folder = Fixture.newFolder()
         val schema = folder.resolve("a.fbs")
-        schema.writeText("/* types */ include \"b.fbs\"; include 'c.fbs';\nnamespace a;")
+        schema.writeText("/* types */ include\"b.fbs\"; include /* c */ // d\n'c.fbs';\nnamespace a;")
         val included = listOf("b.fbs", "c.fbs").map(folder::resolve)
         for (file in included) file.writeText("namespace a;")
         for (file in included) {
