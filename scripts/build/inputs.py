@@ -55,9 +55,16 @@ class Part:
 
     def require_unchanged(self) -> None:
         """Raises `Failure` if a file was changed, even temporarily, added or removed since this part was read."""
-        files = self._list_files(self.path)
-        if _change_times(files) != self._times or _digest(files) != self.digest:
+        if self.is_changed():
             raise Failure(f"'{self.path}' changed during compilation: run the command again")
+
+    def is_changed(self) -> bool:
+        """Returns whether a file was changed, even temporarily, added or removed since this part was read."""
+        try:
+            files = self._list_files(self.path)
+            return _change_times(files) != self._times or _digest(files) != self.digest
+        except OSError:
+            return True
 
 
 def scripts(folder: Path) -> Part:

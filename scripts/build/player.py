@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import subprocess
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -55,6 +56,13 @@ class Plan:
             raise Failure(f"'{self.scenario}' changed during compilation: run the command again")
         for part in self.parts.values():
             part.require_unchanged()
+
+    def report_changes(self) -> None:
+        """Prints a warning for each folder from which the player reads, other than compiled code, if it was changed during the run."""
+        for part in filter(None, map(self.parts.get, ("data", "runtimeJars"))):
+            if part.is_changed():
+                print(f"collektive: warning: '{part.path}' changed during the run. The manifest contains its hash from before the run, but the run may have "
+                      "read the new files", file=sys.stderr)
 
     def scripts_dll(self) -> Path:
         """Compiles the scenario's C# if it has changed, and returns the assembly."""

@@ -86,6 +86,7 @@ def run(arguments: argparse.Namespace) -> int:
         # Scripts may change the current folder.
         code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), *words, *scenario_options])
         outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
+        plan.report_changes()
     if code != 0:
         return code
     if has_pictures:

@@ -4,11 +4,12 @@ import random
 import shutil
 import subprocess
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from build import inputs
+from build import inputs, player
 from build.console import Failure
 from build.places import FLATC, ROOT
 
@@ -122,6 +123,17 @@ def test_a_file_that_changes_during_compilation_is_detected(tmp_path: Path) -> N
     file.write_text("two")
     with pytest.raises(Failure, match="changed during compilation"):
         part.require_unchanged()
+
+
+@pytest.mark.parametrize("change", [lambda file: file.write_text("two"), lambda file: shutil.rmtree(file.parent)])
+def test_data_that_changes_during_a_run_is_reported(change: Callable[[Path], object], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = write(tmp_path / "data/a.csv", "one")
+    plan = player.Plan({}, {"data": inputs.data(file.parent)})
+    plan.report_changes()
+    assert capsys.readouterr().err == ""
+    change(file)
+    plan.report_changes()
+    assert f"'{file.parent}' changed during the run" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("is_link", [False, True])
