@@ -169,7 +169,8 @@ def _difference(function: str, processes: tuple[RuntimeProcess, RuntimeProcess],
 
 
 def _same(a: str, b: str) -> bool:
-    if a == b or NUMBER.split(a) != NUMBER.split(b):
+    # Texts, which have quotes, must be equal.
+    if a == b or a.endswith('"') or NUMBER.split(a) != NUMBER.split(b):
         return a == b
     pairs = zip(map(float, NUMBER.findall(a)), map(float, NUMBER.findall(b)), strict=True)
     return all(abs(x - y) <= TOLERANCE * max(abs(x), abs(y)) for x, y in pairs)

@@ -58,15 +58,20 @@ class Compared(Folder):
         first, *ticks, last = result.stdout.splitlines()
         self.assertIn("the smallest run has 3 nodes and 3 ticks", first)
         self.assertEqual(len(ticks), 3)
-        self.assertRegex(last, r"tick 3, node \d+: AggregateDevice on the built-in runtime, MailboxRound on the mailbox runtime")
+        self.assertRegex(last, r'tick 3, node \d+: "AggregateDevice" on the built-in runtime, "MailboxRound" on the mailbox runtime')
         self.assertTrue(re.fullmatch(r"  tick 3: nodes (\d+) (\d+) (\d+); links \d+-\d+ \d+-\d+; rounds of \d+", ticks[2]), ticks[2])
 
-    def test_a_difference_in_a_text_is_found_in_any_locale(self) -> None:
-        function = 'fun Aggregate<Int>.`ein Maß`(): String = "\\r\\r" + if ("Mailbox" in "$this") "ä" else "ö"'
+    def test_differences_in_texts_are_found_in_any_locale(self) -> None:
+        functions = """
+fun Aggregate<Int>.`ein Maß`(): String = "\\r\\r" + if ("Mailbox" in "$this") "ä" else "ö"
+fun Aggregate<Int>.nothing(): String? = if ("Mailbox" in "$this") "null" else null
+fun Aggregate<Int>.number(): String = if ("Mailbox" in "$this") "1.10" else "1.1"
+"""
         with mock.patch.dict(os.environ, LC_ALL="C"):
-            result = self.compare(f'@file:JvmName("Renamed")\n{IMPORTS}{function}\n', "--runs", "1")
+            result = self.compare('@file:JvmName("Renamed")\n' + IMPORTS + functions, "--runs", "1")
         self.assertEqual(result.returncode, 1, result.stdout + result.stderr)
-        self.assertIn(r"\r\rö on the built-in runtime, \r\rä on ", result.stdout)
+        answers = re.findall(r"node \d+: (.*) on the built-in runtime, (.*) on", result.stdout)
+        self.assertEqual(answers, [(r'"\r\rö"', r'"\r\rä"'), ("null", '"null"'), ('"1.1"', '"1.10"')], result.stdout)
 
     @pytest.mark.slow
     def test_files_without_functions_are_refused(self) -> None:

@@ -75,6 +75,7 @@ private fun TestNetwork.run(tick: String, function: Method): Map<Int, Result<Any
 }
 
 private fun text(result: Result<Any?>): String {
-    val text = result.fold({ "$it" }, { "fails (${(it.cause ?: it).javaClass.simpleName})" })
+    // Quotes distinguish a text from other values, such as null, and from an error.
+    val text = result.fold({ if (it is String) "\"$it\"" else "$it" }, { "fails (${(it.cause ?: it).javaClass.simpleName})" })
     return text.replace("\\", "\\\\").replace("\n", "\\n").replace("\r", "\\r")
 }
