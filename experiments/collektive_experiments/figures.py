@@ -7,7 +7,7 @@ import re
 import sys
 import warnings
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import matplotlib
@@ -22,7 +22,7 @@ from . import files
 from .experiment import Experiment, check_labels, read_figures, text
 from .figure_options import CENSORED, CONVERGED, TIME, Fail, FigureOptions, check_keys, check_metrics
 from .positions import ExperimentError, Located
-from .results import VALUE, Results, compare, load
+from .results import VALUE, Results, compare, load, name_of_metric
 from .statistics import interval, kaplan_meier
 from .store import Store
 
@@ -118,7 +118,7 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
         check(results, request)
     known = metrics_at_end(results)
     if experiment:
-        check_labels(experiment, known)
+        check_labels(experiment, [*known, *map(name_of_metric, results.metrics)])
     shown = [] if options else list(metrics or [*results.metrics, *results.convergence_times])
     for metric in [name for name in results.metrics if name in shown]:
         if max(values.abs().max() for values in (results.series[metric], results.complete[metric])) > MAX_VALUE:
@@ -192,6 +192,7 @@ def file_name(metric: str, metrics: Sequence[str]) -> str:
 
 def check(results: Results, options: FigureOptions) -> None:
     """Checks that the sweep has the keys, metrics and values that a requested figure needs."""
+    options = _with_columns(results, options)
     check_keys(options, {key: [value.item() if hasattr(value, "item") else value for value in results.runs[key].dropna().unique()]
                          for key in results.keys})
     check_metrics(options, metrics_at_end(results), results.metrics)
@@ -214,6 +215,7 @@ def metrics_at_end(results: Results) -> list[str]:
 
 def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure, str]]:
     """Draws the requested figure for each metric and each combination of values of the keys that it does not show. Yields name, figure and caption."""
+    options = _with_columns(results, options)
     data = results.series if options.x == TIME else results.complete
     others = _other_keys(results, [key for key in (options.x, options.by) if key and key != TIME])
     combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
@@ -229,6 +231,10 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
                 figure = Figure(figsize=options.size, layout="constrained")
                 caption = _draw(figure, results, part, metric, options) + _omitted(results, others, values)
             yield file_name(metric + ending, names), figure, caption + (f" {_title(results, values, others)}." if others else "")
+
+
+def _with_columns(results: Results, options: FigureOptions) -> FigureOptions:
+    return replace(options, metrics=tuple(map(results.column, options.metrics)))
 
 
 def _other_keys(results: Results, shown: list[str]) -> list[str]:

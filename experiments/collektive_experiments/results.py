@@ -49,6 +49,10 @@ class Results:
         columns = list(self.series.columns)
         return columns[columns.index("second") + 1:columns.index("links")]
 
+    def column(self, metric: str) -> str:
+        """Returns the column of a metric, which has the prefix `metric.` if another column has the metric's name."""
+        return metric if metric in self.metrics else next((name for name in self.metrics if name_of_metric(name) == metric), metric)
+
     @property
     def complete(self) -> pd.DataFrame:
         """The runs that are complete."""
@@ -86,10 +90,15 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
             or not {"run", "second", "links"} <= set(results.series.columns)):
         raise ExperimentError(f"the tables of '{folder}' are damaged or from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
-    # The settings may be newer than the tables, and list other metrics. Tables add the prefix `metric.` to a name that is already taken.
-    units = settings["measure"]
-    return replace(results, units={column: units[name] for column in results.metrics for name in (re.sub(r"^(metric\.)+", "", column), column)
-                                   if name in units})
+    # The settings may be newer than the tables, and list other metrics.
+    units, texts = ({column: given[name] for column in results.metrics for name in (name_of_metric(column), column) if name in given}
+                    for given in (settings["measure"], results.labels))
+    return replace(results, units=units, labels={**results.labels, **texts})
+
+
+def name_of_metric(column: str) -> str:
+    """Returns the name of the metric in a column. Tables add the prefix `metric.` to a name that is already taken."""
+    return re.sub(r"^(metric\.)+", "", column)
 
 
 def _version(folder: str) -> tuple[int, int] | None:

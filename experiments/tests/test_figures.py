@@ -309,6 +309,18 @@ def test_a_band_as_key_is_not_labelled_as_a_time(tmp_path: Path) -> None:
     assert caption.startswith("error against converged.error.to: ")
 
 
+def test_a_metric_with_the_name_of_another_column_is_drawn_instead_of_this_column(tmp_path: Path) -> None:
+    figures = [{"metric": "nodes", "x": "network.loss", "by": "program"}, {"metric": "nodes", "by": "program"}]
+    folder = write_sweep(tmp_path / "out", 2, (0.0, 0.4), measure={"nodes": "m"}, figures=figures, labels={"nodes": "active nodes"})
+    for name in ("runs", "series"):
+        pd.read_parquet(f"{folder}/{name}.parquet").rename(columns={"error": "metric.nodes"}).to_parquet(f"{folder}/{name}.parquet")
+    plot(folder)
+    for options in figures:
+        (_, figure, caption), *_ = draw(load(folder), read_options(options))
+        assert caption.startswith("active nodes ") and figure.axes[0].get_ylabel() == "active nodes"
+        assert max(line.get_ydata().max() for line in figure.axes[0].get_lines() if len(line.get_ydata())) < 49
+
+
 def test_missing_values_are_not_drawn(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 3, (0.0,))
     series = pd.read_parquet(f"{folder}/series.parquet")
