@@ -73,7 +73,7 @@ def prepare(scenario: Located, bundle: str, trust: bool, runtimes: Sequence[str]
         write_scenario(scenario, work)
         if os.path.isdir(bundle):
             if fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):
-                raise ExperimentError(f"the scenario, scripts, schema or programs differ from those of the runs in '{os.path.dirname(bundle)}': "
+                raise ExperimentError(f"the scenario, scripts, schema, programs or data differ from those of the runs in '{os.path.dirname(bundle)}': "
                                       "name another folder with --out, or undo the change")
             return
         files.write_part(os.path.join(work, FINGERPRINT), fingerprint(work))
