@@ -113,12 +113,12 @@ def _version(folder: str) -> tuple[int, int] | None:
 def _read(folder: str, name: str) -> pd.DataFrame:
     path = os.path.join(folder, f"{name}.parquet")
     try:
-        if name != "nodes":
-            return pd.read_parquet(path)
-        # By default, pandas reads whole numbers as floats if a cell is empty, which rounds numbers beyond 2^53.
-        table: pd.DataFrame = pq.read_table(path).to_pandas(types_mapper={pa.int64(): pd.Int64Dtype(), pa.uint64(): pd.UInt64Dtype()}.get)
-        return table
-    except (OSError, ValueError) as error:
+        table = pq.read_table(path, page_checksum_verification=True)
+        # By default, whole numbers become floats if a cell is empty, which rounds numbers beyond 2^53.
+        types = {pa.int64(): pd.Int64Dtype(), pa.uint64(): pd.UInt64Dtype()} if name == "nodes" else {}
+        frame: pd.DataFrame = table.to_pandas(types_mapper=types.get)
+        return frame
+    except (OSError, ValueError, NotImplementedError) as error:
         raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): write the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
                               "--resume") from error
 

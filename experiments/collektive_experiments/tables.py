@@ -47,7 +47,7 @@ class Table:
         self._rows: list[dict[str, Any]] = []
         self._paths = [path + ".parquet"] + ([path + ".csv"] if with_csv else [])
         self._files = [files.create(path) for path in self._paths]
-        self._writers: list[Any] = [pq.ParquetWriter(self._files[0], schema)]
+        self._writers: list[Any] = [pq.ParquetWriter(self._files[0], schema, write_page_checksum=True)]
         if with_csv:
             self._writers.append(pyarrow.csv.CSVWriter(self._files[1], schema))
 

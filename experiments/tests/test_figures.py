@@ -16,6 +16,7 @@ import pytest
 
 from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options, results
 from collektive_experiments.__main__ import main
+from collektive_experiments.tables import Table
 
 LOSSES = (0.0, 0.1, 0.2, 0.4)
 PROGRAMS = ("path-vector", "bellman-ford")
@@ -368,6 +369,19 @@ def test_tables_that_a_sweep_replaces_at_the_same_time_are_not_mixed(tmp_path: P
 
     monkeypatch.setattr(results, "_read", replace_after_the_first)
     with pytest.raises(ExperimentError, match="were replaced while they were read: try again"):
+        load(folder)
+
+
+def test_changed_bytes_in_tables_are_an_error(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 1)
+    series = pq.read_table(f"{folder}/series.parquet")
+    with Table(f"{folder}/series", series.schema, False) as table:
+        for row in series.to_pylist():
+            table.add(row)
+    table.publish()
+    path = Path(folder, "series.parquet")
+    path.write_bytes(path.read_bytes().replace(b"path-vector", b"path-sector", 1))
+    with pytest.raises(ExperimentError, match="no usable series.parquet"):
         load(folder)
 
 
