@@ -135,9 +135,9 @@ namespace Collektive.Headless
                     metric.Property,
                     "'metrics." + metric.Property.Name + "' is not an aggregate: it needs a function over all nodes, such as avg(...), sum(...) or count(*)");
             }
-            // Conditions such as sum(flag) = 1, sum(category = id) = 1 or sum(degree) > 300 hold in the second, third or fourth table only.
+            // Conditions such as sum(flag) = 1 or sum(category = id) = 1 hold in the second or third table only.
             if (IsSymmetric(metric, column => column + 1, column => 3 * column + 5) && IsSymmetric(metric, column => 0, column => 1)
-                && IsSymmetric(metric, column => 0, column => column + 1) && IsSymmetric(metric, column => column + 105, column => 2 * column + 250)) return;
+                && IsSymmetric(metric, column => 0, column => column + 1)) return;
             throw file.Error(
                 metric.Property,
                 "'metrics." + metric.Property.Name + "' depends on the order of nodes: write each column in a function over all nodes, such as avg(...)");
