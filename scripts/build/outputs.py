@@ -43,12 +43,12 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
     try:
         # An earlier command may have been killed before it restored the results.
         _end(folder)
-        earlier = _existing(folder, RESULTS)
+        earlier, unfinished = _existing(folder, RESULTS), _existing(folder, UNFINISHED)
         if earlier and not overwrite:
             raise Failure(f"'{folder}' has results of a run: {', '.join(earlier)}; name another folder with --out, or add --overwrite")
-        if earlier and not _is_of_run(folder):
-            raise Failure(f"'{folder}' has {', '.join(earlier)}, but no manifest of a run: name another folder with --out, or move these files")
-        for name in _existing(folder, UNFINISHED):
+        if (earlier or unfinished) and not _is_of_run(folder):
+            raise Failure(f"'{folder}' has {', '.join(earlier + unfinished)}, but no manifest of a run: name another folder with --out, or move these files")
+        for name in unfinished:
             (folder / name).unlink()
         with tempfile.TemporaryFile(dir=folder):
             pass

@@ -28,6 +28,13 @@ def test_existing_results_are_rejected_without_overwrite(folder: Path) -> None:
     assert len(contents(folder)) == 3
 
 
+def test_files_with_names_of_unfinished_results_are_kept_without_a_manifest(tmp_path: Path) -> None:
+    (tmp_path / "metrics.csv.part").write_text("download")
+    with pytest.raises(Failure, match=r"has metrics\.csv\.part, but no manifest of a run"), outputs.open_folder(tmp_path, True):
+        pass
+    assert contents(tmp_path) == {"metrics.csv.part": "download"}
+
+
 def test_a_run_that_starts_replaces_the_results(folder: Path) -> None:
     with outputs.open_folder(folder, True):
         (folder / "manifest.json").write_text("running")
