@@ -3,7 +3,7 @@ import argparse
 import subprocess
 from pathlib import Path
 
-from build import bench_scene, graph, managed, processes
+from build import bench_scene, graph, managed, outputs, processes
 from build.console import print_progress
 from build.jdk import find_jdk
 from build.places import BENCH_JAR, BUILD, CSHARP, HOST_JAR, LIBRARY_JAR, SAMPLES_JAR
@@ -26,6 +26,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    if "out" in arguments:
+        outputs.require_replaceable(str(arguments.out), b'{\n  "machine"', "--out")
     return int(arguments.measure(arguments))
 
 

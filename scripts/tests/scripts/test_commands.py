@@ -1,5 +1,6 @@
 """Tests how commands report steps that fail or are interrupted."""
 import argparse
+import contextlib
 import os
 import shutil
 from collections.abc import Callable
@@ -10,7 +11,7 @@ from checkout import Checkout
 
 from build import graph, lock, maven, processes, projects
 from build.console import Failure
-from commands import check, clean, demo, profile, repeat
+from commands import bench, check, clean, demo, profile, repeat
 from commands import run as run_command
 
 
@@ -153,3 +154,11 @@ def test_a_repetition_does_not_replace_its_original(tmp_path: Path, monkeypatch:
     arguments = argparse.Namespace(manifest=tmp_path / "manifest.json", out=str(tmp_path / "link"), overwrite=True, folder=None, trust_jvm=False)
     with pytest.raises(Failure, match="link' contains the run to repeat: name another folder"):
         repeat.run(arguments)
+
+
+def test_benchmarks_replace_only_their_results(tmp_path: Path) -> None:
+    file = tmp_path / "notes.json"
+    for content, expected in (('{"mine": 1}', pytest.raises(Failure, match="was not written by --out")), ('{\n  "machine": {}\n}\n', contextlib.nullcontext())):
+        file.write_text(content)
+        with expected:
+            assert bench.run(argparse.Namespace(out=file, measure=lambda _: 0)) == 0
