@@ -69,11 +69,11 @@ def prepare(scenario: Located, bundle: str, trust: bool, runtimes: Sequence[str]
         if subprocess.run([sys.executable, "-I", script, os.path.abspath(scenario.path), os.path.abspath(work), *options]).returncode != 0:
             raise ExperimentError("the scenario could not be built; the messages are above")
         if Located(scenario.path).text != scenario.text:
-            raise ExperimentError(f"'{scenario.path}' changed during compilation: run the command again")
+            raise ExperimentError(f"'{scenario.path}' changed while it was read: run the command again")
         write_scenario(scenario, work)
         if os.path.isdir(bundle):
             if fingerprint(os.path.join(work, "inputs")) != fingerprint(os.path.join(bundle, "inputs")):
-                raise ExperimentError(f"the scenario, scripts, schema, programs or data differ from those of the runs in '{os.path.dirname(bundle)}': "
+                raise ExperimentError(f"the scenario or its files differ from those of the runs in '{os.path.dirname(bundle)}': "
                                       "name another folder with --out, or undo the change")
             return
         files.write_part(os.path.join(work, FINGERPRINT), fingerprint(work))

@@ -118,8 +118,8 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
         check(results, request)
     known = metrics_at_end(results)
     if experiment:
-        check_labels(experiment, [*known, *map(name_of_metric, results.metrics)])
-    shown = [] if options else list(metrics or [*results.metrics, *results.convergence_times])
+        check_labels(experiment, list(dict.fromkeys([*known, *map(name_of_metric, results.metrics)])))
+    shown = [] if options else list(map(results.column, metrics) if metrics else [*results.metrics, *results.convergence_times])
     for metric in [name for name in results.metrics if name in shown]:
         if max(values.abs().max() for values in (results.series[metric], results.complete[metric])) > MAX_VALUE:
             print(f"collektive: the metric '{metric}' is not drawn: it has values beyond {MAX_VALUE:g}, the limit of figures", file=sys.stderr)
@@ -453,6 +453,7 @@ def _line_style(index: int) -> dict[str, Any]:
 @matplotlib.rc_context({**STYLE, "lines.markersize": 4})
 def over_time(results: Results, metric: str) -> tuple[Figure, str]:
     """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and the caption."""
+    metric = results.column(metric)
     figure, panels, colour, groups = _panels(results, results.series)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):
@@ -465,6 +466,7 @@ def over_time(results: Results, metric: str) -> tuple[Figure, str]:
 @matplotlib.rc_context(STYLE)
 def at_end(results: Results, metric: str) -> tuple[Figure, str]:
     """Draws box plots of a metric's values at the end of the runs. Returns the figure and the caption."""
+    metric = results.column(metric)
     figure, panels, colour, groups = _panels(results, results.complete)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):

@@ -78,11 +78,13 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     """Reads the tables in a sweep's folder. `labels` replaces the labels of the experiment file."""
     settings = Store(folder).settings()
     before = _version(folder)
-    nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
-    results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
-                      settings.get("labels", {}) if labels is None else labels)
-    if _version(folder) != before:
-        raise ExperimentError(f"the tables of '{folder}' were replaced while they were read: try again")
+    try:
+        nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
+        results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
+                          settings.get("labels", {}) if labels is None else labels)
+    finally:
+        if _version(folder) != before:
+            raise ExperimentError(f"the tables of '{folder}' were replaced while they were read: try again")
     needed = {"run", "status", "seed", *results.keys, *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
     columns = list(results.runs.columns)
     # Figures would combine the runs with different values of a key that is missing in the settings.
@@ -91,9 +93,10 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
         raise ExperimentError(f"the tables of '{folder}' are damaged or from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
     # The settings may be newer than the tables, and list other metrics.
-    units, texts = ({column: given[name] for column in results.metrics for name in (name_of_metric(column), column) if name in given}
-                    for given in (settings["measure"], results.labels))
-    return replace(results, units=units, labels={**results.labels, **texts})
+    def by_column(texts: dict[str, str]) -> dict[str, str]:
+        return {column: texts[name] for column in results.metrics for name in (name_of_metric(column), column) if name in texts}
+
+    return replace(results, units=by_column(settings["measure"]), labels={**results.labels, **by_column(results.labels)})
 
 
 def name_of_metric(column: str) -> str:
@@ -103,10 +106,10 @@ def name_of_metric(column: str) -> str:
 
 def _version(folder: str) -> tuple[int, int] | None:
     """Identifies the tables in a sweep's folder. A sweep deletes runs.parquet before it replaces any table, and creates it again last."""
-    path = os.path.join(folder, "runs.parquet")
-    if not os.path.exists(path):
+    try:
+        status = os.stat(os.path.join(folder, "runs.parquet"))
+    except FileNotFoundError:
         return None
-    status = os.stat(path)
     return status.st_ino, status.st_mtime_ns
 
 

@@ -276,7 +276,7 @@ def convergence_times(experiment: Experiment, others: Iterable[str] = ()) -> lis
 
 
 def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
-    """Checks that the metrics in `figures` and `labels` exist."""
+    """Checks that the metrics in `figures` and `labels` exist, and that no key has the name of a convergence time."""
     numbers = [name for name, kind in tables.RUN_COLUMNS + tables.RUN_TIMES if not pa.types.is_string(kind)]
     converged = convergence_times(experiment)
     for key in experiment.keys:

@@ -59,7 +59,7 @@ def test_a_scenario_that_changes_before_it_is_copied_is_an_error(project: Projec
     experiment = read(project.experiment(vary={"network.loss": [0]}))
     scenario = project.folder / "project/lamps.json"
     scenario.write_text(scenario.read_text().replace("{", '{ "seed": 7,', 1))
-    with pytest.raises(ExperimentError, match="changed during compilation: run the command again"):
+    with pytest.raises(ExperimentError, match="changed while it was read: run the command again"):
         prepare(experiment.scenario, str(project.folder / "bundle"), False)
 
 

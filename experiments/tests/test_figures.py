@@ -372,7 +372,7 @@ def test_tables_that_a_sweep_replaces_at_the_same_time_are_not_mixed(tmp_path: P
         load(folder)
 
 
-def test_changed_bytes_in_tables_are_an_error(tmp_path: Path) -> None:
+def test_changed_values_in_tables_are_an_error(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 1)
     series = pq.read_table(f"{folder}/series.parquet")
     with Table(f"{folder}/series", series.schema, False) as table:
@@ -381,7 +381,7 @@ def test_changed_bytes_in_tables_are_an_error(tmp_path: Path) -> None:
     table.publish()
     path = Path(folder, "series.parquet")
     path.write_bytes(path.read_bytes().replace(b"path-vector", b"path-sector", 1))
-    with pytest.raises(ExperimentError, match="no usable series.parquet"):
+    with pytest.raises(ExperimentError, match=r"no usable series\.parquet"):
         load(folder)
 
 

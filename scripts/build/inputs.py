@@ -55,16 +55,12 @@ class Part:
 
     def require_unchanged(self) -> None:
         """Raises `Failure` if a file was changed, even temporarily, added or removed since this part was read."""
-        if self.is_changed():
+        if self.is_changed() or _digest(self._list_files(self.path)) != self.digest:
             raise Failure(f"'{self.path}' changed during compilation: run the command again")
 
     def is_changed(self) -> bool:
-        """Returns whether a file was changed, even temporarily, added or removed since this part was read."""
-        try:
-            files = self._list_files(self.path)
-            return _change_times(files) != self._times or _digest(files) != self.digest
-        except OSError:
-            return True
+        """Returns whether the change times of files differ, or files were added or removed, since this part was read."""
+        return _change_times(self._list_files(self.path)) != self._times
 
 
 def scripts(folder: Path) -> Part:

@@ -58,9 +58,17 @@ class Plan:
             part.require_unchanged()
 
     def report_changes(self) -> None:
-        """Prints a warning for each folder from which the player reads, other than compiled code, if it was changed during the run."""
-        for part in filter(None, map(self.parts.get, ("data", "runtimeJars"))):
-            if part.is_changed():
+        """Prints a warning for each part that the run itself reads and that changed during the run."""
+        for key in ("data", "runtimeJars", "programs"):
+            part = self.parts.get(key)
+            # A folder of programs is read by the compiler only.
+            if part is None or (key == "programs" and part.path.is_dir()):
+                continue
+            try:
+                is_changed = part.is_changed()
+            except (OSError, Failure):
+                is_changed = True
+            if is_changed:
                 print(f"collektive: warning: '{part.path}' changed during the run. The manifest contains its hash from before the run, but the run may have "
                       "read the new files", file=sys.stderr)
 

@@ -85,8 +85,8 @@ def run(arguments: argparse.Namespace) -> int:
     with outputs.open_folder(Path(out), arguments.overwrite):
         # Scripts may change the current folder.
         code = player.run(arguments.scenario, plan, jar, dll, find_jdk(), ["--out", os.path.realpath(out), *words, *scenario_options])
-        outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
         plan.report_changes()
+        outputs.require(Path(out), outputs.WITHOUT_PICTURES if has_pictures else outputs.COMPLETE, code)
     if code != 0:
         return code
     if has_pictures:

@@ -262,11 +262,23 @@ class Live:
         elif "record" in command:
             page.event({"event": "warning", "message": await self.save_record(command["record"])})
         elif PLAYER_COMMANDS & command.keys():
-            if "parameter" in command:
-                self.parameters[command["program"], command["parameter"]] = command["value"]
+            if "parameter" in command and not self.accept(page, command["program"], command["parameter"], command["value"]):
+                return
             self.player.send(command)
         else:
             raise KeyError(next(iter(command), ""))
+
+    def accept(self, page: Page, program: str, parameter: str, value: str) -> bool:
+        """Stores the value of a parameter. If it is invalid, returns False and sends a warning to the page."""
+        known = projects.parameters(self.jar).get(program, {})
+        try:
+            # The jar may lack the parameter after an edit that the player has rejected.
+            player.check_parameters({program: {parameter: value}}, {program: known} if parameter in known else {})
+        except Failure as failure:
+            page.event({"event": "warning", "message": str(failure)})
+            return False
+        self.parameters[program, parameter] = value
+        return True
 
     async def save(self, page: Page, name: str, text: str, base: str) -> None:
         """Writes a source file of the programs, and reloads the programs. Refuses if the file no longer has the text `base`, which the page changed."""
@@ -352,7 +364,7 @@ class Live:
                 values["seed"] = int(self.seed)
             self._keep_texts(values.get("fields", {}), changes)
             known = projects.parameters(self.jar)
-            # An edit of the programs may have removed a parameter, or have been rejected because it renames the program that runs.
+            # An edit may have removed the parameter. The jar may also contain an edit that the player has rejected.
             missing = [key for key in self.parameters if known and key[1] not in known.get(key[0], {})]
             for (program, parameter), value in self.parameters.items():
                 if (program, parameter) not in missing:

@@ -13,7 +13,7 @@ namespace Collektive.Unity.Editor
     /// </summary>
     internal static class SourceHash
     {
-        private static readonly Regex Include = new Regex("\\binclude(?>\\s+|//.*|/\\*[\\s\\S]*?\\*/)*[\"']([^\"']+)[\"']");
+        private static readonly Regex Include = new Regex("\\binclude(?>\\s+|//[^\r\n]*|/\\*[\\s\\S]*?\\*/)*[\"']([^\"']+)[\"']");
 
         /// <summary>Returns the hash of a schema and a folder of programs, which need not exist.</summary>
         internal static string Of(string schema, string programs)

@@ -82,8 +82,18 @@ namespace Collektive.Fuzz
         }
 
         /// <summary>Processor time of this process in seconds. Unlike elapsed time, it does not depend on other processes.</summary>
-        private static double ProcessorTime => Process.GetCurrentProcess().TotalProcessorTime.TotalSeconds;
+        private static double ProcessorTime
+        {
+            get
+            {
+                using (var process = Process.GetCurrentProcess()) return process.TotalProcessorTime.TotalSeconds;
+            }
+        }
 
-        private static string Slow(double start) => ProcessorTime - start > 5 ? "it takes " + (ProcessorTime - start) + " s" : null;
+        private static string Slow(double start)
+        {
+            var time = ProcessorTime - start;
+            return time > 5 ? "it takes " + time + " s" : null;
+        }
     }
 }

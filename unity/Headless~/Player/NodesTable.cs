@@ -63,7 +63,7 @@ namespace Collektive.Headless
             var answers = AnswerField.Of(schema);
             var columns = fields.Select(field => field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field)).ToList();
             if (columns.GroupBy(column => column.Field?.Name).FirstOrDefault(group => group.Count() > 1) is IGrouping<string, Column> repeated)
-                throw new ScenarioException("'outputs.nodes.fields' contains '" + (repeated.Key ?? Position) + "' twice");
+                throw new ScenarioException("'outputs.nodes.fields' contains a field twice: " + string.Join(", ", repeated.Select(column => column.Given)));
             return columns;
         }
 
@@ -91,6 +91,7 @@ namespace Collektive.Headless
             /// <param name="field">The field of the answers; null for the node's position.</param>
             internal Column(string name, AnswerField field, Type type)
             {
+                Given = name;
                 Field = field;
                 var names = PartsOf(type);
                 type = Nullable.GetUnderlyingType(type) ?? type;
@@ -98,6 +99,9 @@ namespace Collektive.Headless
                 Names = names.Length == 0 ? new[] { name } : Array.ConvertAll(names, part => name + "." + part);
                 Type = names.Length > 0 ? "float64" : TypeName(type);
             }
+
+            /// <summary>Name of the field in the scenario.</summary>
+            internal string Given { get; }
 
             internal AnswerField Field { get; }
 

@@ -84,6 +84,8 @@ namespace Collektive.Headless
             Interval = ReadInterval(file, outputs, "outputs.");
             var nodes = file.Part(outputs, "outputs.", "nodes", new[] { "fields", "interval" });
             NodeFields = file.Optional(nodes, "fields", new string[0]);
+            if (NodeFields.GroupBy(field => field).FirstOrDefault(group => group.Count() > 1) is IGrouping<string, string> repeated)
+                throw file.Error(nodes["fields"], "'outputs.nodes.fields' contains '" + repeated.Key + "' twice");
             NodeInterval = ReadInterval(file, nodes, "outputs.nodes.");
             Replay = file.Optional(outputs, "replay", false);
             Pictures = file.Optional(outputs, "pictures", false);

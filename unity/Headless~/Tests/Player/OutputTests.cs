@@ -161,12 +161,12 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(AnswerColourings.Of(Manager).ConvertAll(colouring => colouring.Name), Has.Member("maybeSpeed").And.Member("maybeMode"));
         }
 
-        [TestCase("maybe_speed", "maybeSpeed")]
-        [TestCase("position", "position")]
-        public void A_field_is_a_column_only_once(string name, string sameName)
+        [Test]
+        public void A_field_is_a_column_only_once()
         {
-            var error = Assert.Throws<ScenarioException>(() => NodesTable.Check(Schemas.Find("test.features.FeaturesSchema"), new[] { name, sameName }));
-            Assert.That(error.Message, Is.StringContaining("'outputs.nodes.fields' contains"));
+            var fields = new[] { "maybe_speed", "position", "maybeSpeed" };
+            var error = Assert.Throws<ScenarioException>(() => NodesTable.Check(Schemas.Find("test.features.FeaturesSchema"), fields));
+            Assert.That(error.Message, Is.StringContaining("contains a field twice: maybe_speed, maybeSpeed"));
         }
 
         [Test]

@@ -85,6 +85,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("stopWhenConverged", "true", "'stopWhenConverged' needs 'converged'")]
         [TestCase("outputs", "{\"interval\": 0.01}", "'outputs.interval' is 0.01: it must be at least 'deltaTime'")]
         [TestCase("outputs", "{\"interval\": 1e9}", "'outputs.interval' is 1E+09: it must be at most 1E+08 s")]
+        [TestCase("outputs", "{\"nodes\": {\"fields\": [\"a\", \"b\", \"a\"]}}", "'outputs.nodes.fields' contains 'a' twice")]
         [TestCase("outputs", "{\"nodes\": {\"field\": []}}", "unknown key 'outputs.nodes.field'; known here: fields, interval")]
         public void Errors_in_experiment_keys_name_their_position(string key, string value, string message) =>
             Errors_name_their_position(key, value, message);

@@ -20,7 +20,7 @@ import kotlin.io.path.readBytes
  */
 internal object SourceHash {
     /** Also matches in comments, which only adds files to the hash. */
-    private val INCLUDE = Regex("""\binclude(?>\s+|//.*|/\*[\s\S]*?\*/)*["']([^"']+)["']""")
+    private val INCLUDE = Regex("""\binclude(?>\s+|//[^\r\n]*|/\*[\s\S]*?\*/)*["']([^"']+)["']""")
 
     fun of(schema: Path, sources: List<Path>): String {
         val digest = MessageDigest.getInstance("SHA-256")
