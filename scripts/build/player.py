@@ -61,7 +61,7 @@ class Plan:
         """Prints a warning for each part that the run itself reads and that changed during the run."""
         for key in ("data", "runtimeJars", "programs"):
             part = self.parts.get(key)
-            # A folder of programs is read by the compiler only.
+            # Only the compiler reads a folder of programs.
             if part is None or (key == "programs" and part.path.is_dir()):
                 continue
             try:
