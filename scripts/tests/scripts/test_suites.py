@@ -183,11 +183,12 @@ def test_suites_run_with_their_fixtures_and_within_their_time(project: Callable[
     assert subprocess.run(["pgrep", "-fx", "sleep 613"], stdout=subprocess.PIPE, text=True).stdout == ""
 
 
-def test_the_suites_of_a_project_are_found_with_their_labels(project: Callable[..., dict[str, tuple[int, int]]]) -> None:
+def test_the_suites_of_a_project_are_found_with_their_labels_and_targets(project: Callable[..., dict[str, tuple[int, int]]]) -> None:
     suites = {suite.name: suite for suite in command.read_suites()}
     assert set(suites) == {"good", "bad", "without-fixture", "endless", "crash", "missing", "needs-nunit"}
     assert suites["bad"] == Suite("bad", frozenset({"it", "quick", "all"}))
     assert suites["needs-nunit"].is_disabled
+    assert suites["without-fixture"].targets == {"broken"}
 
 
 SUITES = [Suite("lint", frozenset({"lint", "quick", "all"})), Suite("jvm", frozenset({"jvm", "all"})), Suite("jvm-quick", frozenset({"jvm", "quick"})),
