@@ -93,6 +93,22 @@ def test_digests_do_not_depend_on_the_number_of_workers_or_processes(lamps: Proj
     assert "repeated: 10 ticks" in repeated.stdout
 
 
+def test_scripts_are_initialised_as_in_a_single_run(project: Project, tmp_path: Path) -> None:
+    scene = project.folder / "project/scene/Lamps.cs"
+    method = """[RuntimeInitializeOnLoadMethod] private static void Initialise() => added++;
+        private static int added;
+        protected override void Build(SimulationManager manager)
+        {
+            lamps += added + (Application.isEditor ? 100 : 0);"""
+    scene.write_text(scene.read_text().replace("protected override void Build(SimulationManager manager)\n        {", method))
+    result = project.sweep(vary={"seed": [1]})
+    assert result.returncode == 0, result.stderr
+    assert project.table()["nodes"].tolist() == [11]
+    repeated = subprocess.run([COLLEKTIVE, "repeat", str(project.run("seed=1") / "manifest.json"), "--out", str(tmp_path / "again")],
+                              capture_output=True, text=True)
+    assert repeated.returncode == 0, repeated.stderr
+
+
 def test_a_completed_sweep_repeats_no_runs_and_can_be_extended(lamps: Project) -> None:
     record = lamps.run("fields.lamps=5,network.loss=0,seed=1") / "run.json"
     before = record.stat().st_mtime_ns

@@ -62,6 +62,8 @@ namespace Collektive.Headless
             Installation.HostJar = options.HostJar;
             Installation.JavaHome = options.JavaHome;
             Loop.PhysicsThreads = scenario.Settings.threads;
+            // Loop.Start calls the initialisation methods of the loaded assemblies.
+            Assembly.LoadFrom(options.Scripts);
             Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
             RunLog.Install();
             // Allows frames as long as a tick, so that each frame runs one tick.

@@ -44,8 +44,7 @@ namespace Collektive.Headless
             Syscall.fcntl(options.Channel, FcntlCommand.F_SETFD, CloseOnExec);
             channel = new UnixStream(options.Channel);
             ResultFile.Syncs = false;
-            // The JVM keeps running when a run ends, as in the editor.
-            Loop.IsEditor = true;
+            JvmShutdown.IsEnabled = false;
             new Thread(ReadRequests) { IsBackground = true }.Start();
         }
 

@@ -11,6 +11,9 @@ namespace Collektive.Unity
     {
         private const int LimitMs = 5000;
 
+        /// <summary>Whether a player stops the JVM when it quits. If not, it can run several scenes with one JVM.</summary>
+        internal static bool IsEnabled { get; set; } = true;
+
 #if UNITY_EDITOR
         [UnityEditor.InitializeOnLoadMethod]
         private static void RegisterInEditor()
@@ -23,7 +26,7 @@ namespace Collektive.Unity
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)]
         private static void Register()
         {
-            if (Application.isEditor) return;
+            if (Application.isEditor || !IsEnabled) return;
             Application.quitting -= Stop;
             Application.quitting += Stop;
         }
