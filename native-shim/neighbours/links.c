@@ -128,7 +128,7 @@ bool links_set(struct links *links, reference link, float length, float attenuat
 }
 
 static bool is_confirmed(const clk_direction *direction, float length, float attenuation, float tolerance) {
-    return direction->attenuation == attenuation && !is_beyond(direction->length, length, 2 * tolerance);
+    return direction->attenuation == attenuation && !is_beyond(direction->length, length, direction->by_script ? 0 : 2 * tolerance);
 }
 
 bool links_confirm(struct links *links, reference link, float length, float attenuation, float tolerance) {

@@ -412,6 +412,20 @@ static void rules_of_the_caller_determine_the_values_of_shared_links(void) {
     clk_neighbours_destroy(neighbours);
 }
 
+static void rules_of_the_caller_replace_the_values_of_scripts(void) {
+    clk_neighbours *neighbours = clk_neighbours_create();
+    clk_changes changes;
+    int32_t rule = clk_neighbours_add_rule(neighbours);
+    CHECK(clk_neighbours_know(neighbours, 4, 1) == 0 && clk_neighbours_know(neighbours, 9, 1) == 0);
+    for (int32_t i = 0; i < 2; i++) {
+        CHECK(clk_neighbours_take(neighbours, rule, 4, &(clk_neighbour){9, 4, 0}, 1, 0.25f, 0) == 0);
+        if (i == 0) CHECK(clk_neighbours_hold(neighbours, &(clk_link){4, 9, 4.4f, 0}) == 0);
+    }
+    CHECK(clk_neighbours_flush(neighbours, &changes) == 0);
+    CHECK(changes.set_count == 1 && changes.set[0].length == 4);
+    clk_neighbours_destroy(neighbours);
+}
+
 /* Returns the size of this process's address space in bytes, or 0 on systems without /proc. */
 static uint64_t memory_used(void) {
     unsigned long long pages = 0;
@@ -544,6 +558,7 @@ int main(int count, char **words) {
         CASE(links_exist_while_referenced_and_changes_are_sent_once),
         CASE(lengths_are_sent_when_they_leave_the_tolerance),
         CASE(rules_of_the_caller_determine_the_values_of_shared_links),
+        CASE(rules_of_the_caller_replace_the_values_of_scripts),
         CASE(links_between_the_largest_ids_need_little_memory),
         CASE(any_number_of_threads_has_equal_results),
         CASE(an_update_stops_at_the_limit_of_links),
