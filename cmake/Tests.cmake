@@ -85,13 +85,13 @@ suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules setup
   SCRIPT platforms/run.py RESULTS --short linux-arm64)
 suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules setup:platforms TIMEOUT 3600 UNLOCKED
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
-suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PYTEST "${SCRIPTS}/checks/validator")
+suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PARALLEL PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT PARALLEL SCRIPT faults/faults.py --results RESULTS/faults.xml)
 suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 2 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED PARALLEL SCRIPT pages.py page RESULTS)
-suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED SCRIPT pages.py live RESULTS)
+suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED PARALLEL SCRIPT pages.py live RESULTS)
 suite(site site LABELS extra NEEDS build:runtime build:documentation setup:site-tools UNLOCKED PARALLEL SCRIPT pages.py site RESULTS)
 
 set(acceptance NEEDS setup:junit build:runtime build:sample_code build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800

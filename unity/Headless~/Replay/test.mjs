@@ -681,7 +681,7 @@ await suite('replay page', async (page) => {
       });
 
       await test('a video plays to the end and is saved', async () => {
-        await seek(tab, frames - 6);
+        await seek(tab, frames - 30);
         const { name, bytes } = await download(tab, '#video');
         assert.match(name, /-seed\d+\.webm$/);
         assert.equal(bytes.readUInt32BE(0), 0x1a45dfa3, 'WebM');

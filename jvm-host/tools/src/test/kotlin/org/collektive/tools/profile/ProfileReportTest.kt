@@ -6,6 +6,7 @@ import jdk.jfr.Recording
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import java.io.IOException
+import java.lang.management.ManagementFactory
 import java.nio.file.Path
 import java.time.Duration
 import kotlin.io.path.readBytes
@@ -67,10 +68,12 @@ internal class ProfileReportTest {
     private object Programs {
         fun calling() = called()
 
+        // A second of processor time, in which samples are taken however busy the machine is.
         fun called(): Double {
-            val end = System.nanoTime() + Duration.ofSeconds(1).toNanos()
+            val threads = ManagementFactory.getThreadMXBean()
+            val end = threads.currentThreadCpuTime + Duration.ofSeconds(1).toNanos()
             var sum = 0.0
-            while (System.nanoTime() < end) sum += StrictMath.sqrt(sum + 1)
+            while (threads.currentThreadCpuTime < end) repeat(100_000) { sum += StrictMath.sqrt(sum + 1) }
             return sum
         }
     }
