@@ -240,3 +240,18 @@ class FullDisks(Project):
                     with open(manifest) as file:
                         self.assertNotEqual(json.load(file)["outcome"], "complete")
         self.assertTrue(reached, "at least one disk must have become full")
+
+    def test_a_replay_that_fills_the_disk_keeps_an_earlier_record(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"record": true')
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        record = self.path("out", "run.clkrec")
+        os.makedirs(self.path("disk"))
+        earlier, size = self.path("disk", "earlier.clkrec"), os.path.getsize(record)
+        script = 'mount -t tmpfs -o size=$1 none "$2" && cp "$3" "$4" && shift 4 && { "$@"; code=$?; cmp "$RECORD" "$EARLIER" && exit $code; }; exit 99'
+        result = subprocess.run(["unshare", "--mount", "sh", "-c", script, "sh", str(2 * size - 8000), self.path("disk"), record, earlier, COLLEKTIVE,
+                                 "replay", record, "--out", earlier], capture_output=True, text=True, env={**os.environ, "RECORD": record, "EARLIER": earlier})
+        if "mount:" in result.stderr or "unshare:" in result.stderr:
+            self.skipTest("mounting is not permitted")
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertRegex(last_error(result), "cannot write the record .*No space left")

@@ -13,6 +13,7 @@ import org.collektive.host.session.SessionOpening
 import org.collektive.host.shim.HostException
 import org.collektive.host.shim.LogLevel
 import org.collektive.host.shim.ShimCalls
+import java.io.IOException
 import java.io.PrintStream
 import java.nio.ByteBuffer
 import java.util.concurrent.TimeUnit
@@ -93,7 +94,7 @@ internal class Replay(
         return isEqual
     }
 
-    /** Runs [step]. Returns the answer as a [StepResponseReader], or the error message as a [String]. */
+    /** Runs [step]. Returns the answer, or the error message as a [String]. Throws [HostException] if [out] cannot be written. */
     private fun step(session: Session, step: RecordedStep): Any {
         val begin = System.nanoTime()
         current = step
@@ -102,6 +103,7 @@ internal class Replay(
             val offset = (written ushr Int.SIZE_BITS).toInt()
             StepResponseReader(answer.duplicate().order(answer.order()).clear().position(offset).limit(offset + written.toInt()))
         } catch (e: HostException) {
+            if (e.cause is IOException) throw e
             e.message.orEmpty()
         }
     }
