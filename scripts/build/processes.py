@@ -30,7 +30,8 @@ def run_in_group(main: Callable[[], int]) -> int:
         _adopt_orphans()
         os.close(lifeline)
         os.close(watched)
-        signal.signal(signal.SIGINT, _interrupted)
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, _interrupted)
         sys.exit(main())
     with contextlib.suppress(OSError):  # the child may already have set its group, or may have ended
         os.setpgid(group, group)

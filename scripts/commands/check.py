@@ -89,7 +89,7 @@ def _check_experiment(file: Path, trust: list[str]) -> bool:
 
 
 def _is_valid(code: int) -> bool:
-    """Evaluates the exit code of a check. Raises `KeyboardInterrupt` if Ctrl-C ended the check."""
-    if code == 128 + signal.SIGINT:
+    """Evaluates the exit code of a check. Raises `KeyboardInterrupt` if a signal ended the check."""
+    if code in (128 + signal.SIGINT, 128 + signal.SIGTERM):
         raise KeyboardInterrupt
     return code == 0

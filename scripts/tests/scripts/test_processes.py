@@ -83,6 +83,16 @@ def test_an_interrupt_lets_the_running_program_end_normally(checkout: Checkout) 
     assert ends(child)
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_command_cleans_up_after_a_signal(checkout: Checkout, number: signal.Signals) -> None:
+    process = checkout.start(f"def main():\n    try:\n        return {SLEEP}\n    finally:\n        (root / 'end').touch()\n" + run_in_group("main()"))
+    child = child_of(checkout)
+    process.send_signal(number)
+    assert process.wait(20) == 128 + number
+    assert ends(child)
+    assert (checkout.root / "end").exists()
+
+
 def test_orphans_of_a_program_end_in_any_process_group(checkout: Checkout) -> None:
     program = """processes.call(['sh', '-c', 'setsid sleep 600 & echo $! > "$0"', str(root / 'pid')])"""
     began = time.monotonic()
