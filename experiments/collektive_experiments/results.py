@@ -114,7 +114,8 @@ def _version(folder: str) -> tuple[int, int] | None:
 
 
 def _read(folder: str, name: str) -> pd.DataFrame:
-    path = os.path.join(folder, f"{name}.parquet")
+    # PyArrow would replace `~` in a relative path by the home folder.
+    path = os.path.abspath(os.path.join(folder, f"{name}.parquet"))
     try:
         table = pq.read_table(path, page_checksum_verification=True)
         # By default, whole numbers become floats if a cell is empty, which rounds numbers beyond 2^53.

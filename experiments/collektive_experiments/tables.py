@@ -122,8 +122,10 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
 
 def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> int:
     """Returns the number of runs whose files are unchanged, and that have one row in runs.parquet and all rows in series.parquet."""
-    written = Counter(pq.read_table(os.path.join(store.folder, "runs.parquet"), columns=["run"])["run"].to_pylist())
-    series = Counter(pq.read_table(os.path.join(store.folder, "series.parquet"), columns=["run"])["run"].to_pylist())
+    # PyArrow would replace `~` in a relative path by the home folder.
+    folder = os.path.abspath(store.folder)
+    written = Counter(pq.read_table(os.path.join(folder, "runs.parquet"), columns=["run"])["run"].to_pylist())
+    series = Counter(pq.read_table(os.path.join(folder, "series.parquet"), columns=["run"])["run"].to_pylist())
     return sum(written[run.name] == 1 and series[run.name] == rows.get(run.name, 0)
                and (record := store.record(run)) is not None and not store.changed_files(run, record) for run in experiment.runs())
 

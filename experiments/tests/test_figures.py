@@ -244,6 +244,15 @@ def test_panels_without_runs_of_a_value_have_the_same_labels_as_the_others(tmp_p
     assert [entry.get_text() for entry in lines.legends[0].get_texts()] == ["path-vector", "bellman-ford"]
 
 
+def test_a_folder_named_like_the_home_folder_has_its_own_tables(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_sweep(tmp_path / "home", 1)
+    write_sweep(tmp_path / "~", 2)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    monkeypatch.chdir(tmp_path)
+    results = load("~")
+    assert (len(results.runs), results.series["run"].nunique()) == (16, 16)
+
+
 def test_units_belong_to_metrics_although_the_settings_are_newer_than_the_tables(tmp_path: Path) -> None:
     assert load(write_sweep(tmp_path / "out", 1, measure={"time": "s", "error": "m"})).units == {"error": "m"}
 
