@@ -35,6 +35,13 @@ def test_files_with_names_of_unfinished_results_are_kept_without_a_manifest(tmp_
     assert contents(tmp_path) == {"metrics.csv.part": "download"}
 
 
+def test_the_folder_of_a_sweep_is_rejected(tmp_path: Path) -> None:
+    (tmp_path / ".collektive-sweep").touch()
+    with pytest.raises(Failure, match=r"is the folder of a sweep: name another folder"), outputs.open_folder(tmp_path, True):
+        pass
+    assert contents(tmp_path) == {".collektive-sweep": ""}
+
+
 def test_a_run_that_starts_replaces_the_results(folder: Path) -> None:
     with outputs.open_folder(folder, True):
         (folder / "manifest.json").write_text("running")
