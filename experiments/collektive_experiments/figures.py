@@ -359,14 +359,19 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
                 ended = censored[sample.index].to_numpy(bool)
                 axes.plot(spots[~ended], sample[~ended], "o", color="black", markersize=2.2, markeredgewidth=0, alpha=0.7, zorder=3)
                 axes.plot(spots[ended], sample[ended], "^", color=colour, markersize=4, markeredgewidth=0.6, markerfacecolor="white", zorder=3)
+    _set_x_labels(axes, labels)
+    axes.set_xlim(-0.6, len(labels) - 0.4)
+    axes.grid(False, axis="x")
+    return counts
+
+
+def _set_x_labels(axes: Axes, labels: list[str]) -> None:
+    """Labels the positions 0, 1, ... of the horizontal axis. Long labels are rotated, so that they do not overlap."""
     axes.set_xticks(range(len(labels)), labels)
     if sum(map(len, labels)) > 30:
         axes.tick_params("x", rotation=30)
         for tick in axes.get_xticklabels():
             tick.set_horizontalalignment("right")
-    axes.set_xlim(-0.6, len(labels) - 0.4)
-    axes.grid(False, axis="x")
-    return counts
 
 
 def _distribution(axes: Axes, results: Results, data: pd.DataFrame, metric: str, by: str | None) -> set[int]:
@@ -400,7 +405,7 @@ def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metr
     low, high = options.range
     norm = Normalize(means.min().min() if low is None else low, means.max().max() if high is None else high)
     image = axes.imshow(means, aspect="auto", origin="lower" if pd.api.types.is_numeric_dtype(data[y]) else "upper", cmap="viridis", norm=norm)
-    axes.set_xticks(range(len(columns)), [_value(results, value) for value in columns])
+    _set_x_labels(axes, [_value(results, value) for value in columns])
     axes.set_yticks(range(len(rows)), [_value(results, value) for value in rows])
     axes.set(xlabel=_axis(results, x), ylabel=_axis(results, y))
     axes.grid(False)

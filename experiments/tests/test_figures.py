@@ -287,6 +287,13 @@ def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(t
         assert [entry.get_text() for legend in figure.legends for entry in legend.get_texts()] == ["_under", ""] * (options.get("kind") != "heat")
 
 
+def test_long_labels_do_not_overlap(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 1, tuple(1000000.5 + index for index in range(6)))
+    for kind in ("box", "heat"):
+        (_, figure, _), *_ = draw(load(folder), read_options({"metric": "error", "x": "network.loss", "by": "program", "kind": kind}))
+        assert {tick.get_rotation() for tick in figure.axes[0].get_xticklabels()} == {30}, kind
+
+
 def test_figures_with_control_characters_in_values_are_well_formed(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 1, (0.0,))
     for name in ("runs", "series"):
