@@ -285,11 +285,13 @@ def _add_legend(figure: Figure, results: Results, by: str) -> None:
     labels, handles = list(shown.values()), [known[str(index)] for index in shown]
     # Numbers need a title that explains them, and names do not.
     title = None if pd.api.types.is_string_dtype(results.runs[by]) else _axis(results, by)
-    for columns in range(len(labels), 0, -1):
-        legend = figure.legend(handles, labels, title=title, loc="outside upper center", ncols=columns)
-        if columns == 1 or legend.get_window_extent().width <= figure.bbox.width:
-            return
-        legend.remove()
+    # Warnings about missing glyphs are printed when the figure is rendered.
+    with warnings.catch_warnings(action="ignore"):
+        for columns in range(len(labels), 0, -1):
+            legend = figure.legend(handles, labels, title=title, loc="outside upper center", ncols=columns)
+            if columns == 1 or legend.get_window_extent().width <= figure.bbox.width:
+                return
+            legend.remove()
 
 
 def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: str, by: str | None) -> set[int]:

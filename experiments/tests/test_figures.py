@@ -294,6 +294,13 @@ def test_long_labels_do_not_overlap(tmp_path: Path) -> None:
         assert {tick.get_rotation() for tick in figure.axes[0].get_xticklabels()} == {30}, kind
 
 
+@pytest.mark.filterwarnings("error")
+def test_missing_glyphs_are_one_line_for_each_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = write_sweep(tmp_path / "out", 1, (0.0,), labels={"path-vector": "\N{ANT}"})
+    plot(folder, options=read_options({"metric": "error", "by": "program"}))
+    assert capsys.readouterr().err == "collektive: Glyph 128028 (\\N{ANT}) missing from font(s) DejaVu Sans.\n"
+
+
 def test_figures_with_control_characters_in_values_are_well_formed(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 1, (0.0,))
     for name in ("runs", "series"):
