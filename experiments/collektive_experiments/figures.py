@@ -461,33 +461,35 @@ def _line_style(index: int) -> dict[str, Any]:
 def over_time(results: Results, metric: str) -> tuple[Figure, str]:
     """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and the caption."""
     metric = results.column(metric)
-    figure, panels, colour, groups = _panels(results, results.series)
+    figure, panels, colour, groups, remark = _panels(results, results.series)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):
         counts |= _line_over_time(axes, results, group, metric, colour)
         axes.set_xlabel("simulated time [s]")
     _finish(figure, panels, results, metric, colour)
-    return figure, _caption(results, results.series, metric, "line", TIME, counts) + _omitted(results)
+    return figure, _caption(results, results.series, metric, "line", TIME, counts) + remark + _omitted(results)
 
 
 @matplotlib.rc_context(STYLE)
 def at_end(results: Results, metric: str) -> tuple[Figure, str]:
     """Draws box plots of a metric's values at the end of the runs. Returns the figure and the caption."""
     metric = results.column(metric)
-    figure, panels, colour, groups = _panels(results, results.complete)
+    figure, panels, colour, groups, remark = _panels(results, results.complete)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):
         counts |= _boxes(axes, results, group, metric, colour, None)
     _finish(figure, panels, results, metric, None)
-    return figure, _caption(results, results.complete, metric, "box", colour, counts) + _omitted(results)
+    return figure, _caption(results, results.complete, metric, "box", colour, counts) + remark + _omitted(results)
 
 
-def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame]]:
+def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame], str]:
+    """Returns the figure, its axes, the key that colours show, the rows of each panel, and the sentence of a caption about omitted panels."""
     keys = results.configuration
     colour = keys[0] if keys else None
     # Titles also contain keys with one value.
     others = [key for key in keys[1:] if results.runs[key].nunique() == 1 or key in _other_keys(results, keys[:1])]
     parts = list(data.groupby(others, sort=False)) if others else [((), data)]
+    remark = f" Only the first {MAX_PANELS} of {len(parts)} panels are shown." if len(parts) > MAX_PANELS else ""
     parts = parts[:MAX_PANELS]
     columns = min(COLUMNS, len(parts))
     rows = -(-len(parts) // columns)
@@ -497,7 +499,7 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
         axes.set_visible(False)
     for axes, (values, _) in zip(grid, parts):
         axes.set_title(_title(results, values, others), fontsize=9)
-    return figure, list(grid[:len(parts)]), colour, [group for _, group in parts]
+    return figure, list(grid[:len(parts)]), colour, [group for _, group in parts], remark
 
 
 def _split(results: Results, data: pd.DataFrame, key: str | None) -> list[tuple[int, pd.DataFrame]]:

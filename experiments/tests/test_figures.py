@@ -287,6 +287,14 @@ def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(t
         assert [entry.get_text() for legend in figure.legends for entry in legend.get_texts()] == ["_under", ""] * (options.get("kind") != "heat")
 
 
+def test_captions_state_how_many_panels_are_missing(tmp_path: Path) -> None:
+    for panels, remark in ((24, ""), (25, "Only the first 24 of 25 panels are shown.")):
+        results_of_panels = load(write_sweep(tmp_path / str(panels), 1, tuple(float(index) for index in range(panels))))
+        for draw_panels in (at_end, over_time):
+            figure, caption = draw_panels(results_of_panels, "error")
+            assert len(figure.axes) == 24 and ("panels" in caption) == bool(remark) and remark in caption
+
+
 def test_long_labels_do_not_overlap(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 1, tuple(1000000.5 + index for index in range(6)))
     for kind in ("box", "heat"):
