@@ -5,6 +5,7 @@ import io
 import os
 import re
 import sys
+import textwrap
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -55,6 +56,7 @@ BOUND = "bound\0"
 GOLDEN_RATIO = 0.618034
 """The multiplier that spreads the points of a box plot sideways."""
 TOLERANCE, MIN_AXES = 0.02, 0.5
+LINE_LENGTH = 24  # characters of long labels of vertical axes
 """The inches by which labels may extend beyond a figure, and the minimum width and height of its axes in inches."""
 MAX_VALUE = 1e300
 """The largest value that figures can show. With larger ones, Matplotlib's calculations overflow."""
@@ -159,17 +161,27 @@ def _requests(folder: str, experiment: Experiment | None) -> list[FigureOptions]
 
 def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) -> Drawing:
     """Renders a figure. The style must be the one in which it was drawn, because Matplotlib creates ticks and fonts during rendering."""
-    svg, pdf = io.BytesIO(), io.BytesIO()
     with matplotlib.rc_context(style), warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always")
-        figure.savefig(svg, format="svg", metadata={"Date": None})
-        figure.savefig(pdf, format="pdf", metadata={"CreationDate": None})
+        svg, pdf = _save(figure)
+        if fail and not _fits(figure):
+            for axes in figure.axes:
+                axes.set_ylabel(textwrap.fill(axes.get_ylabel(), LINE_LENGTH))
+            svg, pdf = _save(figure)
         if fail and not _fits(figure):
             raise fail("size", f"leaves too little space for labels: {figure.get_figwidth():g}x{figure.get_figheight():g}; enlarge it, or set shorter labels")
     for message in dict.fromkeys(str(warning.message) for warning in found):
         print(f"collektive: {message}", file=sys.stderr)
     # XML cannot contain these characters of values, even in an escaped form.
-    return Drawing(caption, re.sub("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", "\ufffd", svg.getvalue().decode()).encode(), pdf.getvalue())
+    return Drawing(caption, re.sub("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", "\ufffd", svg.decode()).encode(), pdf)
+
+
+def _save(figure: Figure) -> tuple[bytes, bytes]:
+    """Returns the figure as SVG and PDF."""
+    svg, pdf = io.BytesIO(), io.BytesIO()
+    figure.savefig(svg, format="svg", metadata={"Date": None})
+    figure.savefig(pdf, format="pdf", metadata={"CreationDate": None})
+    return svg.getvalue(), pdf.getvalue()
 
 
 def _fits(figure: Figure) -> bool:

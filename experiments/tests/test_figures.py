@@ -302,6 +302,16 @@ def test_long_labels_do_not_overlap(tmp_path: Path) -> None:
         assert {tick.get_rotation() for tick in figure.axes[0].get_xticklabels()} == {30}, kind
 
 
+@pytest.mark.parametrize("kind", ["line", "box", "heat"])
+def test_convergence_times_of_long_metrics_fit_the_default_size(tmp_path: Path, kind: str) -> None:
+    folder = write_sweep(tmp_path / "out")
+    for name in ("runs", "series"):
+        table = pd.read_parquet(f"{folder}/{name}.parquet")
+        table.rename(columns=lambda column: column.replace("error", "distance_error")).to_parquet(f"{folder}/{name}.parquet")
+    svg, *_ = plot(folder, options=read_options({"metric": "converged.distance_error", "x": "network.loss", "by": "program", "kind": kind}))
+    assert {"time to convergence of", "distance error [s]"} <= {element.text for element in ElementTree.parse(svg).iter()}
+
+
 @pytest.mark.filterwarnings("error")
 def test_missing_glyphs_are_one_line_for_each_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = write_sweep(tmp_path / "out", 1, (0.0,), labels={"path-vector": "\N{ANT}"})
