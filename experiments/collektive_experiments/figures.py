@@ -56,7 +56,7 @@ BOUND = "bound\0"
 GOLDEN_RATIO = 0.618034
 """The multiplier that spreads the points of a box plot sideways."""
 TOLERANCE, MIN_AXES = 0.02, 0.5
-LINE_LENGTH = 24  # characters of long labels of vertical axes
+LINE_LENGTH, TITLE_LENGTH = 24, 32  # characters per line of long labels of vertical axes, and of panel titles
 """The inches by which labels may extend beyond a figure, and the minimum width and height of its axes in inches."""
 MAX_VALUE = 1e300
 """The largest value that figures can show. With larger ones, Matplotlib's calculations overflow."""
@@ -510,7 +510,7 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
     for axes in grid[len(parts):]:
         axes.set_visible(False)
     for axes, (values, _) in zip(grid, parts):
-        axes.set_title(_title(results, values, others), fontsize=9)
+        axes.set_title(textwrap.fill(_title(results, values, others), TITLE_LENGTH), fontsize=9)
     return figure, list(grid[:len(parts)]), colour, [group for _, group in parts], remark
 
 

@@ -287,6 +287,17 @@ def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(t
         assert [entry.get_text() for legend in figure.legends for entry in legend.get_texts()] == ["_under", ""] * (options.get("kind") != "heat")
 
 
+def test_titles_of_panels_do_not_overlap(tmp_path: Path) -> None:
+    values = (0.25, 0.5, 0.75, 1.0)
+    results_of_panels = load(write_sweep(tmp_path / "out", 1, values, labels={"network.loss": "probability of the loss of a message in a burst"}))
+    for draw_panels in (at_end, over_time):
+        figure, _ = draw_panels(results_of_panels, "error")
+        figure.draw_without_rendering()
+        boxes = [axes.title.get_window_extent() for axes in figure.axes]
+        assert all(left.x1 < right.x0 for left, right in zip(boxes, boxes[1:])) and boxes[-1].x1 <= figure.bbox.width
+        assert [axes.get_title().replace("\n", " ").split()[-1] for axes in figure.axes] == ["0.25", "0.5", "0.75", "1"]
+
+
 def test_captions_state_how_many_panels_are_missing(tmp_path: Path) -> None:
     for panels, remark in ((24, ""), (25, "Only the first 24 of 25 panels are shown.")):
         results_of_panels = load(write_sweep(tmp_path / str(panels), 1, tuple(float(index) for index in range(panels))))
