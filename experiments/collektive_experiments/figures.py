@@ -164,10 +164,11 @@ def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) 
     with matplotlib.rc_context(style), warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always")
         svg, pdf = _save(figure)
-        if fail and not _fits(figure):
+        if not _fits(figure):
             for axes in figure.axes:
                 axes.set_ylabel(textwrap.fill(axes.get_ylabel(), LINE_LENGTH))
-            svg, pdf = _save(figure)
+            # Figures without a requested size grow around labels that are too long for them.
+            svg, pdf = _save(figure, None if fail else "tight")
         if fail and not _fits(figure):
             raise fail("size", f"leaves too little space for labels: {figure.get_figwidth():g}x{figure.get_figheight():g}; enlarge it, or set shorter labels")
     for message in dict.fromkeys(str(warning.message) for warning in found):
@@ -176,11 +177,11 @@ def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) 
     return Drawing(caption, re.sub("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]", "\ufffd", svg.decode()).encode(), pdf)
 
 
-def _save(figure: Figure) -> tuple[bytes, bytes]:
+def _save(figure: Figure, box: str | None = None) -> tuple[bytes, bytes]:
     """Returns the figure as SVG and PDF."""
     svg, pdf = io.BytesIO(), io.BytesIO()
-    figure.savefig(svg, format="svg", metadata={"Date": None})
-    figure.savefig(pdf, format="pdf", metadata={"CreationDate": None})
+    figure.savefig(svg, format="svg", metadata={"Date": None}, bbox_inches=box)
+    figure.savefig(pdf, format="pdf", metadata={"CreationDate": None}, bbox_inches=box)
     return svg.getvalue(), pdf.getvalue()
 
 

@@ -323,6 +323,13 @@ def test_convergence_times_of_long_metrics_fit_the_default_size(tmp_path: Path, 
     assert {"time to convergence of", "distance error [s]"} <= {element.text for element in ElementTree.parse(svg).iter()}
 
 
+def test_figures_grow_around_labels_that_are_too_long(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 1, (0.0,), labels={"path-vector": "a path of " + 20 * "many words ", "error": 12 * "long name "})
+    for path in plot(folder):
+        if path.endswith(".svg") and "converged" not in path:
+            assert float(ElementTree.parse(path).getroot().attrib["width"].removesuffix("pt")) > 72 * 10, path
+
+
 @pytest.mark.filterwarnings("error")
 def test_missing_glyphs_are_one_line_for_each_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = write_sweep(tmp_path / "out", 1, (0.0,), labels={"path-vector": "\N{ANT}"})
