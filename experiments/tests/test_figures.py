@@ -4,6 +4,7 @@ import re
 import shutil
 import sys
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -294,7 +295,7 @@ def test_titles_of_panels_do_not_overlap(tmp_path: Path) -> None:
         figure, _ = draw_panels(results_of_panels, "error")
         figure.draw_without_rendering()
         boxes = [axes.title.get_window_extent() for axes in figure.axes]
-        assert all(left.x1 < right.x0 for left, right in zip(boxes, boxes[1:])) and boxes[-1].x1 <= figure.bbox.width
+        assert all(left.x1 < right.x0 for left, right in pairwise(boxes)) and boxes[-1].x1 <= figure.bbox.width
         assert [axes.get_title().replace("\n", " ").split()[-1] for axes in figure.axes] == ["0.25", "0.5", "0.75", "1"]
 
 
