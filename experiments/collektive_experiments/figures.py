@@ -56,8 +56,9 @@ BOUND = "bound\0"
 GOLDEN_RATIO = 0.618034
 """The multiplier that spreads the points of a box plot sideways."""
 TOLERANCE, MIN_AXES = 0.02, 0.5
-LINE_LENGTH, TITLE_LENGTH = 24, 32  # characters per line of long labels of vertical axes, and of panel titles
 """The inches by which labels may extend beyond a figure, and the minimum width and height of its axes in inches."""
+LINE_LENGTH, TITLE_LENGTH = 24, 32
+"""The characters per line of long labels of vertical axes, and of panel titles."""
 MAX_VALUE = 1e300
 """The largest value that figures can show. With larger ones, Matplotlib's calculations overflow."""
 MAX_CELLS = 64
