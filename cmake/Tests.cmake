@@ -98,13 +98,13 @@ set(acceptance NEEDS setup:junit build:runtime build:sample_code build:jvm_modul
   PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")
-suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick and not slow" -n 2)
+suite(acceptance-rest acceptance LABELS all ${acceptance} -m "not alone and not quick and not slow" -n 3)
 suite(acceptance-slow acceptance LABELS extra ${acceptance} -m slow -n 2)
 
 set(experiments "${PROJECT_SOURCE_DIR}/experiments/tests")
 set(experiments_tests build:runtime build:failing setup:experiments-tests setup:tune UNLOCKED
   SCRIPT experiments.py --junitxml RESULTS/pytest.xml)
-set(one_machine "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 2)
+set(one_machine "${experiments}" "--ignore=${experiments}/test_cluster.py" -n 3)
 suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests} ${one_machine} -m "not slow")
 suite(experiments-slow experiments LABELS extra NEEDS ${experiments_tests} ${one_machine} -m slow)
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
