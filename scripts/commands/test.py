@@ -62,7 +62,7 @@ LONG_RUNS = {
 
 
 class Suite(NamedTuple):
-    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. Its targets are those of the build graph that it needs."""
+    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. It needs its targets of the build graph."""
 
     name: str
     labels: frozenset[str]
