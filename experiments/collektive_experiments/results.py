@@ -34,9 +34,12 @@ class Results:
     """The texts that figures show instead of metrics, keys or values."""
 
     def __post_init__(self) -> None:
-        """Checks the index of the runs, because labels that occur twice would mix the values of different runs."""
+        """Checks combined tables: labels that occur twice would mix values of different runs, and figures would omit runs without a value of a key."""
         if not self.runs.index.is_unique:
             raise ValueError("the index of the runs contains a label twice: combine tables with ignore_index=True")
+        for table, key in itertools.product((self.runs, self.series), self.keys):
+            if key in table and table[key].isna().any():
+                raise ValueError(f"a table contains runs without a value of the key '{key}': add this value before you combine tables")
 
     @property
     def configuration(self) -> list[str]:

@@ -73,6 +73,14 @@ def test_combined_tables_without_distinct_labels_names_or_seeds_are_rejected() -
         over_time(replace(some, series=pd.concat([some.series, some.series], ignore_index=True)), "error")
 
 
+def test_combined_tables_without_a_value_of_a_key_are_rejected() -> None:
+    some = results(2)
+    with pytest.raises(ValueError, match="runs without a value of the key 'network"):
+        replace(some, runs=pd.concat([some.runs, some.runs.drop(columns="network.loss")], ignore_index=True))
+    with pytest.raises(ValueError, match="runs without a value of the key 'program'"):
+        replace(some, series=pd.concat([some.series, some.series.drop(columns="program")], ignore_index=True))
+
+
 def test_axes_have_units_and_captions_the_number_of_runs() -> None:
     figure, caption = over_time(results(2), "error")
     axes = figure.axes[0]
