@@ -30,8 +30,8 @@ public interface DeviceRuntime {
      */
     public fun commit(): Export
 
-    /** Returns at most [limit] stored values by their paths, as text. Call it only while no round runs. The default returns nothing. */
-    public fun state(limit: Int): Map<String, Any?> = emptyMap()
+    /** Returns at most [limit] stored values with their paths, as text. Call it only while no round runs. The default returns nothing. */
+    public fun state(limit: Int): List<Pair<String, Any?>> = emptyList()
 
     /**
      * Removes the state, and the messages that receivers have not read. Call it only while no round runs.

@@ -324,8 +324,8 @@ public class Engine @JvmOverloads constructor(
     }
 }
 
-/** A node's stored values by their paths, and the duration of its last round since the inspection began, or 0 if it had no round. */
-public class NodeState(public val id: Int, public val roundNanos: Long, public val values: Map<String, Any?>)
+/** A node's stored values with their paths, and the duration of its last round since the inspection began, or 0 if it had no round. */
+public class NodeState(public val id: Int, public val roundNanos: Long, public val values: List<Pair<String, Any?>>)
 
 /** Thrown when the answer of a program cannot be written; the message states the reason. */
 public class InvalidAnswerException(message: String) : IllegalStateException(message)

@@ -70,7 +70,7 @@ class MailboxRuntimesTest {
                     }
                 }
                 val state = checkNotNull(it.engine.inspect(limit = 10))
-                assertEquals(mapOf("outer" to 1, "outer > 7" to 3), state.values)
+                assertEquals(mapOf("outer" to 1, "outer > 7" to 3), state.values.toMap())
                 assertTrue(state.roundNanos > 0)
                 assertEquals(1, it.engine.inspect(limit = 1)?.values?.size)
             }

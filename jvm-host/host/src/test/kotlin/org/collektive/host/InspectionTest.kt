@@ -75,6 +75,13 @@ class InspectionTest {
     }
 
     @Test
+    fun `values at calls of the same function have the lines of the calls`() {
+        val token = { line: Int -> "keep@Probe.kt:$line#0123456789abcde$line" }
+        open("""keep(aggregate, "${token(1)}", "first"); keep(aggregate, "${token(2)}", "second"); keep(aggregate, "a", "third");""")
+        assertEquals(listOf("a" to "third", "keep (Probe.kt:1)" to "first", "keep (Probe.kt:2)" to "second"), state(inspection(1, 1, 1)))
+    }
+
+    @Test
     fun `texts are shortened, and a value without a text shows its class`() {
         open(
             """

@@ -62,8 +62,8 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
         return outbound
     }
 
-    override fun state(limit: Int): Map<String, Any?> =
-        state.entries.take(limit).associate { (path, value) -> path.toMultilineString(" > ") to value }
+    override fun state(limit: Int): List<Pair<String, Any?>> =
+        state.entries.take(limit).map { (path, value) -> path.toMultilineString(" > ") to value }
 
     override fun forget() {
         state = emptyMap()

@@ -70,11 +70,11 @@ internal class AggregateDevice<ID : Any>(
         return valid
     }
 
-    override fun state(limit: Int): Map<String, Any?> = buildMap {
-        valid.forEachPath { path ->
-            val value = valid.storedAt(path)
-            if (size < limit && value !== RoundRecord.Nothing) put(path.toString(), value)
-        }
+    override fun state(limit: Int): List<Pair<String, Any?>> {
+        val paths = ArrayList<PathNode>()
+        valid.forEachPath { if (paths.size < limit && valid.storedAt(it) !== RoundRecord.Nothing) paths += it }
+        val counts = paths.groupingBy(PathNode::toString).eachCount()
+        return paths.map { path -> path.toString().let { if (counts[it] == 1) it else path.withLocations() } to valid.storedAt(path) }
     }
 
     override fun forget() {

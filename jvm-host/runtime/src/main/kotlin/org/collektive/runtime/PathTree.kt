@@ -1,6 +1,8 @@
 package org.collektive.runtime
 
 import it.unibo.collektive.path.FullPath
+import org.collektive.alignment.location
+import org.collektive.alignment.readable
 
 /**
  * All paths of a session. Equal paths are the same object on all devices.
@@ -86,11 +88,13 @@ internal class PathNode(val parent: PathNode?, val token: Any?) {
 
     fun slot(mask: Int) = spread(tokenHash) and mask
 
-    override fun toString(): String {
-        // The root has no token.
-        val nodes = generateSequence(this) { it.parent }.filter { it.parent != null }
-        return FullPath(nodes.map(PathNode::token).toList().asReversed()).toString()
-    }
+    override fun toString(): String = FullPath(tokens()).toString()
+
+    /** Returns the text of the path with the source location of each call, which distinguishes calls of the same function. */
+    fun withLocations(): String = tokens().joinToString(" > ") { token -> readable(token) + location(token)?.let { " ($it)" }.orEmpty() }
+
+    // The root has no token.
+    private fun tokens() = generateSequence(this) { it.parent }.filter { it.parent != null }.map(PathNode::token).toList().asReversed()
 
     companion object {
         fun spread(hash: Int) = hash * -0x61c88647 ushr 7
