@@ -4,10 +4,12 @@ import hashlib
 import json
 import os
 import sys
+from functools import cached_property
 from pathlib import Path
 from typing import Any, BinaryIO
 
 from . import files
+from .bundle import fingerprint
 from .experiment import FIXED, Experiment, Run
 from .files import MARKER, PART
 from .positions import ExperimentError
@@ -96,23 +98,31 @@ class Store:
             raise ExperimentError(f"'{path}' is damaged or of another version: repair it with ./collektive sweep EXPERIMENT.json --out {self.folder} --resume")
         return settings
 
+    @cached_property
+    def inputs(self) -> str:
+        """The fingerprint of the sweep's inputs. A run that was copied from a sweep with other inputs has another one in its run.json."""
+        return fingerprint(os.path.join(self.bundle, "inputs"))
+
     def is_complete(self, run: Run) -> bool:
-        """Returns whether the run is complete. If its files are damaged, prints a message and deletes them."""
+        """Returns whether the run is complete. If its files are damaged or have other inputs, prints a message and deletes them."""
         folder = os.path.join(self.runs, run.name)
         if not os.path.lexists(folder):
             return False
         record = self.record(run)
         damaged = [files.RECORD] if record is None else self.changed_files(run, record)
         if record is None or damaged:
-            print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged; repeating the run", file=sys.stderr)
+            print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged or has other inputs; repeating the run", file=sys.stderr)
             files.remove(folder)
             return False
         return bool(record["status"] == "complete")
 
     def record(self, run: Run) -> dict[str, Any] | None:
-        """Returns the content of run.json, or None if the run is not finished."""
+        """Returns the content of run.json, or None if the run is not finished or has other inputs."""
         record = _object(os.path.join(self.runs, run.name, files.RECORD))
-        if record is None or record.get("name") != run.name or not _is_list_of_texts([record.get("status"), record.get("message")]):
+        # Sweeps of earlier versions did not write the inputs.
+        if record is None or record.get("name") != run.name or record.get("inputs", self.inputs) != self.inputs:
+            return None
+        if not _is_list_of_texts([record.get("status"), record.get("message")]):
             return None
         if not isinstance(record.get("files"), dict) or (record["status"] == "complete" and not set(RESULTS) <= record["files"].keys()):
             return None
@@ -151,7 +161,8 @@ class Store:
         results = {name: _hash(os.path.join(part, name)) for name in sorted(names)}
         if outcome.status == "complete" and not set(RESULTS) <= results.keys():
             outcome = Outcome("failed", f"the run did not write {' and '.join(name for name in RESULTS if name not in results)}")
-        record = {"name": run.name, "values": run.values, "status": outcome.status, "message": outcome.message, "seconds": round(seconds, 3), "files": results}
+        record = {"name": run.name, "inputs": self.inputs, "values": run.values, "status": outcome.status, "message": outcome.message,
+                  "seconds": round(seconds, 3), "files": results}
         files.write_part(os.path.join(part, files.RECORD), json.dumps(record, indent=2) + "\n")
         files.remove(folder)
         files.publish(folder)

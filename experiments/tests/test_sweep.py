@@ -123,6 +123,22 @@ def test_a_completed_sweep_repeats_no_runs_and_can_be_extended(lamps: Project) -
     assert "name another folder with --out" in other.stderr
 
 
+def test_runs_of_a_sweep_with_other_inputs_are_repeated(project: Project) -> None:
+    assert project.sweep(vary={"seed": [1, 2]}).returncode == 0
+    before = project.digests()
+    scenario = project.folder / "project/lamps.json"
+    original = scenario.read_text()
+    scenario.write_text(json.dumps({**json.loads(original), "seconds": 2}))
+    assert project.sweep(out="other", vary={"seed": [1, 2]}).returncode == 0
+    scenario.write_text(original)
+    run = project.run("seed=1")
+    shutil.rmtree(run)
+    shutil.copytree(project.folder / "other/runs" / run.name, run)
+    result = project.sweep("--resume", vary={"seed": [1, 2]})
+    assert (result.returncode, "has other inputs" in result.stderr) == (0, True), result.stderr
+    assert project.digests() == before
+
+
 @pytest.mark.slow
 def test_csv_tables_do_not_become_outdated(project: Project) -> None:
     assert project.sweep("--csv", vary={"seed": [1]}).returncode == 0
