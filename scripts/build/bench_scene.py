@@ -142,6 +142,5 @@ def measure(out: Path, quick: bool, sizes: Sequence[int]) -> None:
     lock.release()
     rows = [run(nodes, QUICK_MEASURED, QUICK_INTERVAL, QUICK_SETTLED, QUICK_MEASURED) if quick
             else run(nodes, seconds_of(nodes), INTERVAL, SETTLED, MEASURED) for nodes in sizes]
-    out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps({"machine": machine(), "rows": rows}, indent=2) + "\n")
     print(table(rows), flush=True)

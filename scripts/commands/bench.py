@@ -1,10 +1,12 @@
 """Runs benchmarks, prints a table and writes it as JSON. Times measured on a busy machine are not reliable."""
 import argparse
+import os
 import subprocess
+import tempfile
 from pathlib import Path
 
 from build import bench_scene, graph, managed, outputs, processes
-from build.console import print_progress
+from build.console import Failure, print_progress
 from build.jdk import find_jdk
 from build.places import BENCH_JAR, BUILD, CSHARP, HOST_JAR, LIBRARY_JAR, SAMPLES_JAR
 
@@ -26,9 +28,20 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    if "out" in arguments:
-        outputs.require_replaceable(str(arguments.out), b'{\n  "machine"', "--out")
-    return int(arguments.measure(arguments))
+    if "out" not in arguments:
+        return int(arguments.measure(arguments))
+    out = Path(os.path.realpath(arguments.out))
+    if out.exists() and not out.is_file():
+        raise Failure(f"bench: --out '{out}' is not a regular file: name another file")
+    outputs.require_replaceable(str(out), b'{\n  "machine"', "--out")
+    out.parent.mkdir(parents=True, exist_ok=True)
+    # Earlier results are kept if the new ones cannot be written.
+    with tempfile.TemporaryDirectory(prefix=f".{out.name}.", dir=out.parent) as work:
+        arguments.out = Path(work, out.name)
+        code = int(arguments.measure(arguments))
+        if code == 0:
+            arguments.out.replace(out)
+    return _report_output(out, code)
 
 
 def _rounds(arguments: argparse.Namespace) -> int:
@@ -57,7 +70,7 @@ def _tick(arguments: argparse.Namespace) -> int:
         words += ["--nodes", arguments.nodes]
     command = managed.command("mono-sgen", CSHARP / "Collektive.Headless.Bench.exe", "--java-home", find_jdk(), "--host-jar", HOST_JAR,
                               "--jar", SAMPLES_JAR, "--jar", BENCH_JAR, "--out", arguments.out, *words)
-    return _report_output(arguments.out, processes.call(command, env=managed.environment("mono-sgen")))
+    return processes.call(command, env=managed.environment("mono-sgen"))
 
 
 def _scene(arguments: argparse.Namespace) -> int:
@@ -65,7 +78,7 @@ def _scene(arguments: argparse.Namespace) -> int:
     its own process. Prints the 99th percentile and the phases of ticks, memory, the time per node relative to the first size, and the ratio of the
     phases to the same work as bare loops in C. Takes about three minutes on two idle cores, or half as long with --quick."""
     bench_scene.measure(arguments.out, arguments.quick, arguments.nodes)
-    return _report_output(arguments.out, 0)
+    return 0
 
 
 def _report_output(out: Path, code: int) -> int:

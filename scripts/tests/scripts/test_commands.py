@@ -161,4 +161,20 @@ def test_benchmarks_replace_only_their_results(tmp_path: Path) -> None:
     for content, expected in (('{"mine": 1}', pytest.raises(Failure, match="was not written by --out")), ('{\n  "machine": {}\n}\n', contextlib.nullcontext())):
         file.write_text(content)
         with expected:
-            assert bench.run(argparse.Namespace(out=file, measure=lambda _: 0)) == 0
+            assert bench.run(argparse.Namespace(out=file, measure=lambda arguments: arguments.out.write_text("new") and 0)) == 0
+    assert (file.read_text(), os.listdir(tmp_path)) == ("new", ["notes.json"])
+
+
+@pytest.mark.parametrize("error", [OSError("full"), None], ids=["full disk", "failed measurement"])
+def test_failed_benchmarks_keep_earlier_results(tmp_path: Path, error: OSError | None) -> None:
+    def measure(arguments: argparse.Namespace) -> int:
+        arguments.out.write_text("a part")
+        if error:
+            raise error
+        return 1
+
+    file = tmp_path / "earlier.json"
+    file.write_text('{\n  "machine": {}\n}\n')
+    with pytest.raises(OSError, match="full") if error else contextlib.nullcontext():
+        assert bench.run(argparse.Namespace(out=file, measure=measure)) == 1
+    assert (file.read_text(), os.listdir(tmp_path)) == ('{\n  "machine": {}\n}\n', ["earlier.json"])

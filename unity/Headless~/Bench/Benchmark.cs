@@ -140,7 +140,6 @@ namespace Collektive.Headless.Bench
                 Environment.OSVersion + "; JVM options " + string.Join(" ", BenchSettings.JvmOptions);
             var all = new JArray();
             foreach (var row in rows) all.Add(row.ToJson());
-            Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(settings.Out)));
             File.WriteAllText(settings.Out, new JObject(new JProperty("machine", machine), new JProperty("rows", all)).ToString(Formatting.Indented) + "\n");
         }
 

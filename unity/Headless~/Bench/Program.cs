@@ -1,4 +1,5 @@
 using System;
+using System.IO;
 using Collektive.Bridge;
 
 namespace Collektive.Headless.Bench
@@ -24,6 +25,10 @@ namespace Collektive.Headless.Bench
             catch (BridgeException error)
             {
                 Console.Error.WriteLine("collektive: bench: " + error.Message);
+            }
+            catch (IOException error)
+            {
+                Console.Error.WriteLine("collektive: bench: cannot write the results: " + error.Message);
             }
             return 1;
         }
