@@ -47,15 +47,15 @@ namespace Collektive.Unity.Editor
 
         /// <summary>
         /// Whether the jar is outdated: it was built from other sources, for another runtime, or by another package version, whose generated code would not
-        /// fit. A project that has neither programs nor a jar is not outdated.
+        /// fit. Without programs, a jar that another build tool made is not outdated, and neither is a missing jar.
         /// </summary>
         /// <exception cref="ToolException">The runtime's jars are missing.</exception>
         internal bool IsStale
         {
             get
             {
-                if (!HasPrograms && !File.Exists(Jar)) return false;
                 var attributes = JarManifest.Read(Jar);
+                if (!HasPrograms && !attributes.ContainsKey("Collektive-Sources")) return false;
                 bool Has(string name, string value) => attributes.TryGetValue(name, out var built) && built == value;
                 return !Has("Collektive-Version", PackageState.Version) || !Has("Collektive-Runtime", Runtime.ManifestValue)
                     || !Has("Collektive-Sources", Sources);

@@ -204,6 +204,20 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Play(), Is.False);
         }
 
+        [Test, Category("Slow"), Category("Repeats")]
+        public void A_jar_of_another_build_beside_its_schema_is_kept()
+        {
+            UseKotlin();
+            File.Delete(Count);
+            ProgramLibraryTests.Pack(Jar, "swarm.SwarmSchema");
+            var bytes = File.ReadAllBytes(Jar);
+            MakeManager(Jar);
+            Save(Schema);
+            Build();
+            Assert.That(Play(), Is.True);
+            Assert.That(File.ReadAllBytes(Jar), Is.EqualTo(bytes));
+        }
+
         [Test]
         public void Without_a_JDK_saving_logs_one_error_and_a_jar_of_a_colleague_plays()
         {
