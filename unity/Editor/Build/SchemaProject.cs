@@ -77,13 +77,13 @@ namespace Collektive.Unity.Editor
         internal bool HasGeneratedSince(DateTime time) => Directory.Exists(Generated)
             && Array.Exists(Directory.GetFiles(Generated, "*.cs", SearchOption.AllDirectories), file => File.GetLastWriteTimeUtc(file) >= time);
 
-        /// <summary>Returns all schemas, with the runtimes of the simulations in the loaded scenes.</summary>
+        /// <summary>Returns all schemas, with the runtimes of the simulations in the loaded scenes. Scripts may activate inactive ones.</summary>
         internal static List<SchemaProject> FindAll()
         {
 #if UNITY_6000_5_OR_NEWER
-            var managers = Object.FindObjectsByType<SimulationManager>();
+            var managers = Object.FindObjectsByType<SimulationManager>(FindObjectsInactive.Include);
 #else
-            var managers = Object.FindObjectsByType<SimulationManager>(FindObjectsSortMode.None);
+            var managers = Object.FindObjectsByType<SimulationManager>(FindObjectsInactive.Include, FindObjectsSortMode.None);
 #endif
             return FindAll(Array.ConvertAll(managers, manager => manager.Settings));
         }

@@ -205,6 +205,17 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test, Category("Slow"), Category("Repeats")]
+        public void A_failed_build_of_an_inactive_managers_programs_prevents_Play()
+        {
+            UseKotlin();
+            Write(Count, Wrong);
+            MakeManager(Jar).gameObject.SetActive(false);
+            ProjectSettings.instance.whenProgramsFail = WhenProgramsFail.Never;
+            Assert.That(Play(), Is.False, "a script can activate the manager");
+            Logged("Play was not started");
+        }
+
+        [Test, Category("Slow"), Category("Repeats")]
         public void A_jar_of_another_build_beside_its_schema_is_kept()
         {
             UseKotlin();
@@ -280,7 +291,12 @@ namespace Collektive.Headless.Tests.Editor
             while (ProgramBuild.IsRunning);
         }
 
-        private static void MakeManager(string jar) => new GameObject("Manager").AddComponent<SimulationManager>().Settings.jars.Add(jar);
+        private static SimulationManager MakeManager(string jar)
+        {
+            var manager = new GameObject("Manager").AddComponent<SimulationManager>();
+            manager.Settings.jars.Add(jar);
+            return manager;
+        }
 
         /// <summary>Presses Play in the editor. Returns whether play mode starts.</summary>
         private static bool Play()

@@ -115,11 +115,15 @@ namespace UnityEngine
         public static void DontDestroyOnLoad(Object target) { } // the player's scene is never replaced
 
         /// Finds objects in scenes only, not assets.
-        public static T[] FindObjectsByType<T>(FindObjectsSortMode sortMode) where T : Object
+        public static T[] FindObjectsByType<T>(FindObjectsSortMode sortMode) where T : Object =>
+            FindObjectsByType<T>(FindObjectsInactive.Exclude, sortMode);
+
+        public static T[] FindObjectsByType<T>(FindObjectsInactive findObjectsInactive, FindObjectsSortMode sortMode) where T : Object
         {
+            var inactiveToo = findObjectsInactive == FindObjectsInactive.Include;
             var found = new System.Collections.Generic.List<T>();
             foreach (var root in SceneManagement.Scene.AllRoots())
-                if (root.activeInHierarchy) found.AddRange(root.GetComponentsInChildren<T>());
+                if (inactiveToo || root.activeInHierarchy) found.AddRange(root.GetComponentsInChildren<T>(inactiveToo));
             return found.ToArray();
         }
 
