@@ -91,6 +91,40 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Limits_stop_a_hinge_whose_motor_is_set_in_each_step()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            var hinge = ball.gameObject.AddComponent<HingeJoint>();
+            hinge.axis = Vector3.up;
+            hinge.limits = new JointLimits { min = -10f, max = 30f };
+            hinge.useLimits = hinge.useMotor = true;
+            foreach (var (velocity, limit) in new[] { (90f, 30f), (-90f, -10f) })
+            {
+                for (var step = 0; step < 100; step++)
+                {
+                    hinge.motor = new JointMotor { targetVelocity = velocity, force = 1f };
+                    Physics.Simulate(Step);
+                }
+                Assert.That(Quaternion.Angle(ball.rotation, Quaternion.Euler(0f, limit, 0f)), Is.LessThan(2f));
+            }
+        }
+
+        [Test]
+        public void Another_strength_of_a_spring_keeps_its_anchors()
+        {
+            var ball = Ball(new Vector3(0f, 5f, 0f));
+            var joint = ball.gameObject.AddComponent<SpringJoint>();
+            joint.damper = 5f;
+            Run(6f);
+            joint.spring = 20f;
+            ball.WakeUp();
+            Run(6f);
+            Assert.That(joint.connectedAnchor, Is.EqualTo(new Vector3(0f, 5f, 0f)));
+            Assert.That(5f - ball.position.y, Is.EqualTo(9.81f / 20f).Within(0.05f));
+        }
+
+        [Test]
         public void A_spring_holds_a_weight_at_equilibrium()
         {
             var ball = Ball(new Vector3(0f, 5f, 0f));

@@ -1,6 +1,7 @@
 namespace UnityEngine
 {
-    /// Connects the object's body to another body or to the world. The connection uses the poses that the bodies have when the joint becomes active or changes.
+    /// Connects the object's body to another body or to the world, in the poses that the bodies have when the joint becomes active, or its anchors, axis or
+    /// connected body change.
     [RequireComponent(typeof(Rigidbody))]
     public abstract class Joint : Component
     {
@@ -11,11 +12,12 @@ namespace UnityEngine
 
         internal int Handle = Physx.None;
         bool active;
+        (Physx.Pose Own, Physx.Pose Other)? frames; // of the joint in the two bodies; null before they are connected
 
-        public Rigidbody connectedBody { get => ownConnectedBody; set => Set(ref ownConnectedBody, value); }
+        public Rigidbody connectedBody { get => ownConnectedBody; set => Reconnect(ref ownConnectedBody, value); }
         /// Axis of a hinge in the body's frame.
-        public Vector3 axis { get => ownAxis; set => Set(ref ownAxis, value); }
-        public Vector3 anchor { get => ownAnchor; set => Set(ref ownAnchor, value); }
+        public Vector3 axis { get => ownAxis; set => Reconnect(ref ownAxis, value); }
+        public Vector3 anchor { get => ownAnchor; set => Reconnect(ref ownAnchor, value); }
 
         /// Anchor in the frame of the connected body or of the world.
         public Vector3 connectedAnchor
@@ -24,12 +26,12 @@ namespace UnityEngine
             set
             {
                 ownAutoConfigure = false;
-                Set(ref ownConnectedAnchor, value);
+                Reconnect(ref ownConnectedAnchor, value);
             }
         }
 
         /// Whether the connected anchor is computed from the anchor.
-        public bool autoConfigureConnectedAnchor { get => ownAutoConfigure; set => Set(ref ownAutoConfigure, value); }
+        public bool autoConfigureConnectedAnchor { get => ownAutoConfigure; set => Reconnect(ref ownAutoConfigure, value); }
 
         /// Force in newtons above which `OnJointBreak` is sent and the joint is destroyed.
         public float breakForce { get => ownBreakForce; set => Set(ref ownBreakForce, value); }
@@ -44,6 +46,12 @@ namespace UnityEngine
         {
             field = value;
             Refresh();
+        }
+
+        void Reconnect<T>(ref T field, T value)
+        {
+            frames = null;
+            Set(ref field, value);
         }
 
         internal override void Activate()
@@ -66,22 +74,31 @@ namespace UnityEngine
         internal unsafe void Refresh()
         {
             if (!active) return;
-            Drop();
+            Release();
             var body = Body;
             if (body is null || !body.Registered || !(ownConnectedBody is null) && !ownConnectedBody.Registered) return;
-            var turn = Quaternion.FromToRotation(Vector3.right, ownAxis.Equals(Vector3.zero) ? Vector3.right : ownAxis);
-            var point = Vector3.Scale(ownAnchor, owner.TransformUnchecked.lossyScale);
+            if (frames == null) frames = Frames(body);
             var joint = new Physx.Joint
             {
-                Actor = body.Handle, Other = Physx.None, Pose = new Physx.Pose(point, turn), BreakForce = ownBreakForce, BreakTorque = ownBreakTorque,
-                Collide = ownCollision ? 1 : 0,
+                Actor = body.Handle, Other = ownConnectedBody is null ? Physx.None : ownConnectedBody.Handle, Pose = frames.Value.Own,
+                OtherPose = frames.Value.Other, BreakForce = ownBreakForce, BreakTorque = ownBreakTorque, Collide = ownCollision ? 1 : 0,
             };
+            Describe(ref joint);
+            PhysicsWorld.Flush();
+            Handle = Physx.physics_joint_create(PhysicsWorld.Handle, &joint);
+            if (Handle == Physx.None) Debug.LogError($"The joint of '{NameImpl}' could not be created: {Physx.Error()}", this);
+        }
+
+        /// Returns the frames that connect the bodies in their present poses.
+        (Physx.Pose, Physx.Pose) Frames(Rigidbody body)
+        {
+            var turn = Quaternion.FromToRotation(Vector3.right, ownAxis.Equals(Vector3.zero) ? Vector3.right : ownAxis);
+            var point = Vector3.Scale(ownAnchor, owner.TransformUnchecked.lossyScale);
             var otherPosition = Vector3.zero;
             var otherRotation = Quaternion.identity;
             var otherScale = Vector3.one;
             if (!(ownConnectedBody is null))
             {
-                joint.Other = ownConnectedBody.Handle;
                 otherPosition = ownConnectedBody.position;
                 otherRotation = ownConnectedBody.rotation;
                 otherScale = ownConnectedBody.owner.TransformUnchecked.lossyScale;
@@ -90,14 +107,17 @@ namespace UnityEngine
             var otherAnchor = inverseRotation * (body.position + body.rotation * point - otherPosition);
             if (ownAutoConfigure) ownConnectedAnchor = new Vector3(otherAnchor.x / otherScale.x, otherAnchor.y / otherScale.y, otherAnchor.z / otherScale.z);
             else otherAnchor = Vector3.Scale(ownConnectedAnchor, otherScale);
-            joint.OtherPose = new Physx.Pose(otherAnchor, (inverseRotation * body.rotation * turn).normalized);
-            Describe(ref joint);
-            PhysicsWorld.Flush();
-            Handle = Physx.physics_joint_create(PhysicsWorld.Handle, &joint);
-            if (Handle == Physx.None) Debug.LogError($"The joint of '{NameImpl}' could not be created: {Physx.Error()}", this);
+            return (new Physx.Pose(point, turn), new Physx.Pose(otherAnchor, (inverseRotation * body.rotation * turn).normalized));
         }
 
+        /// Disconnects the bodies.
         internal void Drop()
+        {
+            Release();
+            frames = null;
+        }
+
+        void Release()
         {
             if (Handle != Physx.None) Physx.physics_joint_destroy(PhysicsWorld.Handle, Handle);
             Handle = Physx.None;
