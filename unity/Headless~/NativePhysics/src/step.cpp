@@ -108,9 +108,9 @@ void physics_world::apply(const physics_command &command) {
             if (!kinematic) body->putToSleep();
             break;
         case PHYSICS_KINEMATIC:
-            switches_kinematic = true;
+            removal = ENDS;
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
-            switches_kinematic = false;
+            removal = REMOVED;
             if (value[0] == 0.0f) body->wakeUp();
             marks[command.actor] |= PLACED;
             break;
@@ -257,8 +257,8 @@ PxFilterFlags physics_world::pairFound(PxU32 pair, PxFilterObjectAttributes, PxF
 void physics_world::pairLost(PxU32 pair, PxFilterObjectAttributes, PxFilterData data0, PxFilterObjectAttributes, PxFilterData data1,
                              bool removed) {
     Overlap &overlap = overlaps[pair];
-    if (overlap.touching && (!removed || switches_kinematic))
-        lost_overlaps[Ignored::key(data0.word1, data1.word1)] = {overlap.a, overlap.b, switches_kinematic};
+    if (overlap.touching && (!removed || removal != REMOVED))
+        lost_overlaps[Ignored::key(data0.word1, data1.word1)] = {overlap.a, overlap.b, removal == ENDS};
     overlap = Overlap();
 }
 

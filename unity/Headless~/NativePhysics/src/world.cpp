@@ -238,7 +238,10 @@ physics_world *physics_world_create(int32_t threads) {
 void physics_world_destroy(physics_world *world) { delete world; }
 
 static void filter_again(physics_world *world, PxRigidActor &actor) {
-    if (actor.getScene()) world->scene->resetFiltering(actor);
+    if (!actor.getScene()) return;
+    world->removal = physics_world::ENDS;
+    world->scene->resetFiltering(actor);
+    world->removal = physics_world::REMOVED;
 }
 
 void physics_ignore_layers(physics_world *world, const uint32_t rows[32]) {
@@ -373,9 +376,12 @@ int32_t physics_shape_change(physics_world *world, int32_t handle, const physics
     shape->shape->setMaterials(&wanted, 1);
     set_filters(*shape->shape, *to);
     Actor &actor = world->actors[shape->actor];
-    if (before.word0 != shape->shape->getSimulationFilterData().word0) {
+    const PxU32 difference = before.word0 ^ shape->shape->getSimulationFilterData().word0;
+    if (difference) {
         PxShape *changed = shape->shape;
+        world->removal = difference & LAYER ? physics_world::ENDS : physics_world::CONTINUES;
         world->scene->resetFiltering(*actor.rigid, &changed, 1);
+        world->removal = physics_world::REMOVED;
     }
     world->mass_changed(actor);
     world->placed++;

@@ -71,7 +71,8 @@ struct Overlap {
     bool tested = false;
 };
 
-// A touching pair that PhysX no longer reports. If a body became kinematic or dynamic, the touch ends, and begins again if the pair is found, as in Unity.
+// A touching pair that PhysX no longer reports. If a body became kinematic or dynamic, or layers or ignored pairs changed, the touch ends,
+// and begins again if the pair is found, as in Unity.
 struct LostOverlap {
     int32_t a, b;
     bool ends;
@@ -132,7 +133,8 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     std::vector<collektive::Overlap> overlaps; // by PhysX's number of the pair
     // Touching pairs whose bounds separated, or that wait for a new filtering, by identities.
     std::map<uint64_t, collektive::LostOverlap> lost_overlaps;
-    bool switches_kinematic = false; // while a body becomes kinematic or dynamic
+    // Pairs that PhysX removes: of removed shapes, or to be filtered again, so that their touches continue or end.
+    enum { REMOVED, CONTINUES, ENDS } removal = REMOVED;
 
     std::vector<physics_touch> touches;
     std::vector<physics_contact> contacts;

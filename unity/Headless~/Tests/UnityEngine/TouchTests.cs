@@ -61,6 +61,46 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(string.Join(", ", Notes), Is.EqualTo(notes));
         }
 
+        [TestCase(true)]
+        [TestCase(false)]
+        public void A_body_leaves_the_triggers_with_which_it_no_longer_collides(bool changesLayer)
+        {
+            var zone = Zone();
+            var mover = Mover(Vector3.zero);
+            Physics.IgnoreLayerCollision(0, 9);
+            StepAt(mover, 0f);
+            Notes.Clear();
+            if (changesLayer) mover.gameObject.layer = 9;
+            else Physics.IgnoreCollision(zone, mover.GetComponent<Collider>());
+            StepAt(mover, 0f);
+            Assert.That(Events(), Is.EqualTo("zone exit mover"));
+        }
+
+        [Test]
+        public void Ignoring_another_pair_sends_exit_before_another_enter()
+        {
+            var zone = Zone();
+            var mover = Mover(Vector3.zero);
+            StepAt(mover, 0f);
+            Notes.Clear();
+            Physics.IgnoreCollision(zone, Ball(new Vector3(9f, 0f, 0f)).GetComponent<Collider>());
+            StepAt(mover, 0f);
+            Assert.That(string.Join(", ", Notes), Is.EqualTo("zone exit mover, zone enter mover, zone stay mover"));
+        }
+
+        [Test]
+        public void Another_detection_mode_keeps_a_body_in_its_triggers()
+        {
+            Zone();
+            var mover = Mover(Vector3.zero);
+            StepAt(mover, 0f);
+            Notes.Clear();
+            mover.collisionDetectionMode = CollisionDetectionMode.ContinuousSpeculative;
+            mover.collisionDetectionMode = CollisionDetectionMode.Continuous;
+            StepAt(mover, 0f);
+            Assert.That(Events(), Is.EqualTo("zone stay mover"));
+        }
+
         [TestCase(true, true)]
         [TestCase(true, false)]
         [TestCase(false, true)]
