@@ -12,6 +12,7 @@ from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
 from .statistics import holm, paired_effect, unpaired_effect
 from .store import Store
+from .tables import CONTENT
 
 VALUE = "value\0"
 """The name of a column with the values to compare. No metric can have this name."""
@@ -80,14 +81,9 @@ class Results:
 def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     """Reads the tables in a sweep's folder. `labels` replaces the labels of the experiment file."""
     settings = Store(folder).settings()
-    before = _version(folder)
-    try:
-        nodes = _read(folder, "nodes") if os.path.exists(os.path.join(folder, "nodes.parquet")) else None
-        results = Results(_read(folder, "runs"), _read(folder, "series"), nodes, settings["keys"], {},
-                          settings.get("labels", {}) if labels is None else labels)
-    finally:
-        if _version(folder) != before:
-            raise ExperimentError(f"the tables of '{folder}' were replaced while they were read: try again")
+    names = [name for name in ("runs", "series", "nodes") if name != "nodes" or os.path.exists(os.path.join(folder, "nodes.parquet"))]
+    tables, contents = zip(*(_read(folder, name) for name in names))
+    results = Results(*tables, *[None] * (3 - len(tables)), settings["keys"], {}, settings.get("labels", {}) if labels is None else labels)
     needed = {"run", "status", "seed", *results.keys, *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
     columns = list(results.runs.columns)
     # Figures would combine the runs with different values of a key that is missing in the settings.
@@ -95,6 +91,9 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
             or not {"run", "second", "links"} <= set(results.series.columns)):
         raise ExperimentError(f"the tables of '{folder}' are damaged or from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
+    if len(set(contents)) > 1:
+        raise ExperimentError(f"the tables of '{folder}' do not belong together: if a sweep is writing them, try again; otherwise write them again with "
+                              f"./collektive sweep EXPERIMENT.json --out {folder} --resume")
     # The settings may be newer than the tables, and list other metrics.
     def by_column(texts: dict[str, str]) -> dict[str, str]:
         return {column: texts[name] for column in results.metrics for name in (name_of_metric(column), column) if name in texts}
@@ -107,16 +106,8 @@ def name_of_metric(column: str) -> str:
     return re.sub(r"^(metric\.)+", "", column)
 
 
-def _version(folder: str) -> tuple[int, int] | None:
-    """Identifies the tables in a sweep's folder. A sweep deletes runs.parquet before it replaces any table, and creates it again last."""
-    try:
-        status = os.stat(os.path.join(folder, "runs.parquet"))
-    except FileNotFoundError:
-        return None
-    return status.st_ino, status.st_mtime_ns
-
-
-def _read(folder: str, name: str) -> pd.DataFrame:
+def _read(folder: str, name: str) -> tuple[pd.DataFrame, bytes | None]:
+    """Returns a table, and the metadata that all tables of a sweep share. Tables of earlier versions have none."""
     # PyArrow would replace `~` in a relative path by the home folder.
     path = os.path.abspath(os.path.join(folder, f"{name}.parquet"))
     try:
@@ -124,7 +115,7 @@ def _read(folder: str, name: str) -> pd.DataFrame:
         # By default, whole numbers become floats if a cell is empty, which rounds numbers beyond 2^53.
         types = {pa.int64(): pd.Int64Dtype(), pa.uint64(): pd.UInt64Dtype()} if name == "nodes" else {}
         frame: pd.DataFrame = table.to_pandas(types_mapper=types.get)
-        return frame
+        return frame, (table.schema.metadata or {}).get(CONTENT.encode())
     except (OSError, ValueError, NotImplementedError) as error:
         raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): write the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
                               "--resume") from error

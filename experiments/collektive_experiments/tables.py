@@ -1,5 +1,6 @@
 """Writes the tables of a sweep as Parquet and CSV."""
 import csv
+import hashlib
 import json
 import math
 import os
@@ -32,6 +33,9 @@ RUN_TIMES: list[tuple[str, pa.DataType]] = [
     ("wall_seconds", pa.float64()), ("ticks_ms", pa.float64()), ("tick_ms_median", pa.float64()), ("tick_ms_p99", pa.float64())]
 VERSIONS = ("collektive", "jvm", "clr", "os")
 NODE_TYPES = {"bool": pa.bool_(), "int64": pa.int64(), "uint64": pa.uint64(), "float64": pa.float64(), "string": pa.string()}
+
+CONTENT = "collektive.content"
+"""The metadata of Parquet tables that identifies their common content."""
 
 CELL = re.compile(r'("(?:[^"]|"")*+"|[^",\n]*+)[,\n]')
 """A cell of a CSV file, with its quotes."""
@@ -100,8 +104,10 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     schemas = {"runs": runs, "series": series}
     if columns.nodes:
         schemas["nodes"] = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), ("node", pa.int64()), *columns.nodes.items()])
+    content = {CONTENT: hashlib.sha256(f"{schemas}{columns.files}".encode()).hexdigest()}
     with ExitStack() as stack:
-        opened = {name: stack.enter_context(Table(os.path.join(store.folder, name), schema, with_csv)) for name, schema in schemas.items()}
+        opened = {name: stack.enter_context(Table(os.path.join(store.folder, name), schema.with_metadata(content), with_csv))
+                  for name, schema in schemas.items()}
         for run, record in columns.records():
             first = {"run": run.name, **columns.values(run)}
             if record["status"] == "complete":
@@ -142,7 +148,9 @@ class _Columns:
         self.rows: dict[str, int] = {}
         self._ends: dict[str, float] = {}
         node_columns: dict[str, str] = {}
-        for run, _ in self.records():
+        self.files: list[tuple[str, dict[str, str]]] = []
+        for run, record in self.records():
+            self.files.append((run.name, record["files"]))
             manifest = self._manifest(run)
             metrics.update(dict.fromkeys(manifest.get("end", {})))
             converged.update(dict.fromkeys(manifest.get("converged", {})))

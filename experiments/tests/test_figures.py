@@ -15,7 +15,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options, results
+from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options
 from collektive_experiments.__main__ import main
 from collektive_experiments.tables import Table
 
@@ -415,21 +415,6 @@ def test_runs_that_ended_after_the_tables_were_written_are_counted(tmp_path: Pat
         (tmp_path / "out/runs" / name / "run.json").write_text(json.dumps(record))
     plot(folder)
     assert "the figures omit because they are not in the tables: 1; the sweep has not ended, or" in capsys.readouterr().err
-
-
-def test_tables_that_a_sweep_replaces_at_the_same_time_are_not_mixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    folder = write_sweep(tmp_path / "out", 2, (0.0,))
-    read_table = results._read
-
-    def replace_after_the_first(folder: str, name: str) -> pd.DataFrame:
-        table = read_table(folder, name)
-        if name == "runs":
-            write_sweep(tmp_path / "out", 3, (0.0,))
-        return table
-
-    monkeypatch.setattr(results, "_read", replace_after_the_first)
-    with pytest.raises(ExperimentError, match="were replaced while they were read: try again"):
-        load(folder)
 
 
 def test_changed_values_in_tables_are_an_error(tmp_path: Path) -> None:

@@ -123,7 +123,7 @@ def test_a_completed_sweep_repeats_no_runs_and_can_be_extended(lamps: Project) -
     assert "name another folder with --out" in other.stderr
 
 
-def test_runs_of_a_sweep_with_other_inputs_are_repeated(project: Project) -> None:
+def test_runs_and_tables_of_a_sweep_with_other_inputs_are_not_used(project: Project) -> None:
     assert project.sweep(vary={"seed": [1, 2]}).returncode == 0
     before = project.digests()
     scenario = project.folder / "project/lamps.json"
@@ -137,6 +137,10 @@ def test_runs_of_a_sweep_with_other_inputs_are_repeated(project: Project) -> Non
     result = project.sweep("--resume", vary={"seed": [1, 2]})
     assert (result.returncode, "has other inputs" in result.stderr) == (0, True), result.stderr
     assert project.digests() == before
+    load(str(project.folder / "out"))
+    shutil.copy(project.folder / "other/series.parquet", project.folder / "out")
+    with pytest.raises(ExperimentError, match="do not belong together"):
+        load(str(project.folder / "out"))
 
 
 @pytest.mark.slow
