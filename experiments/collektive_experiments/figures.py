@@ -166,10 +166,14 @@ def _render(figure: Figure, caption: str, style: Any, fail: Fail | None = None) 
         warnings.simplefilter("always")
         svg, pdf = _save(figure)
         if not _fits(figure):
+            found.clear()
             for axes in figure.axes:
-                axes.set_ylabel(textwrap.fill(axes.get_ylabel(), LINE_LENGTH))
+                axes.set_ylabel(textwrap.fill(axes.get_ylabel(), LINE_LENGTH, break_long_words=False))
+            svg, pdf = _save(figure)
+        if not fail and not _fits(figure):
             # Figures without a requested size grow around labels that are too long for them.
-            svg, pdf = _save(figure, None if fail else "tight")
+            found.clear()
+            svg, pdf = _save(figure, "tight")
         if fail and not _fits(figure):
             raise fail("size", f"leaves too little space for labels: {figure.get_figwidth():g}x{figure.get_figheight():g}; enlarge it, or set shorter labels")
     for message in dict.fromkeys(str(warning.message) for warning in found):
@@ -512,7 +516,7 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
     for axes in grid[len(parts):]:
         axes.set_visible(False)
     for axes, (values, _) in zip(grid, parts):
-        axes.set_title(textwrap.fill(_title(results, values, others), TITLE_LENGTH), fontsize=9)
+        axes.set_title(textwrap.fill(_title(results, values, others), TITLE_LENGTH, break_long_words=False), fontsize=9)
     return figure, list(grid[:len(parts)]), colour, [group for _, group in parts], remark
 
 

@@ -35,7 +35,7 @@ class Results:
     """The texts that figures show instead of metrics, keys or values."""
 
     def __post_init__(self) -> None:
-        """Checks combined tables: labels that occur twice would mix values of different runs, and figures would omit runs without a value of a key."""
+        """Checks combined tables. Labels that occur twice would mix values of different runs. Figures would omit runs without a value of a key."""
         if not self.runs.index.is_unique:
             raise ValueError("the index of the runs contains a label twice: combine tables with ignore_index=True")
         for table, key in itertools.product((self.runs, self.series), self.keys):
@@ -81,9 +81,11 @@ class Results:
 def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     """Reads the tables in a sweep's folder. `labels` replaces the labels of the experiment file."""
     settings = Store(folder).settings()
-    names = [name for name in ("runs", "series", "nodes") if name != "nodes" or os.path.exists(os.path.join(folder, "nodes.parquet"))]
-    tables, contents = zip(*(_read(folder, name) for name in names))
-    results = Results(*tables, *[None] * (3 - len(tables)), settings["keys"], {}, settings.get("labels", {}) if labels is None else labels)
+    read = {name: _read(folder, name) for name in ("runs", "series")}
+    if os.path.exists(os.path.join(folder, "nodes.parquet")):
+        read["nodes"] = _read(folder, "nodes")
+    tables = {name: table for name, (table, _) in read.items()}
+    results = Results(tables["runs"], tables["series"], tables.get("nodes"), settings["keys"], {}, settings.get("labels", {}) if labels is None else labels)
     needed = {"run", "status", "seed", *results.keys, *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
     columns = list(results.runs.columns)
     # Figures would combine the runs with different values of a key that is missing in the settings.
@@ -91,7 +93,7 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
             or not {"run", "second", "links"} <= set(results.series.columns)):
         raise ExperimentError(f"the tables of '{folder}' are damaged or from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
-    if len(set(contents)) > 1:
+    if len({content for _, content in read.values()}) > 1:
         raise ExperimentError(f"the tables of '{folder}' do not belong together: if a sweep is writing them, try again; otherwise write them again with "
                               f"./collektive sweep EXPERIMENT.json --out {folder} --resume")
     # The settings may be newer than the tables, and list other metrics.
@@ -117,8 +119,8 @@ def _read(folder: str, name: str) -> tuple[pd.DataFrame, bytes | None]:
         frame: pd.DataFrame = table.to_pandas(types_mapper=types.get)
         return frame, (table.schema.metadata or {}).get(CONTENT.encode())
     except (OSError, ValueError, NotImplementedError) as error:
-        raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): write the tables with ./collektive sweep EXPERIMENT.json --out {folder} "
-                              "--resume") from error
+        raise ExperimentError(f"'{folder}' has no usable {name}.parquet ({error}): if a sweep is writing the tables, try again; otherwise write them with "
+                              f"./collektive sweep EXPERIMENT.json --out {folder} --resume") from error
 
 
 def compare(results: Results, metric: str, by: str) -> pd.DataFrame:

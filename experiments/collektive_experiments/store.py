@@ -99,9 +99,14 @@ class Store:
         return settings
 
     @cached_property
-    def inputs(self) -> str:
-        """The fingerprint of the sweep's inputs. A run that was copied from a sweep with other inputs has another one in its run.json."""
-        return fingerprint(os.path.join(self.bundle, "inputs"))
+    def inputs(self) -> str | None:
+        """
+        The fingerprint of the sweep's inputs, or None if only its results were copied.
+
+        A run that was copied from a sweep with other inputs has another one in its run.json.
+        """
+        folder = os.path.join(self.bundle, "inputs")
+        return fingerprint(folder) if os.path.isdir(folder) else None
 
     def is_complete(self, run: Run) -> bool:
         """Returns whether the run is complete. If its files are damaged or have other inputs, prints a message and deletes them."""
@@ -120,7 +125,7 @@ class Store:
         """Returns the content of run.json, or None if the run is not finished or has other inputs."""
         record = _object(os.path.join(self.runs, run.name, files.RECORD))
         # Sweeps of earlier versions did not write the inputs.
-        if record is None or record.get("name") != run.name or record.get("inputs", self.inputs) != self.inputs:
+        if record is None or record.get("name") != run.name or ("inputs" in record and self.inputs not in (None, record["inputs"])):
             return None
         if not _is_list_of_texts([record.get("status"), record.get("message")]):
             return None

@@ -265,7 +265,7 @@ def test_tables_are_not_mixed_after_a_kill_between_two_renames(project: Project,
 
     monkeypatch.setattr(tables.Table, "publish", publish_once)
     assert main([*command, "--resume"]) == 130
-    with pytest.raises(ExperimentError, match=r"no usable runs.parquet .*: write the tables with .* --resume"):
+    with pytest.raises(ExperimentError, match=r"no usable runs.parquet .*; otherwise write them with .* --resume"):
         load(str(project.folder / "out"))
     monkeypatch.undo()
     assert main([*command, "--resume"]) == 0

@@ -1,6 +1,7 @@
 """Runs a command in a process group, forwards signals to it, and waits for its children."""
 import contextlib
 import ctypes
+import math
 import os
 import signal
 import subprocess
@@ -11,6 +12,9 @@ from pathlib import Path
 from types import FrameType
 
 _waiting = False
+_interrupted_at = -math.inf
+# Signals that arrive within this time, in seconds, count as one. `timeout` and Slurm signal all processes of a command.
+_SAME_SIGNAL = 1
 # A constant from linux/prctl.h. With this option, orphaned descendants become children of this process.
 _SET_CHILD_SUBREAPER = 36
 
@@ -82,6 +86,11 @@ def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cw
         _waiting = False
 
 
+def was_interrupted() -> bool:
+    """Returns whether a signal has interrupted a command that `call` has run."""
+    return _interrupted_at > 0
+
+
 def end_orphans() -> None:
     """Kills the orphans of a program that has ended. They are children of this process because of `run_in_group`."""
     while children := Path(f"/proc/self/task/{os.getpid()}/children").read_text().split():
@@ -95,7 +104,9 @@ def _adopt_orphans() -> None:
 
 
 def _interrupted(_: int, __: FrameType | None) -> None:
-    if not _waiting:
+    global _interrupted_at
+    last, _interrupted_at = _interrupted_at, time.monotonic()
+    if not _waiting and _interrupted_at - last > _SAME_SIGNAL:
         raise KeyboardInterrupt
 
 

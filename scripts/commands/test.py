@@ -16,7 +16,6 @@ whose packages cannot be fetched is skipped. `test bare container` follows the D
 The last line is "N passed, N failed". The exit code is 1 if a test failed. JUnit XML files are in build/results. If the public API of the JVM side
 changed, the suite jvm prints the difference and the command that accepts it."""
 import argparse
-import contextlib
 import json
 import re
 import shutil
@@ -62,7 +61,7 @@ LONG_RUNS = {
 
 
 class Suite(NamedTuple):
-    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. It needs its targets of the build graph."""
+    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. Its targets are the build targets that it needs."""
 
     name: str
     labels: frozenset[str]
@@ -177,8 +176,11 @@ def test(words: Sequence[str]) -> int:
     suites = select_suites(read_suites(), words)
     # One call of Ninja for all targets uses the processors better than the fixtures, each of which builds one target.
     if targets := {target for suite in suites for target in suite.targets}:
-        with contextlib.suppress(Failure):
+        try:
             graph.build(*sorted(targets))
+        except Failure:
+            if processes.was_interrupted():
+                raise
     # Each suite locks the outputs itself, and its fixtures build targets that failed again.
     lock.release()
     for suite in suites:

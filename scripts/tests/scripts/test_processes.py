@@ -93,6 +93,25 @@ def test_a_command_cleans_up_after_a_signal(checkout: Checkout, number: signal.S
     assert (checkout.root / "end").exists()
 
 
+def test_a_signal_that_arrives_twice_does_not_interrupt_the_cleanup(checkout: Checkout) -> None:
+    main = """def main():
+    try:
+        (root / 'begun').touch()
+        time.sleep(600)
+    finally:
+        time.sleep(0.5)
+        (root / 'end').touch()
+"""
+    process = checkout.start("import time\n" + main + run_in_group("main()"))
+    while not (checkout.root / "begun").exists():
+        time.sleep(0.01)
+    for _ in range(2):
+        process.send_signal(signal.SIGTERM)
+        time.sleep(0.1)
+    assert process.wait(20) == 128 + signal.SIGTERM
+    assert (checkout.root / "end").exists()
+
+
 def test_orphans_of_a_program_end_in_any_process_group(checkout: Checkout) -> None:
     program = """processes.call(['sh', '-c', 'setsid sleep 600 & echo $! > "$0"', str(root / 'pid')])"""
     began = time.monotonic()

@@ -77,7 +77,8 @@ namespace Collektive.Unity.Editor
         internal bool HasGeneratedSince(DateTime time) => Directory.Exists(Generated)
             && Array.Exists(Directory.GetFiles(Generated, "*.cs", SearchOption.AllDirectories), file => File.GetLastWriteTimeUtc(file) >= time);
 
-        /// <summary>Returns all schemas, with the runtimes of the simulations in the loaded scenes. Scripts may activate inactive ones.</summary>
+        /// <summary>Returns all schemas, with the runtimes of the simulations in the loaded scenes. Includes inactive simulations,
+        /// because scripts can activate them, after the active ones.</summary>
         internal static List<SchemaProject> FindAll()
         {
 #if UNITY_6000_5_OR_NEWER
@@ -85,6 +86,7 @@ namespace Collektive.Unity.Editor
 #else
             var managers = Object.FindObjectsByType<SimulationManager>(FindObjectsInactive.Include, FindObjectsSortMode.None);
 #endif
+            Array.Sort(managers, (a, b) => b.isActiveAndEnabled.CompareTo(a.isActiveAndEnabled));
             return FindAll(Array.ConvertAll(managers, manager => manager.Settings));
         }
 

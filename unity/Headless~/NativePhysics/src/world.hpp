@@ -133,7 +133,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     std::vector<collektive::Overlap> overlaps; // by PhysX's number of the pair
     // Touching pairs whose bounds separated, or that wait for a new filtering, by identities.
     std::map<uint64_t, collektive::LostOverlap> lost_overlaps;
-    // Pairs that PhysX removes: of removed shapes, or to be filtered again, so that their touches continue or end.
+    // Why PhysX removes a pair. Touches of removed shapes are dropped. Touches of pairs that are filtered again continue or end.
     enum { REMOVED, CONTINUES, ENDS } removal = REMOVED;
 
     std::vector<physics_touch> touches;

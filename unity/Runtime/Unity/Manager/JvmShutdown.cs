@@ -11,7 +11,7 @@ namespace Collektive.Unity
     {
         private const int LimitMs = 5000;
 
-        /// <summary>Whether a player stops the JVM when it quits. If not, it can run several scenes with one JVM.</summary>
+        /// <summary>Whether a player stops the JVM when it quits. If false, the JVM keeps running for the next scene.</summary>
         internal static bool IsEnabled { get; set; } = true;
 
 #if UNITY_EDITOR

@@ -103,7 +103,7 @@ internal class Replay(
             val offset = (written ushr Int.SIZE_BITS).toInt()
             StepResponseReader(answer.duplicate().order(answer.order()).clear().position(offset).limit(offset + written.toInt()))
         } catch (e: HostException) {
-            if (e.cause is IOException) throw e
+            if (out != null && e.cause is IOException) throw e
             e.message.orEmpty()
         }
     }

@@ -68,7 +68,7 @@ internal class ProfileReportTest {
     private object Programs {
         fun calling() = called()
 
-        // A second of processor time, in which samples are taken however busy the machine is.
+        // Uses processor time, because a busy machine takes fewer samples per second.
         fun called(): Double {
             val threads = ManagementFactory.getThreadMXBean()
             val end = threads.currentThreadCpuTime + Duration.ofSeconds(1).toNanos()
