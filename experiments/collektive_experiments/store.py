@@ -116,7 +116,10 @@ class Store:
         record = self.record(run)
         damaged = [files.RECORD] if record is None else self.changed_files(run, record)
         if record is None or damaged:
-            print(f"collektive: '{os.path.join(folder, damaged[0])}' is damaged or has other inputs; repeating the run", file=sys.stderr)
+            path = os.path.join(folder, damaged[0])
+            has_other_inputs = record is None and self._has_other_inputs(_object(path) or {})
+            print(f"collektive: '{folder}' was copied from a sweep with other inputs; repeating the run" if has_other_inputs
+                  else f"collektive: '{path}' is damaged; repeating the run", file=sys.stderr)
             files.remove(folder)
             return False
         return bool(record["status"] == "complete")
@@ -124,14 +127,17 @@ class Store:
     def record(self, run: Run) -> dict[str, Any] | None:
         """Returns the content of run.json, or None if the run is not finished or has other inputs."""
         record = _object(os.path.join(self.runs, run.name, files.RECORD))
-        # Sweeps of earlier versions did not write the inputs.
-        if record is None or record.get("name") != run.name or ("inputs" in record and self.inputs not in (None, record["inputs"])):
+        if record is None or record.get("name") != run.name or self._has_other_inputs(record):
             return None
         if not _is_list_of_texts([record.get("status"), record.get("message")]):
             return None
         if not isinstance(record.get("files"), dict) or (record["status"] == "complete" and not set(RESULTS) <= record["files"].keys()):
             return None
         return record
+
+    def _has_other_inputs(self, record: dict[str, Any]) -> bool:
+        """Returns whether the run belongs to a sweep with other inputs. Sweeps of earlier versions did not write the inputs."""
+        return "inputs" in record and self.inputs not in (None, record["inputs"])
 
     def count_complete_except(self, names: set[str]) -> int:
         """Returns the number of complete runs whose names are not in a set."""

@@ -270,7 +270,7 @@ def try_case(case: Case, folder: Path) -> None:
     sweep()
     if chance.random() < 0.5:
         count = damage(chance, out)
-        require(sweep("--resume").count("; repeating the run") == count, f"the sweep must report {count} damaged runs")
+        require(sweep("--resume").count("is damaged; repeating the run") == count, f"the sweep must report {count} damaged runs")
     if chance.random() < 0.4 and case.grow():
         fails = any(case.settings(values)["fields.fate"] for values in case.runs())
         sweep("--resume")

@@ -231,7 +231,7 @@ def test_resume_repeats_runs_with_damaged_results(project: Project) -> None:
     (project.folder / "out/sweep.json").write_text("")
     result = project.sweep("--resume", **keys)
     assert result.returncode == 0, result.stderr
-    assert result.stderr.count("; repeating the run") == len(damages)
+    assert result.stderr.count("is damaged; repeating the run") == len(damages)
     assert "sweep.json' is damaged; writing it again" in result.stderr
     assert "1 of 10 runs are already complete" in result.stderr
     assert project.digests() == before
