@@ -6,13 +6,12 @@ from dataclasses import dataclass, field, replace
 
 import pandas as pd
 import pyarrow as pa
-import pyarrow.parquet as pq
 
 from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
 from .statistics import holm, paired_effect, unpaired_effect
 from .store import Store
-from .tables import CONTENT
+from .tables import CONTENT, read_parquet
 
 VALUE = "value\0"
 """The name of a column with the values to compare. No metric can have this name."""
@@ -110,10 +109,8 @@ def name_of_metric(column: str) -> str:
 
 def _read(folder: str, name: str) -> tuple[pd.DataFrame, bytes | None]:
     """Returns a table, and the metadata that all tables of a sweep share. Tables of earlier versions have none."""
-    # PyArrow would replace `~` in a relative path by the home folder.
-    path = os.path.abspath(os.path.join(folder, f"{name}.parquet"))
     try:
-        table = pq.read_table(path, page_checksum_verification=True)
+        table = read_parquet(folder, name, page_checksum_verification=True)
         # By default, whole numbers become floats if a cell is empty, which rounds numbers beyond 2^53.
         types = {pa.int64(): pd.Int64Dtype(), pa.uint64(): pd.UInt64Dtype()} if name == "nodes" else {}
         frame: pd.DataFrame = table.to_pandas(types_mapper=types.get)

@@ -126,12 +126,15 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     return _count_rows(experiment, store, columns.rows)
 
 
+def read_parquet(folder: str, name: str, **options: Any) -> pa.Table:
+    """Reads a table of a sweep with the given options of PyArrow."""
+    # PyArrow would replace `~` in a relative path by the home folder.
+    return pq.read_table(os.path.abspath(os.path.join(folder, f"{name}.parquet")), **options)
+
+
 def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> int:
     """Returns the number of runs whose files are unchanged, and that have one row in runs.parquet and all rows in series.parquet."""
-    # PyArrow would replace `~` in a relative path by the home folder.
-    folder = os.path.abspath(store.folder)
-    written = Counter(pq.read_table(os.path.join(folder, "runs.parquet"), columns=["run"])["run"].to_pylist())
-    series = Counter(pq.read_table(os.path.join(folder, "series.parquet"), columns=["run"])["run"].to_pylist())
+    written, series = (Counter(read_parquet(store.folder, name, columns=["run"])["run"].to_pylist()) for name in ("runs", "series"))
     return sum(written[run.name] == 1 and series[run.name] == rows.get(run.name, 0)
                and (record := store.record(run)) is not None and not store.changed_files(run, record) for run in experiment.runs())
 
