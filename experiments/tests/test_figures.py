@@ -15,9 +15,9 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options
+from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options, results
 from collektive_experiments.__main__ import main
-from collektive_experiments.tables import Table
+from collektive_experiments.tables import CONTENT, Table
 
 LOSSES = (0.0, 0.1, 0.2, 0.4)
 PROGRAMS = ("path-vector", "bellman-ford")
@@ -415,6 +415,27 @@ def test_runs_that_ended_after_the_tables_were_written_are_counted(tmp_path: Pat
         (tmp_path / "out/runs" / name / "run.json").write_text(json.dumps(record))
     plot(folder)
     assert "the figures omit because they are not in the tables: 1; the sweep has not ended, or" in capsys.readouterr().err
+
+
+def test_tables_that_a_sweep_replaces_at_the_same_time_are_not_mixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def write_tables(seeds: int) -> str:
+        folder = write_sweep(tmp_path / "out", seeds, (0.0,))
+        for name in ("runs", "series"):
+            path = f"{folder}/{name}.parquet"
+            pq.write_table(pq.read_table(path).replace_schema_metadata({CONTENT: str(seeds)}), path)
+        return folder
+
+    def replace_after_the_first(folder: str, name: str) -> tuple[pd.DataFrame, bytes | None]:
+        table = read_table(folder, name)
+        if name == "runs":
+            write_tables(3)
+        return table
+
+    read_table = results._read
+    folder = write_tables(2)
+    monkeypatch.setattr(results, "_read", replace_after_the_first)
+    with pytest.raises(ExperimentError, match="do not belong together: if a sweep is writing them, try again"):
+        load(folder)
 
 
 def test_changed_values_in_tables_are_an_error(tmp_path: Path) -> None:
