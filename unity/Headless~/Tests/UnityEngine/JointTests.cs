@@ -52,9 +52,7 @@ namespace Collektive.Headless.Tests.Engine
         public void A_motor_turns_a_hinge_at_its_velocity()
         {
             var ball = Ball(Vector3.zero);
-            ball.useGravity = false;
-            var hinge = ball.gameObject.AddComponent<HingeJoint>();
-            hinge.axis = Vector3.up;
+            var hinge = VerticalHinge(ball);
             hinge.motor = new JointMotor { targetVelocity = 90f, force = 100f };
             hinge.useMotor = true;
             Run(1f);
@@ -67,9 +65,7 @@ namespace Collektive.Headless.Tests.Engine
         public void A_spring_turns_a_hinge_to_its_target(float target)
         {
             var ball = Ball(Vector3.zero);
-            ball.useGravity = false;
-            var hinge = ball.gameObject.AddComponent<HingeJoint>();
-            hinge.axis = Vector3.up;
+            var hinge = VerticalHinge(ball);
             hinge.spring = new JointSpring { spring = 10f, damper = 2f, targetPosition = target };
             hinge.useSpring = true;
             Run(4f);
@@ -80,9 +76,7 @@ namespace Collektive.Headless.Tests.Engine
         public void Limits_stop_a_hinge()
         {
             var ball = Ball(Vector3.zero);
-            ball.useGravity = false;
-            var hinge = ball.gameObject.AddComponent<HingeJoint>();
-            hinge.axis = Vector3.up;
+            var hinge = VerticalHinge(ball);
             hinge.limits = new JointLimits { min = -10f, max = 30f };
             hinge.useLimits = true;
             ball.AddTorque(new Vector3(0f, 1f, 0f), ForceMode.VelocityChange);
@@ -94,9 +88,7 @@ namespace Collektive.Headless.Tests.Engine
         public void Limits_stop_a_hinge_whose_motor_is_set_in_each_step()
         {
             var ball = Ball(Vector3.zero);
-            ball.useGravity = false;
-            var hinge = ball.gameObject.AddComponent<HingeJoint>();
-            hinge.axis = Vector3.up;
+            var hinge = VerticalHinge(ball);
             hinge.limits = new JointLimits { min = -10f, max = 30f };
             hinge.useLimits = hinge.useMotor = true;
             foreach (var (velocity, limit) in new[] { (90f, 30f), (-90f, -10f) })
@@ -166,6 +158,15 @@ namespace Collektive.Headless.Tests.Engine
             Object.DestroyImmediate(a);
             Run(0.1f);
             Assert.That(Errors, Is.Empty);
+        }
+
+        /// Adds a hinge about the vertical axis, and switches gravity off.
+        static HingeJoint VerticalHinge(Rigidbody ball)
+        {
+            ball.useGravity = false;
+            var hinge = ball.gameObject.AddComponent<HingeJoint>();
+            hinge.axis = Vector3.up;
+            return hinge;
         }
     }
 }
