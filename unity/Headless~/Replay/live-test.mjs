@@ -123,7 +123,7 @@ suite('live', { timeout: 600000 }, async (t) => {
     await picture(tab, 'running');
   });
 
-  await t.test('changes the running swarm within 5 s of saving a constant', async () => {
+  await t.test('changes the running swarm within 3 s of saving a constant', async () => {
     await tab.click('#fields summary');
     await tab.fill('[id="control-fields.nodes"]', '61');
     await tab.press('[id="control-fields.nodes"]', 'Tab');
@@ -136,7 +136,7 @@ suite('live', { timeout: 600000 }, async (t) => {
     const [moving, still] = ['TOO_SMALL', '1e9'].map((limit) => `if (length < ${limit}) 0.0 else device`);
     // On a busy machine, a single time may be longer.
     let seconds = Infinity;
-    for (let attempt = 0; attempt < 3 && seconds >= 5; attempt++) {
+    for (let attempt = 0; attempt < 3 && seconds >= 3; attempt++) {
       if (attempt > 0) await edit(tab, still, moving);
       await eventually(() => state(view), ({ speed }) => speed > 0.3, 'the swarm should move');
       const began = Date.now();
@@ -147,7 +147,7 @@ suite('live', { timeout: 600000 }, async (t) => {
       t.diagnostic(`time from saving to the changed field: ${seconds} s`);
       assert.ok((await state(view)).tick > tick, 'the simulation did not start again');
     }
-    assert.ok(seconds < 5, `it took ${seconds} s`);
+    assert.ok(seconds < 3, `it took ${seconds} s`);
     assert.match(await outcome(tab), /^reloaded: kept /);
     assert.match(readFileSync(program, 'utf8'), /length < 1e9/);
     await picture(tab, 'edited');
