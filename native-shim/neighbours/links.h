@@ -49,8 +49,8 @@ static inline bool is_beyond(float a, float b, float tolerance) { return a - b >
 reference links_add(struct links *links, int32_t from, int32_t to, bool both, float length, float attenuation);
 bool links_set(struct links *links, reference link, float length, float attenuation);
 /*
- * Sets the values of a link unless it has the same attenuation and a length that two rules with this tolerance may have set. If scripts also reference
- * the link, they may have set any length, so this always sets the values.
+ * Sets the values of a link unless it has the same attenuation and a length that two rules with this tolerance may have set. Scripts may have set any
+ * length, so a link that scripts also reference keeps only an equal length.
  */
 bool links_confirm(struct links *links, reference link, float length, float attenuation, float tolerance);
 bool links_release(struct links *links, reference link);

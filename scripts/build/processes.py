@@ -87,7 +87,7 @@ def call(command: Sequence[str | Path], env: Mapping[str, str] | None = None, cw
 
 
 def was_interrupted() -> bool:
-    """Returns whether a signal has interrupted a command that `call` has run."""
+    """Returns whether a signal has interrupted this process or a command that `call` ran."""
     return _interrupted_at > 0
 
 

@@ -47,7 +47,7 @@ namespace Collektive.Unity.Editor
 
         /// <summary>
         /// Whether the jar is outdated: it was built from other sources, for another runtime, or by another package version, whose generated code would not
-        /// fit. Without programs, a jar that another build tool made is not outdated, and neither is a missing jar.
+        /// fit. Without programs, a missing jar and a jar that another build tool built are not outdated.
         /// </summary>
         /// <exception cref="ToolException">The runtime's jars are missing.</exception>
         internal bool IsStale
@@ -77,8 +77,10 @@ namespace Collektive.Unity.Editor
         internal bool HasGeneratedSince(DateTime time) => Directory.Exists(Generated)
             && Array.Exists(Directory.GetFiles(Generated, "*.cs", SearchOption.AllDirectories), file => File.GetLastWriteTimeUtc(file) >= time);
 
-        /// <summary>Returns all schemas, with the runtimes of the simulations in the loaded scenes. Includes inactive simulations,
-        /// because scripts can activate them, after the active ones.</summary>
+        /// <summary>
+        /// Returns all schemas, with the runtimes of the simulations in the loaded scenes. Active simulations determine them first. Inactive ones follow,
+        /// because scripts can activate them.
+        /// </summary>
         internal static List<SchemaProject> FindAll()
         {
 #if UNITY_6000_5_OR_NEWER
