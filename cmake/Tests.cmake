@@ -81,9 +81,9 @@ add_custom_target(sanitized
     -DCOLLEKTIVE_SANITIZE=ON "-DCOLLEKTIVE_JAVA_HOME=${COLLEKTIVE_JAVA_HOME}"
   COMMAND "${CMAKE_COMMAND}" --build "${COLLEKTIVE_BUILD}/sanitized" VERBATIM)
 
-suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules setup:platforms TIMEOUT 1800 UNLOCKED PARALLEL
+suite(platforms platforms LABELS all NEEDS build:runtime build:jvm_modules setup:zig setup:platforms TIMEOUT 1800 UNLOCKED PARALLEL
   SCRIPT platforms/run.py RESULTS --short linux-arm64)
-suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules setup:platforms TIMEOUT 3600 UNLOCKED
+suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules setup:zig setup:platforms TIMEOUT 3600 UNLOCKED
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PARALLEL PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT PARALLEL SCRIPT faults/faults.py --results RESULTS/faults.xml)

@@ -10,7 +10,7 @@ from build.places import LOGS
 
 # A command that another command starts continues the clock of that command.
 STARTED = float(os.environ.setdefault("COLLEKTIVE_STARTED", str(time.monotonic())))
-_step = ""
+_steps: set[str] = set()
 
 
 class Failure(Exception):
@@ -27,17 +27,16 @@ def print_progress(text: str) -> None:
 
 
 def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None, log: Path | None = None) -> None:
-    """Runs a command and writes its output to a log file. Successive commands with the same name share a log.
+    """Runs a command and writes its output to a log file. Commands with the same name share a log.
 
     If the exit code is not 0, prints the log and raises `Failure`.
     """
-    global _step
     path = log or LOGS / f"{name}.log"
     path.parent.mkdir(parents=True, exist_ok=True)
-    mode = "a" if name == _step else "w"
-    if name != _step:
+    mode = "a" if name in _steps else "w"
+    if name not in _steps:
         print_progress(f"{name} ...")
-    _step = name
+    _steps.add(name)
     with path.open(mode, encoding="utf-8") as file:
         code = subprocess.run(command, cwd=cwd, env=env, stdin=subprocess.DEVNULL, stdout=file, stderr=file).returncode
     if code == 0:

@@ -7,11 +7,13 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
+from threading import Lock
 from typing import Any
 
-from build import lock, maven_repository, system
+from build import lock, maven_repository, processes, system
 from build.console import Failure, print_progress, run_logged
 from build.places import BUILD, JVM, LOGS, ROOT
 
@@ -20,13 +22,31 @@ EXPERIMENTS = ROOT / "experiments"
 ACTIONLINT = "1.7.12"
 # Packages that only some commands add to the environment of experiments.
 ADDITIONS = ("experiments-tests", "ray", "tune")
+# Downloads mostly wait for the network.
+_AT_ONCE = 4
+# Processes of Maven must not write to its repository at the same time.
+_MAVEN = Lock()
 
 
 def fetch(*names: str) -> None:
-    """Fetches the named tools that are missing. Names are keys of `FETCHERS`."""
-    for name in names:
-        if name in ADDITIONS:
-            fetch("experiments")
+    """Fetches the named tools that are missing, several at a time. Names are keys of `FETCHERS`."""
+    additions = [name for name in ADDITIONS if name in names]
+    keys = {name: key_of(FETCHERS[name][0]) for name in ["experiments"] * bool(additions) + [name for name in names if name not in ADDITIONS]}
+
+    def missing() -> list[str]:
+        return [name for name, key in keys.items() if not _is_current(name, key)]
+
+    def fill() -> None:
+        with ThreadPoolExecutor(_AT_ONCE) as pool:
+            try:
+                for _ in pool.map(lambda name: _fill(name, keys[name], FETCHERS[name][1]), missing()):
+                    pass
+            finally:
+                pool.shutdown(cancel_futures=True)
+
+    lock.change(lambda: not missing(), fill)
+    # These write to the environment of the experiments.
+    for name in additions:
         inputs, fetcher = FETCHERS[name]
         fill_once(name, key_of(inputs), fetcher)
 
@@ -36,19 +56,28 @@ def fill_once(name: str, key: str, make: Callable[[Path], None]) -> Path:
 
     If filling the folder was interrupted, the next call repeats it.
     """
-    folder, stamp = BUILD / name, BUILD / "stamp" / name
+    lock.change(lambda: _is_current(name, key), lambda: _fill(name, key, make))
+    return BUILD / name
 
-    def fill() -> None:
-        stamp.unlink(missing_ok=True)
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
-        (LOGS / f"{name}.log").unlink(missing_ok=True)
-        make(folder)
-        stamp.parent.mkdir(parents=True, exist_ok=True)
-        stamp.write_text(key)
 
-    lock.change(lambda: _is_current(folder, stamp, key), fill)
-    return folder
+def _fill(name: str, key: str, make: Callable[[Path], None]) -> None:
+    folder, stamp = BUILD / name, _stamp(name)
+    stamp.unlink(missing_ok=True)
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    (LOGS / f"{name}.log").unlink(missing_ok=True)
+    make(folder)
+    stamp.parent.mkdir(parents=True, exist_ok=True)
+    stamp.write_text(key)
+
+
+def _is_current(name: str, key: str) -> bool:
+    stamp = _stamp(name)
+    return (BUILD / name).is_dir() and stamp.is_file() and stamp.read_text() == key
+
+
+def _stamp(name: str) -> Path:
+    return BUILD / "stamp" / name
 
 
 def key_of(inputs: Iterable[Path | str]) -> str:
@@ -63,15 +92,13 @@ def key_of(inputs: Iterable[Path | str]) -> str:
     return digest.hexdigest()
 
 
-def _is_current(folder: Path, stamp: Path, key: str) -> bool:
-    return folder.is_dir() and stamp.is_file() and stamp.read_text() == key
-
-
 def _downloaded(name: str, command: Sequence[str | Path], discard: Callable[[], None], **options: Any) -> None:
     """Runs a client of a registry. If it fails, discards its cache and runs it again, because a client may never replace a damaged file in the cache."""
     try:
         run_logged(name, command, **options)
     except Failure:
+        if processes.was_interrupted():
+            raise
         print_progress(f"{name} failed: retrying without cached downloads")
         discard()
         run_logged(name, command, **options)
@@ -155,9 +182,10 @@ def _build_tools(folder: Path) -> None:
 
 
 def _maven_jars(tool: str, folder: Path) -> None:
-    maven_repository.repair()
     kotlin = f"-Dkotlin.version={pom_value('kotlin.version')}"
-    run_logged(tool, ["mvn", "-B", "-ntp", "-f", TOOLS / tool / "pom.xml", kotlin, "dependency:copy-dependencies", f"-DoutputDirectory={folder}"])
+    with _MAVEN:
+        maven_repository.repair()
+        run_logged(tool, ["mvn", "-B", "-ntp", "-f", TOOLS / tool / "pom.xml", kotlin, "dependency:copy-dependencies", f"-DoutputDirectory={folder}"])
 
 
 def _actionlint(folder: Path) -> None:

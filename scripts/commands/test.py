@@ -61,12 +61,13 @@ LONG_RUNS = {
 
 
 class Suite(NamedTuple):
-    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. Its targets are the build targets that it needs."""
+    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. It needs build targets and fetched tools."""
 
     name: str
     labels: frozenset[str]
     is_disabled: bool = False
     targets: frozenset[str] = frozenset()
+    tools: frozenset[str] = frozenset()
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -174,14 +175,17 @@ def test(words: Sequence[str]) -> int:
     prepare()
     from tests import results
     suites = select_suites(read_suites(), words)
-    # One call of Ninja for all targets uses the processors better than the fixtures, each of which builds one target.
-    if targets := {target for suite in suites for target in suite.targets}:
-        try:
+    # One call for all tools, and one for all targets, use the processors better than the fixtures, each of which needs one of them.
+    tools = {tool for suite in suites for tool in suite.tools}
+    targets = {target for suite in suites for target in suite.targets}
+    try:
+        fetch.fetch(*sorted(tools))
+        if targets:
             graph.build(*sorted(targets))
-        except Failure:
-            if processes.was_interrupted():
-                raise
-    # Each suite locks the outputs itself, and its fixtures build targets that failed again.
+    except Failure:
+        if processes.was_interrupted():
+            raise
+    # Each suite locks the outputs itself, and its fixtures repeat what failed.
     lock.release()
     for suite in suites:
         shutil.rmtree(RESULTS / suite.name, ignore_errors=True)
@@ -197,8 +201,10 @@ def read_suites() -> list[Suite]:
         properties = {entry["name"]: entry["value"] for entry in test["properties"]}
         labels = frozenset(properties.get("LABELS", []))
         if labels & RUNS:
-            targets = frozenset(name.removeprefix("build-") for name in properties.get("FIXTURES_REQUIRED", []) if name.startswith("build-"))
-            suites.append(Suite(test["name"], labels, properties.get("DISABLED", False), targets))
+            fixtures = properties.get("FIXTURES_REQUIRED", [])
+            targets = frozenset(name.removeprefix("build-") for name in fixtures if name.startswith("build-"))
+            tools = frozenset(tool for tool in fetch.FETCHERS if f"setup-{tool}" in fixtures)
+            suites.append(Suite(test["name"], labels, properties.get("DISABLED", False), targets, tools))
     return suites
 
 
