@@ -255,3 +255,18 @@ class FullDisks(Project):
             self.skipTest("mounting is not permitted")
         self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
         self.assertRegex(last_error(result), "cannot write the record .*No space left")
+
+    def test_a_replay_whose_record_lacks_its_last_bytes_keeps_an_earlier_record(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"record": true')
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        record, earlier = self.path("out", "run.clkrec"), self.path("earlier.clkrec")
+        self.assertEqual(collektive("replay", record, "--out", earlier).returncode, 0)
+        with open(earlier, "rb") as file:
+            before = file.read()
+        result = subprocess.run(["prlimit", f"--fsize={len(before) - 6}", COLLEKTIVE, "replay", record, "--out", earlier], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 2, result.stdout + result.stderr)
+        self.assertIn("cannot write the record", result.stderr)
+        self.assertIn("the record of the replay is incomplete", last_error(result))
+        with open(earlier, "rb") as file:
+            self.assertEqual(file.read(), before)

@@ -27,6 +27,10 @@ public class RecordWriter internal constructor(private val path: String, private
     private val parts = arrayOf(header, header)
     private val crc = CRC32()
 
+    /** Whether [end] has written the whole record. */
+    public var isComplete: Boolean = false
+        private set
+
     /** Writes the `StepRequest` between position and limit of [frame]. */
     public fun step(frame: ByteBuffer): Unit = write(Chunk.STEP, frame)
 
@@ -45,8 +49,12 @@ public class RecordWriter internal constructor(private val path: String, private
     /** Writes the reason why the last step failed. */
     public fun failed(why: String): Unit = write(Chunk.FAIL, text(why))
 
-    /** Writes the end of a session that was closed normally. */
-    public fun end(): Unit = write(Chunk.END, NOTHING)
+    /** Writes the end of a session that was closed normally, and closes the file. */
+    public fun end() {
+        write(Chunk.END, NOTHING)
+        close()
+        isComplete = true
+    }
 
     override fun close() {
         channel.close()

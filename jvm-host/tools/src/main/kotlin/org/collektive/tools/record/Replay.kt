@@ -46,19 +46,22 @@ internal class Replay(
     fun run(): Boolean {
         val frame = openFrame(request)
         val readJars = { _: List<String> -> reloaded(checkNotNull(current)) }
+        var writer: RecordWriter? = null
         val session = SessionOpening.open(openRequest(frame), programs, this, readJars) {
-            out?.let { RecordWriter.create(it, frame, programs) }
+            out?.let { RecordWriter.create(it, frame, programs) }.also { writer = it }
         }
         val out = System.out
         val err = System.err
         HostLog(this).install()
-        return try {
+        val isEqual = try {
             run(session)
         } finally {
             session.close()
             System.setOut(out)
             System.setErr(err)
         }
+        if (writer?.isComplete == false) throw InvalidRecordException("the record of the replay is incomplete; the reason is above")
+        return isEqual
     }
 
     private fun run(session: Session): Boolean {
