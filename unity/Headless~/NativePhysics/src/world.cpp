@@ -245,10 +245,12 @@ static void filter_again(physics_world *world, PxRigidActor &actor) {
 }
 
 void physics_ignore_layers(physics_world *world, const uint32_t rows[32]) {
-    if (std::memcmp(world->ignored.layers, rows, sizeof world->ignored.layers) == 0) return;
+    uint32_t changed = 0;
+    for (int layer = 0; layer < 32; layer++) changed |= uint32_t(world->ignored.layers[layer] != rows[layer]) << layer;
     std::memcpy(world->ignored.layers, rows, sizeof world->ignored.layers);
-    for (Actor &each : world->actors)
-        if (each.rigid) filter_again(world, *each.rigid);
+    for (Shape &each : world->shapes)
+        if (each.shape && changed >> (each.shape->getSimulationFilterData().word0 & LAYER) & 1)
+            filter_again(world, *world->actors[each.actor].rigid);
 }
 
 void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t ignore) {

@@ -89,6 +89,18 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Ignoring_two_layers_keeps_the_triggers_of_other_layers()
+        {
+            Zone();
+            var mover = Mover(Vector3.zero);
+            StepAt(mover, 0f);
+            Notes.Clear();
+            Physics.IgnoreLayerCollision(8, 9);
+            StepAt(mover, 0f);
+            Assert.That(Events(), Is.EqualTo("zone stay mover"));
+        }
+
+        [Test]
         public void Another_detection_mode_keeps_a_body_in_its_triggers()
         {
             Zone();
