@@ -62,6 +62,9 @@ MORE_STATE = [
      "internal static class Kept { internal static readonly System.Func<int> Next = new Counter().Next; }"),
     ("lamps += (int)Kept.Network.delay++;", "internal static class Kept { "
      "internal static readonly Collektive.Bridge.NetworkModel Network = new Collektive.Bridge.NetworkModel(); }"),
+    ("lamps += Kept.Last.Count++;", "internal struct Kept { internal static Kept Last; internal int Count;"
+     "public override bool Equals(object other) => other is Kept; public override int GetHashCode() => 0; }"),
+    ("if (1 / Kept.Zero < 0) lamps++; Kept.Zero = -0f;", "internal static class Kept { internal static float Zero; }"),
     ('if (System.IO.Directory.GetCurrentDirectory() == "/") lamps++; System.IO.Directory.SetCurrentDirectory("/");', ""),
     ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var material = cube.GetComponent<MeshRenderer>().sharedMaterial;'
      'if (material.color == Color.red) lamps++; material.color = Color.red;', ""),
@@ -79,8 +82,15 @@ def test_a_run_is_not_affected_by_scripts_of_earlier_runs(project: Project, buil
     assert len(set(project.table()["nodes"])) == 1
 
 
-def test_static_fields_are_initialised_in_the_run_that_needs_them(project: Project) -> None:
-    change_scene(project, "lamps += (int)(First.Value * 50);", "internal static class First { public static readonly float Value = Random.value; }")
+@pytest.mark.parametrize(("build", "declared"), [
+    ("", "internal static class First { public static readonly float Value = Random.value; }"),
+    ("", "internal struct Draw { public float Number; internal static Draw Next() => new Draw { Number = Random.value }; }"
+     "internal static class First { private static readonly Draw Drawn = Draw.Next(); public static float Value => Drawn.Number; }"),
+    ("Range.Length = Random.value;", "internal static class Range { public static float Length; }"
+     "internal static class First { public static readonly float Value; static First() { Value = Range.Length; } }"),
+])
+def test_static_fields_are_initialised_in_the_run_that_needs_them(project: Project, build: str, declared: str) -> None:
+    change_scene(project, build + "lamps += (int)(First.Value * 50);", declared)
     assert project.sweep("--jobs", "1", **TWO).returncode == 0
     assert len(set(project.table()["nodes"])) > 1, "each run must have the value for its seed"
 

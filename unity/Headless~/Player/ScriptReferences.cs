@@ -96,7 +96,8 @@ namespace Collektive.Headless
                 }
                 if (IsStateless(type) || typeof(DataSchema).IsAssignableFrom(type)) continue;
                 if (type.IsGenericTypeDefinition && HasVariables(type)) return type.FullName;
-                if (type.TypeInitializer != null && DependsOnRun(type)) return "the static fields of " + type.FullName;
+                var initialiser = type.TypeInitializer;
+                if (initialiser != null && DependsOnRun(initialiser, new HashSet<MethodBase>())) return "the static fields of " + type.FullName;
             }
             return null;
         }
@@ -127,16 +128,30 @@ namespace Collektive.Headless
             return false;
         }
 
-        /// <summary>Returns whether the initial values of static fields could depend on the run in which the type is first used.</summary>
-        private static bool DependsOnRun(Type type)
+        /// <summary>
+        /// Returns whether the initial values of static fields could depend on the run in which their type is first used. The method is the type's
+        /// initialiser, or a method that it calls. Skips the methods in <paramref name="visited"/>.
+        /// </summary>
+        private static bool DependsOnRun(MethodBase method, HashSet<MethodBase> visited)
         {
-            foreach (var instruction in Instructions.Of(type.TypeInitializer.GetMethodBody().GetILAsByteArray()))
+            if (!visited.Add(method)) return false;
+            var body = method.GetMethodBody()?.GetILAsByteArray();
+            if (body == null) return true;
+            foreach (var instruction in Instructions.Of(body))
             {
+                if (instruction.Key.OperandType == OperandType.InlineField)
+                {
+                    var field = Resolved(() => method.Module.ResolveField(instruction.Value));
+                    var isConstant = field != null && (!field.IsStatic || field.IsInitOnly && !field.FieldType.IsArray || IsStateless(field.DeclaringType)
+                        || method is ConstructorInfo && method.IsStatic && field.DeclaringType == method.DeclaringType);
+                    if (!isConstant) return true;
+                }
                 if (instruction.Key.OperandType != OperandType.InlineMethod || instruction.Key == OpCodes.Ldftn) continue;
-                var called = Resolved(() => type.Module.ResolveMethod(instruction.Value));
+                var called = Resolved(() => method.Module.ResolveMethod(instruction.Value));
                 var owner = called?.DeclaringType;
                 if (owner == null) return true;
-                var isHarmless = owner.IsValueType || owner.Assembly == typeof(DataSchema).Assembly || IsStateless(owner) || owner == typeof(RuntimeHelpers)
+                var isHarmless = owner.IsValueType && (owner.Assembly != method.Module.Assembly || !DependsOnRun(called, visited))
+                    || owner.Assembly == typeof(DataSchema).Assembly || IsStateless(owner) || owner == typeof(RuntimeHelpers)
                     || owner == typeof(UnityEngine.Shader) || typeof(Delegate).IsAssignableFrom(owner) && called.IsConstructor;
                 if (!isHarmless) return true;
             }

@@ -13,6 +13,8 @@ namespace Collektive.Headless
     {
         private const BindingFlags StaticFields = BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Static | BindingFlags.DeclaredOnly;
 
+        private const BindingFlags InstanceFields = BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Instance;
+
         private readonly List<KeyValuePair<FieldInfo, object>> before = new List<KeyValuePair<FieldInfo, object>>();
 
         internal ScriptState(Assembly scripts)
@@ -55,15 +57,22 @@ namespace Collektive.Headless
         private static bool IsLambda(FieldInfo field) =>
             field.Name.StartsWith("<>", StringComparison.Ordinal) && typeof(Delegate).IsAssignableFrom(field.FieldType);
 
+        /// <summary>Compares all bits, because scripts can define which of their structs are equal, and 0 equals -0.</summary>
         private static bool AreEqual(object before, object now)
         {
-            if (!(before is Array was) || !(now is Array isNow)) return Equals(before, now);
-            if (was.Length != isNow.Length || was.Rank != 1 || isNow.Rank != 1) return false;
-            for (var i = 0; i < was.Length; i++)
+            if (before is Array was && now is Array isNow)
             {
-                if (!Equals(was.GetValue(i), isNow.GetValue(i))) return false;
+                if (was.Length != isNow.Length || was.Rank != 1 || isNow.Rank != 1) return false;
+                for (var i = 0; i < was.Length; i++)
+                {
+                    if (!AreEqual(was.GetValue(i), isNow.GetValue(i))) return false;
+                }
+                return true;
             }
-            return true;
+            if (before is double number && now is double other) return BitConverter.DoubleToInt64Bits(number) == BitConverter.DoubleToInt64Bits(other);
+            if (before is float single && now is float otherSingle) return AreEqual((double)single, (double)otherSingle);
+            if (!(before is ValueType) || !(now is ValueType) || before.GetType().IsPrimitive || before is Enum) return Equals(before, now);
+            return Array.TrueForAll(before.GetType().GetFields(InstanceFields), field => AreEqual(field.GetValue(before), field.GetValue(now)));
         }
 
         /// <summary>Returns whether a type is a delegate or used by the generated code of a schema.</summary>
@@ -78,7 +87,7 @@ namespace Collektive.Headless
         {
             if (type.IsPrimitive || type.IsEnum || type == typeof(string)) return true;
             if (!type.IsValueType) return false;
-            foreach (var field in type.GetFields(BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.Instance))
+            foreach (var field in type.GetFields(InstanceFields))
             {
                 if (field.FieldType != type && !IsValueData(field.FieldType)) return false;
             }
