@@ -53,7 +53,7 @@ MORE_STATE = [
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
     ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var mesh = cube.GetComponent<MeshFilter>().sharedMesh;'
      'if (mesh.bounds.size.x > 1) lamps++; mesh.bounds = new Bounds(Vector3.zero, 2 * Vector3.one);', ""),
-    ('lamps += new GameObject("id").GetHashCode() % 7;', ""),
+    ('GameObject.CreatePrimitive(PrimitiveType.Cube).AddComponent<Rigidbody>(); lamps += new GameObject("id").GetHashCode() % 7;', ""),
     ('if (Collektive.Bridge.Jvm.GetStatus().Classes > lamps * 1000) lamps++; Collektive.Bridge.JvmRecording.Start("lamps.jfr");', ""),
     ("lamps += Kept.Next();", "internal static class Kept { internal static readonly System.Func<int> Next = "
      "((System.Func<System.Func<int>>)(() => { var count = 0; return () => count++; }))(); }"),

@@ -79,8 +79,8 @@ namespace UnityEngine
             get
             {
                 if (ownsMaterial) return assignedMaterial;
-                var source = EffectiveMaterial;
-                assignedMaterial = new PhysicsMaterial(source.name + " (Instance)") { Values = source.Values };
+                var name = assignedMaterial ? assignedMaterial.name : "Default";
+                assignedMaterial = new PhysicsMaterial(name + " (Instance)") { Values = MaterialValues };
                 ownsMaterial = true;
                 return assignedMaterial;
             }
@@ -92,7 +92,7 @@ namespace UnityEngine
             }
         }
 
-        PhysicsMaterial EffectiveMaterial => assignedMaterial ? assignedMaterial : PhysicsMaterial.Default;
+        Physx.Material MaterialValues => assignedMaterial ? assignedMaterial.Values : PhysicsMaterial.Defaults;
 
         /// Whether physics can compute closest points of the shape.
         internal virtual bool HasClosestPoint => true;
@@ -214,7 +214,7 @@ namespace UnityEngine
             }
             if (!(Body is null))
                 shape.Pose = new Physx.Pose(position + rotation * shape.Pose.Position, (rotation * shape.Pose.Rotation).normalized);
-            shape.Material = EffectiveMaterial.Values;
+            shape.Material = MaterialValues;
             shape.Identity = (uint)id;
             shape.Layer = owner.layer;
             shape.Trigger = ownIsTrigger ? 1 : 0;

@@ -10,12 +10,13 @@ namespace UnityEngine
 
     public class PhysicsMaterial : Object
     {
-        internal static readonly PhysicsMaterial Default = new PhysicsMaterial("Default");
+        /// The values of colliders without a material. They are not an object, whose creation would change the hash codes of the first run's objects.
+        internal static readonly Physx.Material Defaults = new Physx.Material { StaticFriction = 0.6f, DynamicFriction = 0.6f };
 
         /// Number of changes of all materials. Colliders check their materials when it increases.
         internal static int Changes { get; private set; }
 
-        Physx.Material values = new Physx.Material { StaticFriction = 0.6f, DynamicFriction = 0.6f };
+        Physx.Material values = Defaults;
 
         public PhysicsMaterial() { }
         public PhysicsMaterial(string name) => NameImpl = name;
