@@ -36,6 +36,9 @@ def run_in_group(main: Callable[[], int]) -> int:
         os.close(watched)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, _interrupted)
+        # A background group that reads from a terminal, or writes to it after `stty tostop`, would stop until another process continues it.
+        for number in (signal.SIGTTIN, signal.SIGTTOU):
+            signal.signal(number, signal.SIG_IGN)
         sys.exit(main())
     with contextlib.suppress(OSError):  # the child may already have set its group, or may have ended
         os.setpgid(group, group)
@@ -52,8 +55,7 @@ def run_in_group(main: Callable[[], int]) -> int:
 
     def forward(number: int, _: FrameType | None) -> None:
         received.append(number)
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(group, signal.SIGINT if number == signal.SIGINT else signal.SIGTERM)
+        _end_group(group, signal.SIGINT if number == signal.SIGINT else signal.SIGTERM)
 
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, forward)
@@ -120,9 +122,15 @@ def _watch(watched: int, lifeline: int, group: int) -> None:
     for descriptor in range(3):
         os.dup2(empty, descriptor)
     os.read(watched, 1)
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(group, signal.SIGTERM)
+    _end_group(group, signal.SIGTERM)
     os._exit(0)
+
+
+def _end_group(group: int, number: signal.Signals) -> None:
+    """Sends a signal to a group, and continues its stopped processes, which would not receive it."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(group, number)
+        os.killpg(group, signal.SIGCONT)
 
 
 def _reap(process: int | None = None) -> None:

@@ -1,4 +1,5 @@
 """Tests that signals reach all processes of a command, and that no process is left when the command ends."""
+import os
 import signal
 import time
 from pathlib import Path
@@ -71,6 +72,30 @@ def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout) -> None:
     process.kill()
     process.wait()
     assert ends(child)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_a_signal_ends_stopped_processes(checkout: Checkout, number: signal.Signals) -> None:
+    process = checkout.start(run_in_group(SLEEP))
+    child = child_of(checkout)
+    os.killpg(os.getpgid(child), signal.SIGSTOP)
+    process.send_signal(number)
+    assert process.wait(20) == 128 + number
+    assert ends(child)
+
+
+@pytest.mark.parametrize("body, code", [("print('text', flush=True)", 0), ("sys.stdin.read()", 1)])
+def test_a_terminal_does_not_stop_a_command(checkout: Checkout, body: str, code: int) -> None:
+    program = f"""import os, pty, termios
+pid, terminal = pty.fork()
+if pid == 0:
+    settings = termios.tcgetattr(0)
+    settings[3] |= termios.TOSTOP
+    termios.tcsetattr(0, termios.TCSANOW, settings)
+    {run_in_group(body)}
+sys.exit(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]))
+"""
+    assert checkout.start(program).wait(20) == code
 
 
 def test_an_interrupt_lets_the_running_program_end_normally(checkout: Checkout) -> None:
