@@ -4,7 +4,7 @@ Documentation~/headless.md describes scenario files.
 
 The run stops after a tick in which all rounds failed, unless --keep-going is set.
 
-Exit code: 0 the simulation reached its end; 1 it stopped early, or rounds, sensors or actuators failed; 130 Ctrl-C; any code that a script
+Exit code: 0 the simulation reached its end; 1 it stopped early, or rounds, components or handlers failed; 130 Ctrl-C; any code that a script
 passed to Application.Quit."""
 import argparse
 import os

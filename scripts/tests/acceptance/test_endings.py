@@ -68,6 +68,13 @@ class WholeRuns(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("100 million", last_error(result))
 
+    def test_an_exception_in_a_callback_is_an_error(self) -> None:
+        result = self.at_tick_4('throw new System.InvalidOperationException("deliberate");')
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("1 errors", last_error(result))
+        manifest = self.manifest(self.path("out"))
+        self.assertEqual((manifest["ticks"], manifest["errors"]), (10, 1))
+
     def test_a_replay_ends_at_the_end_of_the_run(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.03')

@@ -60,11 +60,12 @@ namespace Collektive.Headless
         /// <summary>Adds the results and the versions.</summary>
         /// <param name="parameters">Parameters of the programs that ran.</param>
         /// <param name="ticks">Number of completed ticks.</param>
+        /// <param name="errors">Number of errors.</param>
         /// <param name="start">Values of the metrics before the first tick.</param>
         /// <param name="end">Values of the metrics after the last tick.</param>
         /// <param name="calls">Number of calls into the JVM.</param>
         internal void AddResults(
-            SimulationManager manager, JObject parameters, int ticks, RunMetrics metrics, IReadOnlyList<double> start, IReadOnlyList<double> end,
+            SimulationManager manager, JObject parameters, int ticks, long errors, RunMetrics metrics, IReadOnlyList<double> start, IReadOnlyList<double> end,
             double wallSeconds, ulong calls)
         {
             var description = Jvm.Description.Split('\n');
@@ -73,7 +74,7 @@ namespace Collektive.Headless
             Root["ticks"] = ticks;
             Root.Add(new JProperty("shim_calls", calls));
             Root.Add(new JProperty("digest", manager.Digest.ToString("x16")));
-            Root.Add(new JProperty("errors", manager.ErrorCount));
+            Root.Add(new JProperty("errors", errors));
             Root.Add(new JProperty("start", Metrics(metrics, start)));
             Root.Add(new JProperty("end", Metrics(metrics, end)));
             Root.Add(new JProperty("wall_seconds", Math.Round(wallSeconds, 3)));

@@ -54,7 +54,7 @@ namespace Collektive.Headless
         /// <summary>Runs the scenario.</summary>
         /// <returns>
         /// The exit code. After <c>Application.Quit</c> in a script, it is the script's exit code; after Ctrl-C, it is 130. It is 1 if the simulation stopped
-        /// early, if rounds, sensors or actuators failed, or if a repeated run had different results. Otherwise, it is 0.
+        /// early, if rounds, components or handlers failed, or if a repeated run had different results. Otherwise, it is 0.
         /// </returns>
         internal int Run()
         {
@@ -211,6 +211,7 @@ namespace Collektive.Headless
             var hadNodes = manager.Nodes.Count > 0;
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
+            var errors = 0L;
             using (limit = new FrameLimit(manager, GiveUp))
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, runMetrics, manager))
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
@@ -283,8 +284,9 @@ namespace Collektive.Headless
                     throw new IOException("'" + record + "' was moved or deleted during the run");
                 if (manager.Simulation.IsOpen) metrics.Measure();
                 replay?.Finish(options.Template, Path.Combine(options.Out, "replay.html"));
+                errors = manager.ErrorCount + Loop.FailedCalls;
                 manifest.AddResults(
-                    manager, parameters.ToJson(), completedTicks, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
+                    manager, parameters.ToJson(), completedTicks, errors, runMetrics, start, metrics.Values, progress.Seconds, Jvm.StepCalls - callsBefore);
                 manifest.AddConvergence(scenario.Convergence.Times());
                 if (nodes != null) manifest.AddNodeColumns(nodes.Types);
                 manifest.AddTimes(roundTimes, stepTimes, totalTimes);
@@ -319,9 +321,9 @@ namespace Collektive.Headless
             // Exit codes have only eight bits, so 256 would become 0.
             var quitCode = Loop.ExitCode == 0 ? 0 : Math.Max(1, Loop.ExitCode & 0xff);
             if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
-            if (manager.ErrorCount == 0) return isRepeated ? 0 : 1;
+            if (errors == 0) return isRepeated ? 0 : 1;
             Console.Error.WriteLine(
-                "collektive: the run ended, but " + manager.ErrorCount + " errors occurred in rounds, sensors, actuators, rules or handlers; see above");
+                "collektive: the run ended, but " + errors + " errors occurred in rounds, sensors, actuators, rules, handlers or callbacks; see above");
             return 1;
         }
 

@@ -181,6 +181,7 @@ namespace Collektive.Headless.Tests.Engine
             Loop.Frame(0.001f);
             Assert.That(Events(), Is.EqualTo("w.Start w.Update w.LateUpdate w.Update w.LateUpdate"));
             Assert.That(Errors, Is.EqualTo(new[] { "start failed", "update failed", "update failed" }));
+            Assert.That(Loop.FailedCalls, Is.EqualTo(3));
         }
 
         [Test]

@@ -49,7 +49,7 @@ namespace UnityEngine
                 }
                 catch (Exception exception)
                 {
-                    Debug.LogException(exception, Owner);
+                    Headless.Loop.LogFailedCall(exception, Owner);
                     IsDone = true;
                     return;
                 }

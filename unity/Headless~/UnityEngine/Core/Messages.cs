@@ -72,7 +72,7 @@ namespace UnityEngine
             }
             catch (Exception exception)
             {
-                Debug.LogException(exception, target);
+                Headless.Loop.LogFailedCall(exception, target);
                 return false;
             }
         }
@@ -86,7 +86,7 @@ namespace UnityEngine
             }
             catch (Exception exception)
             {
-                Debug.LogException(exception, target);
+                Headless.Loop.LogFailedCall(exception, target);
             }
         }
 

@@ -49,6 +49,9 @@ namespace UnityEngine.Headless
         public static bool QuitRequested { get; private set; }
         public static int ExitCode { get; private set; }
 
+        /// Number of message methods, coroutines and other callbacks that threw an exception.
+        public static long FailedCalls { get; private set; }
+
         /// Enters play mode. Seeds `Random`, runs the methods with [RuntimeInitializeOnLoadMethod] of all loaded assemblies, and calls `buildScene` when
         /// Unity would load the first scene. Objects that were created before also belong to the scene.
         public static void Start(int seed, Action buildScene = null)
@@ -120,6 +123,13 @@ namespace UnityEngine.Headless
             OrderSeed = 0;
             QuitRequested = false;
             ExitCode = 0;
+            FailedCalls = 0;
+        }
+
+        internal static void LogFailedCall(Exception exception, Object context = null)
+        {
+            FailedCalls++;
+            Debug.LogException(exception, context);
         }
 
         /// Calls each handler. If a handler throws an exception, logs it and calls the next one.
@@ -134,7 +144,7 @@ namespace UnityEngine.Headless
                 }
                 catch (Exception exception)
                 {
-                    Debug.LogException(exception);
+                    LogFailedCall(exception);
                 }
             }
         }
@@ -177,7 +187,7 @@ namespace UnityEngine.Headless
                 }
                 catch (TargetInvocationException exception)
                 {
-                    Debug.LogException(exception.InnerException);
+                    LogFailedCall(exception.InnerException);
                 }
             }
         }
