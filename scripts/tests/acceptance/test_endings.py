@@ -161,6 +161,21 @@ class WholeRuns(Project):
         self.assertEqual(result.returncode, 1)
         self.assertIn("run.clkrec' was moved or deleted during the run", last_error(result))
 
+    def test_a_run_keeps_the_files_of_another_run_that_replaced_its_folder(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
+        out, other = self.path("out"), self.path("other")
+        os.mkdir(other)
+        names = ("manifest.json", "manifest.json.part", "metrics.csv", "replay.html", "replay.tmp")
+        for name in names:
+            with open(os.path.join(other, name), "w") as file:
+                file.write("other")
+        result = self.at_tick_4(f'System.IO.Directory.Move("{out}", "{out}.moved"); System.IO.Directory.Move("{other}", "{out}");')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("out' was moved, deleted or replaced during the run", last_error(result))
+        for name in names:
+            with open(os.path.join(out, name)) as file:
+                self.assertEqual(file.read(), "other")
+
     def test_the_exit_code_of_a_script_is_returned(self) -> None:
         for code, expected in [(3, 3), (256, 1)]:
             with self.subTest(code):

@@ -59,6 +59,7 @@ namespace Collektive.Headless
         internal int Run()
         {
             Directory.CreateDirectory(options.Out);
+            ResultFile.OpenFolder(options.Out);
             Installation.HostJar = options.HostJar;
             Installation.JavaHome = options.JavaHome;
             Loop.PhysicsThreads = scenario.Settings.threads;

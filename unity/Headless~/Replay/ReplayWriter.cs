@@ -222,7 +222,7 @@ namespace Collektive.Headless
             }
             finally
             {
-                if (scratchPath != null) File.Delete(scratchPath);
+                if (scratchPath != null) ResultFile.Delete(scratchPath);
             }
         }
 

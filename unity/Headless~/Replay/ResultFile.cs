@@ -12,9 +12,25 @@ namespace Collektive.Headless
         /// <summary>Whether files are synced, which takes some milliseconds each. A sweep syncs the files of a run itself.</summary>
         internal static bool Syncs { get; set; } = true;
 
+        private static string folder;
+        private static int descriptor = -1;
+
+        /// <summary>
+        /// Opens the folder of a run. After a user has moved, deleted or replaced it, no file at its path is written or deleted, because another run may use
+        /// the path.
+        /// </summary>
+        internal static void OpenFolder(string path)
+        {
+            if (descriptor >= 0) Syscall.close(descriptor);
+            folder = path;
+            descriptor = Syscall.open(path, OpenFlags.O_RDONLY | OpenFlags.O_CLOEXEC);
+            if (descriptor < 0) throw Failure(path);
+        }
+
         /// <summary>Creates a file that grows during the run. An existing file is replaced.</summary>
         internal static StreamWriter Create(string path)
         {
+            RequireFolder(path);
             File.Delete(path);
             return new StreamWriter(new FileStream(path, FileMode.CreateNew, FileAccess.Write, FileShare.Read), new UTF8Encoding(false));
         }
@@ -25,9 +41,13 @@ namespace Collektive.Headless
         internal static void RequireInPlace(TextWriter writer)
         {
             if (!((writer as StreamWriter)?.BaseStream is FileStream file)) return;
-            if (Syscall.fstat((int)file.SafeFileHandle.DangerousGetHandle(), out var open) != 0) throw Failure(file.Name);
-            if (Syscall.lstat(file.Name, out var found) != 0 || found.st_ino != open.st_ino || found.st_dev != open.st_dev)
-                throw new IOException("'" + file.Name + "' was moved, deleted or replaced during the run");
+            if (!IsAt((int)file.SafeFileHandle.DangerousGetHandle(), file.Name)) throw Replaced(file.Name);
+        }
+
+        /// <summary>Deletes a file of <see cref="Create"/>.</summary>
+        internal static void Delete(string path)
+        {
+            if (IsInPlace(path)) File.Delete(path);
         }
 
         /// <summary>
@@ -40,12 +60,13 @@ namespace Collektive.Headless
             {
                 using (var writer = Create(part)) write(writer);
                 Sync(part);
+                RequireFolder(path);
                 if (Syscall.renameat(Syscall.AT_FDCWD, part, Syscall.AT_FDCWD, path) != 0) throw Failure(path);
                 Sync(Path.GetDirectoryName(Path.GetFullPath(path)));
             }
             catch
             {
-                File.Delete(part);
+                Delete(part);
                 throw;
             }
         }
@@ -67,6 +88,18 @@ namespace Collektive.Headless
                 Syscall.close(descriptor);
             }
         }
+
+        private static void RequireFolder(string path)
+        {
+            if (!IsInPlace(path)) throw Replaced(folder);
+        }
+
+        private static bool IsInPlace(string path) => Path.GetDirectoryName(path) != folder || IsAt(descriptor, folder);
+
+        private static bool IsAt(int descriptor, string path) => Syscall.fstat(descriptor, out var open) == 0 && Syscall.lstat(path, out var found) == 0
+            && found.st_ino == open.st_ino && found.st_dev == open.st_dev;
+
+        private static IOException Replaced(string path) => new IOException("'" + path + "' was moved, deleted or replaced during the run");
 
         private static IOException Failure(string path) => new IOException("'" + path + "': " + UnixMarshal.GetErrorDescription(Stdlib.GetLastError()));
     }
