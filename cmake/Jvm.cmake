@@ -17,12 +17,11 @@ function(jvm_step TARGET COMMENT)
     FOLDERS ${mains} ${J_FOLDERS} "${PROJECT_SOURCE_DIR}/schema" ${schemas})
 endfunction()
 
-# All tests, all modules, and the modules that run scenes and the samples. Each step uses the terminal, so Ninja runs one at a time, in this order: if it
-# runs all of them, the first one leaves nothing to do for the others.
+# The modules that run scenes and the samples, all modules, and all tests. Each step uses the terminal, so Ninja runs one at a time.
+jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin programs BYPRODUCTS "${GENERATOR_JAR}")
+jvm_step(jvm_modules "all modules of the JVM side")
 file(GLOB tests "${JVM}/*/src")
 jvm_step(jvm_tests "tests of the JVM side" WORDS --tests FOLDERS ${tests})
-jvm_step(jvm_modules "all modules of the JVM side")
-jvm_step(jvm "JVM side" WORDS host tools generator compiler-plugin programs BYPRODUCTS "${GENERATOR_JAR}")
 
 # A library of programs for each sample, from the jar of all samples.
 collektive_python(sample_programs build/sample_programs.py)
