@@ -68,7 +68,7 @@ foreach(jdk ${COLLEKTIVE_TEST_JDKS})
   suite(csharp-own-process-on-${name} csharp LABELS ${own_process} NEEDS ${csharp_needs} NUNIT PARALLEL ENVIRONMENT "COLLEKTIVE_TEST_PLACEMENT=OwnProcess"
     SCRIPT csharp.py RESULTS "${jdk}" ${usual})
   suite(csharp-debugger-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Debugger)
-  # These tests measure times, and other suites would slow them down.
+  # These tests measure durations, which suites in parallel would distort.
   suite(csharp-slow-on-${name} csharp LABELS ${slow} NEEDS ${csharp_needs} NUNIT SCRIPT csharp.py RESULTS "${jdk}" mono-sgen --only Slow --without Repeats)
 endforeach()
 # These suites include all repetitions. On CoreCLR, hashes need OpenSSL 1.1. Time limits need Mono.

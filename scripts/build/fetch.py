@@ -31,7 +31,8 @@ _MAVEN = Lock()
 def fetch(*names: str) -> None:
     """Fetches the named tools that are missing, several at a time. Names are keys of `FETCHERS`."""
     additions = [name for name in ADDITIONS if name in names]
-    keys = {name: key_of(FETCHERS[name][0]) for name in ["experiments"] * bool(additions) + [name for name in names if name not in ADDITIONS]}
+    independent = [*(["experiments"] if additions else []), *(name for name in names if name not in ADDITIONS)]
+    keys = {name: key_of(FETCHERS[name][0]) for name in independent}
 
     def missing() -> list[str]:
         return [name for name, key in keys.items() if not _is_current(name, key)]
@@ -39,8 +40,7 @@ def fetch(*names: str) -> None:
     def fill() -> None:
         with ThreadPoolExecutor(_AT_ONCE) as pool:
             try:
-                for _ in pool.map(lambda name: _fill(name, keys[name], FETCHERS[name][1]), missing()):
-                    pass
+                list(pool.map(lambda name: _fill(name, keys[name], FETCHERS[name][1]), missing()))
             finally:
                 pool.shutdown(cancel_futures=True)
 

@@ -36,7 +36,7 @@ def run_in_group(main: Callable[[], int]) -> int:
         os.close(watched)
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, _interrupted)
-        # A background group that reads from a terminal, or writes to it after `stty tostop`, would stop until another process continues it.
+        # Otherwise, a background group that reads from a terminal, or writes to it after `stty tostop`, would stop until it receives SIGCONT.
         for number in (signal.SIGTTIN, signal.SIGTTOU):
             signal.signal(number, signal.SIG_IGN)
         sys.exit(main())

@@ -23,6 +23,7 @@ import site
 import subprocess
 import sys
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -61,7 +62,7 @@ LONG_RUNS = {
 
 
 class Suite(NamedTuple):
-    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. It needs build targets and fetched tools."""
+    """A suite as CTest knows it. Its labels are the runs that it is part of, and its area. `targets` and `tools` are what it needs."""
 
     name: str
     labels: frozenset[str]
@@ -175,18 +176,20 @@ def test(words: Sequence[str]) -> int:
     prepare()
     from tests import results
     suites = select_suites(read_suites(), words)
-    # One call for all tools, and one for all targets, use the processors better than the fixtures, each of which needs one of them.
+    # One call for all tools, and one for all targets, use the processors better than the fixtures of the suites.
     tools = {tool for suite in suites for tool in suite.tools}
-    targets = {target for suite in suites for target in suite.targets}
-    try:
-        fetch.fetch(*sorted(tools))
-        if targets:
-            # Ninja begins with the first target. If this is jvm_tests, Maven runs once: nothing is left to do for the other targets of the JVM side.
-            graph.build(*sorted(targets, key=lambda target: (target != "jvm_tests", target)))
-    except Failure:
-        if processes.was_interrupted():
-            raise
-    # Each suite locks the outputs itself, and its fixtures repeat what failed.
+    # Ninja 1.11 begins with the first target. After jvm_tests, Maven has nothing to do for the other targets of the JVM side.
+    targets = sorted({target for suite in suites for target in suite.targets}, key=lambda target: (target != "jvm_tests", target))
+    steps = [partial(fetch.fetch, *sorted(tools))]
+    if targets:
+        steps.append(partial(graph.build, *targets))
+    for step in steps:
+        try:
+            step()
+        except (Failure, OSError, subprocess.CalledProcessError):
+            if processes.was_interrupted():
+                raise
+    # Each suite locks the outputs itself, and its fixtures retry failed tools and targets.
     lock.release()
     for suite in suites:
         shutil.rmtree(RESULTS / suite.name, ignore_errors=True)

@@ -60,7 +60,7 @@ namespace Collektive.Headless
         /// <summary>Adds the results and the versions.</summary>
         /// <param name="parameters">Parameters of the programs that ran.</param>
         /// <param name="ticks">Number of completed ticks.</param>
-        /// <param name="errors">Number of errors.</param>
+        /// <param name="errors">Number of failed rounds, sensors, actuators, rules, handlers and callbacks.</param>
         /// <param name="start">Values of the metrics before the first tick.</param>
         /// <param name="end">Values of the metrics after the last tick.</param>
         /// <param name="calls">Number of calls into the JVM.</param>

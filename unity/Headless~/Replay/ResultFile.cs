@@ -16,8 +16,8 @@ namespace Collektive.Headless
         private static int descriptor = -1;
 
         /// <summary>
-        /// Opens the folder of a run. After a user has moved, deleted or replaced it, no file at its path is written or deleted, because another run may use
-        /// the path.
+        /// Opens the folder of a run. After a user has moved, deleted or replaced it, this class writes and deletes no file at its path, because another run
+        /// may use the path.
         /// </summary>
         internal static void OpenFolder(string path)
         {
@@ -44,7 +44,7 @@ namespace Collektive.Headless
             if (!IsAt((int)file.SafeFileHandle.DangerousGetHandle(), file.Name)) throw Replaced(file.Name);
         }
 
-        /// <summary>Deletes a file of <see cref="Create"/>.</summary>
+        /// <summary>Deletes a file of <see cref="Create"/>, unless the folder was replaced.</summary>
         internal static void Delete(string path)
         {
             if (IsInPlace(path)) File.Delete(path);

@@ -151,7 +151,7 @@ namespace Collektive.Headless.Tests.Simulation
                 Menus.Draw(window);
             });
             Print("diagnostics window, an event", milliseconds);
-            var first = ThreadClock.Least(10 * Tries, () =>
+            var first = ThreadClock.Least(Tries, () =>
             {
                 Gui.Clear();
                 Menus.Send(window, "OnInspectorUpdate");

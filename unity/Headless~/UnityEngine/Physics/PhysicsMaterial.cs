@@ -10,7 +10,7 @@ namespace UnityEngine
 
     public class PhysicsMaterial : Object
     {
-        /// The values of colliders without a material. They are not an object, whose creation would change the hash codes of the first run's objects.
+        /// The values of colliders without a material. A struct, because creating an object would change the hash codes of the first run.
         internal static readonly Physx.Material Defaults = new Physx.Material { StaticFriction = 0.6f, DynamicFriction = 0.6f };
 
         /// Number of changes of all materials. Colliders check their materials when it increases.
