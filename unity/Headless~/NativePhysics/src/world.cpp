@@ -237,10 +237,11 @@ physics_world *physics_world_create(int32_t threads) {
 
 void physics_world_destroy(physics_world *world) { delete world; }
 
-static void filter_again(physics_world *world, PxRigidActor &actor) {
+static void filter_again(physics_world *world, const Shape &shape) {
+    PxRigidActor &actor = *world->actors[shape.actor].rigid;
     if (!actor.getScene()) return;
     world->removal = physics_world::ENDS;
-    world->scene->resetFiltering(actor);
+    world->scene->resetFiltering(actor, &shape.shape, 1);
     world->removal = physics_world::REMOVED;
 }
 
@@ -248,17 +249,16 @@ void physics_ignore_layers(physics_world *world, const uint32_t rows[32]) {
     uint32_t changed = 0;
     for (int layer = 0; layer < 32; layer++) changed |= uint32_t(world->ignored.layers[layer] != rows[layer]) << layer;
     std::memcpy(world->ignored.layers, rows, sizeof world->ignored.layers);
-    for (Shape &each : world->shapes)
-        if (each.shape && changed >> (each.shape->getSimulationFilterData().word0 & LAYER) & 1)
-            filter_again(world, *world->actors[each.actor].rigid);
+    for (const Shape &each : world->shapes)
+        if (each.shape && changed >> (each.shape->getSimulationFilterData().word0 & LAYER) & 1) filter_again(world, each);
 }
 
 void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t ignore) {
     const bool changed = ignore ? world->ignored.pairs.insert(Ignored::key(identity, other)).second
                                 : world->ignored.pairs.erase(Ignored::key(identity, other)) > 0;
     if (!changed) return;
-    for (Shape &each : world->shapes)
-        if (each.shape && (each.identity == identity || each.identity == other)) filter_again(world, *world->actors[each.actor].rigid);
+    for (const Shape &each : world->shapes)
+        if (each.shape && (each.identity == identity || each.identity == other)) filter_again(world, each);
 }
 
 int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_pose *at) {

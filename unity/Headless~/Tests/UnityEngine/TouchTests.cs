@@ -88,11 +88,16 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(string.Join(", ", Notes), Is.EqualTo("zone exit mover, zone enter mover, zone stay mover"));
         }
 
-        [Test]
-        public void Ignoring_two_layers_keeps_the_triggers_of_other_layers()
+        [TestCase(0)]
+        [TestCase(8)]
+        public void Ignoring_two_layers_keeps_the_triggers_of_other_layers(int layerOfAnotherCollider)
         {
             Zone();
             var mover = Mover(Vector3.zero);
+            var other = new GameObject("other") { layer = layerOfAnotherCollider };
+            other.transform.SetParent(mover.transform, false);
+            other.transform.localPosition = new Vector3(9f, 0f, 0f);
+            other.AddComponent<SphereCollider>();
             StepAt(mover, 0f);
             Notes.Clear();
             Physics.IgnoreLayerCollision(8, 9);
