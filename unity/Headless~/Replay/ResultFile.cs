@@ -13,7 +13,7 @@ namespace Collektive.Headless
         internal static bool Syncs { get; set; } = true;
 
         private static string folder;
-        private static int descriptor = -1;
+        private static int folderDescriptor = -1;
 
         /// <summary>
         /// Opens the folder of a run. After a user has moved, deleted or replaced it, this class writes and deletes no file at its path, because another run
@@ -21,10 +21,10 @@ namespace Collektive.Headless
         /// </summary>
         internal static void OpenFolder(string path)
         {
-            if (descriptor >= 0) Syscall.close(descriptor);
+            if (folderDescriptor >= 0) Syscall.close(folderDescriptor);
             folder = path;
-            descriptor = Syscall.open(path, OpenFlags.O_RDONLY | OpenFlags.O_CLOEXEC);
-            if (descriptor < 0) throw Failure(path);
+            folderDescriptor = Syscall.open(path, OpenFlags.O_RDONLY | OpenFlags.O_CLOEXEC);
+            if (folderDescriptor < 0) throw Failure(path);
         }
 
         /// <summary>Creates a file that grows during the run. An existing file is replaced.</summary>
@@ -94,7 +94,7 @@ namespace Collektive.Headless
             if (!IsInPlace(path)) throw Replaced(folder);
         }
 
-        private static bool IsInPlace(string path) => Path.GetDirectoryName(path) != folder || IsAt(descriptor, folder);
+        private static bool IsInPlace(string path) => Path.GetDirectoryName(path) != folder || IsAt(folderDescriptor, folder);
 
         private static bool IsAt(int descriptor, string path) => Syscall.fstat(descriptor, out var open) == 0 && Syscall.lstat(path, out var found) == 0
             && found.st_ino == open.st_ino && found.st_dev == open.st_dev;
