@@ -21,7 +21,7 @@ namespace Collektive.Headless.Tests.Simulation
     public sealed class SceneSpeedTests : SimulationFixture
     {
         private const int Count = 1000;
-        private const int Tries = 15;
+        private const int Tries = 60;
 
         [TearDown]
         public void CloseWindow()
@@ -129,7 +129,7 @@ namespace Collektive.Headless.Tests.Simulation
             });
             Play(2);
             var best = double.MaxValue;
-            for (var i = 0; i < 4 * Tries; i++)
+            for (var i = 0; i < Tries; i++)
             {
                 Manager.Step();
                 best = Math.Min(best, Manager.Times.Sense);
@@ -215,7 +215,7 @@ namespace Collektive.Headless.Tests.Simulation
         private double ShortestRuleUpdate(Action before)
         {
             var best = double.MaxValue;
-            for (var i = 0; i < 4 * Tries; i++)
+            for (var i = 0; i < Tries; i++)
             {
                 before();
                 Manager.Step();
