@@ -32,6 +32,7 @@ def test_results_inside_an_input_are_refused(project: Project) -> None:
     assert not (project.folder / "project/programs/out").exists()
 
 
+@pytest.mark.slow
 def test_runs_use_copies_of_linked_and_included_files(project: Project) -> None:
     folder = project.folder / "project"
     (folder / "light.fbs").rename(project.folder / "light.fbs")

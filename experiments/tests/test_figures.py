@@ -85,6 +85,7 @@ def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
     assert contents() == contents()
 
 
+@pytest.mark.slow
 def test_limits_may_be_negative(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(out), "--metric", "error", "--range", "-5:-1.5"]) == 0, capsys.readouterr().err
 
@@ -190,6 +191,7 @@ def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
         plot(folder)
 
 
+@pytest.mark.slow
 def test_metrics_that_differ_only_in_case_have_distinct_files(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 2, (0.0,), figures=[{"metric": ["nodes", "Nodes"], "kind": "ecdf"}])
     for path in (tmp_path / "out/runs.parquet", tmp_path / "out/series.parquet"):
@@ -370,6 +372,7 @@ def test_a_band_as_key_is_not_labelled_as_a_time(tmp_path: Path) -> None:
     assert caption.startswith("error against converged.error.to: ")
 
 
+@pytest.mark.slow
 def test_a_metric_with_the_name_of_another_column_is_drawn_instead_of_this_column(tmp_path: Path) -> None:
     figures = [{"metric": "nodes", "x": "network.loss", "by": "program"}, {"metric": "nodes", "by": "program"}]
     folder = write_sweep(tmp_path / "out", 2, (0.0, 0.4), measure={"nodes": "m"}, figures=figures, labels={"nodes": "active nodes"})

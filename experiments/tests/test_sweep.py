@@ -150,6 +150,7 @@ def test_csv_tables_do_not_become_outdated(project: Project) -> None:
     assert list(pd.read_csv(project.folder / "out/runs.csv")["seed"]) == list(project.table()["seed"]) == [1, 2]
 
 
+@pytest.mark.slow
 def test_a_table_of_deleted_runs_does_not_remain(project: Project) -> None:
     assert project.sweep("--csv", vary={"seed": [1]}, set={"outputs.nodes": {"fields": ["position"]}}).returncode == 0
     shutil.rmtree(project.folder / "out/runs")
@@ -188,6 +189,7 @@ def test_an_unknown_scenario_key_is_reported_before_any_run(
     assert not os.listdir(tmp_path / "out/runs")
 
 
+@pytest.mark.slow
 def test_keys_are_checked_in_the_combinations_that_run(project: Project) -> None:
     # No run combines the longer tick with the shorter interval, or the metrics with the scenario's bands.
     result = project.sweep(vary={"seed": [1]}, zip={"deltaTime": [0.1, 0.5], "outputs.interval": [0.2, 0.5]},
@@ -198,6 +200,7 @@ def test_keys_are_checked_in_the_combinations_that_run(project: Project) -> None
     assert "'outputs.interval' is 0.3: it must be at least 'deltaTime', 0.5 s" in result.stderr
 
 
+@pytest.mark.slow
 def test_results_may_be_in_a_folder_with_colons(project: Project) -> None:
     result = project.sweep(out="a:b;c \u00fc", vary={"jvm.placement": ["InProcess", "OwnProcess"]})
     assert result.returncode == 0, result.stderr
@@ -216,6 +219,7 @@ def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) 
     assert set(last["field.node"]) == {10.0}
 
 
+@pytest.mark.slow
 def test_infinite_values_texts_and_large_whole_numbers_of_nodes_are_exact(project: Project) -> None:
     texts = ["", "\"\",\n\"", "a,b", "null"]
     answer = (f'ActuatorData(brightest = -1f / 0f, text = listOf({", ".join(map(json.dumps, texts))})[mine.toInt() % 4], '
@@ -235,6 +239,7 @@ def test_infinite_values_texts_and_large_whole_numbers_of_nodes_are_exact(projec
     assert ",9007199254740990,18446744073709551615" in (project.folder / "out/nodes.csv").read_text()
 
 
+@pytest.mark.slow
 def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     path = project.experiment(vary={"seed": [1]}, set={"outputs.nodes.fields": ["position"]})
     command = ["sweep", path, "--out", str(project.folder / "out"), "--jobs", "1"]
@@ -253,6 +258,7 @@ def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: P
     assert {name: list(project.table(name=name)["run"]) for name in before} == before
 
 
+@pytest.mark.slow
 def test_tables_are_not_mixed_after_a_kill_between_two_renames(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     command = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out"), "--jobs", "1"]
     assert main([*command, "--csv"]) == 0
@@ -315,6 +321,7 @@ def test_runs_without_a_manifest_have_a_seed(project: Project, given: dict[str, 
     assert list(project.table()["seed"]) == [seed]
 
 
+@pytest.mark.slow
 def test_a_sweep_stops_if_its_first_runs_fail_in_the_same_way_unless_keep_going(project: Project) -> None:
     keys: dict[str, Any] = {"vary": {"seed": "1-8"}, "set": {"fields.lamps": 0}}
     result = project.sweep(**keys)

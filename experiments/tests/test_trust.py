@@ -155,6 +155,7 @@ def test_a_script_cannot_fake_a_response(project: Project) -> None:
     assert list(project.table()["status"]) == ["crashed"]
 
 
+@pytest.mark.slow
 def test_a_script_that_closes_its_output_times_out(project: Project) -> None:
     change_scene(project, CLOSED + "while (true) System.Threading.Thread.Sleep(10);")
     result = project.sweep("--time-limit", "3", vary={"seed": [1]})
@@ -162,6 +163,7 @@ def test_a_script_that_closes_its_output_times_out(project: Project) -> None:
     assert list(project.table()["status"]) == ["timeout"]
 
 
+@pytest.mark.slow
 def test_a_pipe_that_a_script_left_in_the_folder_is_not_read(project: Project) -> None:
     change_scene(project, 'System.Diagnostics.Process.Start("sh", "-c \'cd ../runs/*/ && mkfifo pipe\'").WaitForExit();')
     result = project.sweep(vary={"seed": [1]})
@@ -169,6 +171,7 @@ def test_a_pipe_that_a_script_left_in_the_folder_is_not_read(project: Project) -
     assert (project.run("seed=1") / "pipe").is_fifo()
 
 
+@pytest.mark.slow
 def test_processes_of_scripts_end_with_the_sweep(project: Project) -> None:
     change_scene(project, f'System.Diagnostics.Process.Start("sh", "-c \'setsid sleep 600; : {project.folder}/child\'");')
     command = [COLLEKTIVE, "sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out")]
@@ -177,6 +180,7 @@ def test_processes_of_scripts_end_with_the_sweep(project: Project) -> None:
     assert not processes(f"{project.folder}/child")
 
 
+@pytest.mark.slow
 def test_a_failed_sweep_releases_its_folder(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     words = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out")]
 

@@ -66,6 +66,7 @@ def test_trials_without_runs_are_not_continued_with_other_inputs(project: Projec
     assert tune(project, "--trials", "1").returncode == 0
 
 
+@pytest.mark.slow
 def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
     # Characters that are special in a URL.
     out = "a?b%20#c"

@@ -3,6 +3,7 @@ import json
 import os
 import subprocess
 
+import pytest
 from command import Project, jdk
 
 from build.places import COLLEKTIVE, ROOT
@@ -12,6 +13,7 @@ HOST_JAR = os.path.join(ROOT, "jvm-host/host/target/collektive-host.jar")
 
 
 class SimultaneousCommandsTest(Project):
+    @pytest.mark.slow
     def test_simultaneous_first_runs_share_compiled_code_and_one_class_archive(self) -> None:
         with open(self.path("project", "scene", "Lamps.cs"), "a") as file:
             file.write(f"// {self.folder} {os.getpid()}: nothing of it is compiled yet\n")
@@ -37,6 +39,7 @@ class SimultaneousCommandsTest(Project):
         checked = subprocess.run([*java, "-cp", HOST_JAR, "-version"], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr + checked.stdout)
 
+    @pytest.mark.slow
     def test_a_scenario_that_changes_during_compilation_is_not_run(self) -> None:
         self.change("programs/Brightest.kt", "val mine", f"/* {self.folder} {os.getpid()}: not compiled yet */ val mine")
         run = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")], stderr=subprocess.PIPE, text=True)

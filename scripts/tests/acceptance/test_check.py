@@ -3,6 +3,7 @@ import json
 import os
 import re
 
+import pytest
 from command import Project, collektive
 
 
@@ -30,6 +31,7 @@ class CheckTest(Project):
         self.assertIn("project/lamps.json: valid scenario\nproject/plain.json: valid scenario\nproject/sweep.json: valid experiment\n", result.stdout)
         self.assertEqual(sorted(os.listdir(self.path("project"))), before)
 
+    @pytest.mark.slow
     def test_each_invalid_file_has_an_error_and_the_others_are_checked(self) -> None:
         with open(self.path("project", "sweep.json"), "w") as file:
             json.dump({"version": 1, "scenario": "lamps.json", "vary": {"fields.lmps": [5]}}, file)

@@ -50,6 +50,7 @@ class Compared(Folder):
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
         self.assertEqual([line.split(":")[0] for line in result.stdout.splitlines()], ["each", "fails", "passedOn", "reached"])
 
+    @pytest.mark.slow
     def test_a_difference_is_reduced_to_the_smallest_network_and_shortest_run(self) -> None:
         if os.environ.get("COLLEKTIVE_JARS"):
             pytest.skip("the test expects this project's classes, not those of Collektive's jars")

@@ -83,6 +83,7 @@ class WholeRuns(Project):
         _, frames = replay.read(self.path("out", "replay.html"))
         self.assertEqual([round(time, 2) for time, *_ in frames], [0, 0.12, 0.24, 0.3])
 
+    @pytest.mark.slow
     def test_seeds_have_64_bits_in_files_on_the_command_line_and_in_records(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true, "replay": true')
         for seed in [2**63 - 1, 2**63, 2**64 - 1]:
@@ -103,6 +104,7 @@ class WholeRuns(Project):
                 self.assertIn("2^64 - 1", last_error(result))
             self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
 
+    @pytest.mark.slow
     def test_a_run_whose_manager_was_paused_or_disabled_is_incomplete(self) -> None:
         for code, cause in [("manager.Paused = true;", "paused the Simulation Manager"), ("manager.enabled = false;", "disabled the Simulation Manager"),
                             ("Destroy(manager);", "destroyed the Simulation Manager"), ("Time.timeScale = 0;", "set Time.timeScale to 0")]:
@@ -113,6 +115,7 @@ class WholeRuns(Project):
                 self.assertIn(f"4 of 10 ticks were completed: a script {cause}; ", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
+    @pytest.mark.slow
     def test_a_disabled_manager_after_the_last_tick_and_two_ticks_in_a_frame_are_errors(self) -> None:
         self.change("scene/Lamps.cs", "if (loop) ", """manager.Ticked += all =>
             {
@@ -146,6 +149,7 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
 
+    @pytest.mark.slow
     def test_tables_and_records_that_are_deleted_during_the_run_are_an_error(self) -> None:
         table = self.path("out", "metrics.csv")
         for code in (f'System.IO.File.Delete("{table}");', f'System.IO.File.Copy("{table}", "{table}.new"); System.IO.File.Delete("{table}"); '
@@ -176,6 +180,7 @@ class WholeRuns(Project):
             with open(os.path.join(out, name)) as file:
                 self.assertEqual(file.read(), "other")
 
+    @pytest.mark.slow
     def test_the_exit_code_of_a_script_is_returned(self) -> None:
         for code, expected in [(3, 3), (256, 1)]:
             with self.subTest(code):
@@ -208,6 +213,7 @@ class WholeRuns(Project):
         self.assertNotEqual(result.returncode, 0)
         self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")
 
+    @pytest.mark.slow
     def test_endless_recursion_in_a_script_is_reported(self) -> None:
         self.change("scene/Lamps.cs", "data.Brightness = Brightness;", "data.Brightness = SimulationManager.Current.Tick == 4 ? Deep(0) : Brightness;")
         self.change("scene/Lamps.cs", "        protected override void Sense(", """
@@ -246,6 +252,7 @@ class WholeRuns(Project):
         self.assertLess(time.monotonic() - began, 60)
         self.assertEqual(processes(self.folder + "/"), {})
 
+    @pytest.mark.slow
     def test_csharp_that_does_not_return_exceeds_the_step_limit(self) -> None:
         self.change("lamps.json", '"threads": 2', '"threads": 2, "stepLimitMs": 700')
         caught = "try { System.Threading.Thread.Sleep(100); } catch (System.Exception) { System.Threading.Thread.ResetAbort(); }"
@@ -284,6 +291,7 @@ class WholeRuns(Project):
                 self.assertEqual(list(found), times)
             self.assertIn(self.manifest(self.path("out"))["converged"]["agreeing"], times)
 
+    @pytest.mark.slow
     def test_a_metric_with_the_name_of_a_column_is_rejected(self) -> None:
         for name in ["seen", "links", "second"]:
             self.change("scene/Lamps.cs", '"agreeing"', f'"{name}"')
@@ -293,6 +301,7 @@ class WholeRuns(Project):
             self.assertIn(f"has the metric '{name}', but metrics.csv already has a column of that name: rename the metric", last_error(result))
             self.assertFalse(os.path.exists(self.path("out", "metrics.csv")))
 
+    @pytest.mark.slow
     def test_malformed_field_values_are_rejected(self) -> None:
         for value in ["0,5", "010", "0x10", "1 2", "[1", ""]:
             result = self.run_it("--set", f"lamps={value}")

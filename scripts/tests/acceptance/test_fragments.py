@@ -6,6 +6,7 @@ import re
 import unittest
 from pathlib import Path
 
+import pytest
 from blocks import of_kind
 from command import Folder, compiled
 
@@ -74,6 +75,7 @@ class Fragments(Folder):
         folder = Path(self.write_fragments("csharp", csharp))
         compiled(projects.scripts_dll, inputs.schema(Path(self.path("swarm.fbs"))), inputs.scripts(folder))
 
+    @pytest.mark.slow
     def test_kotlin_compiles(self) -> None:
         folder = Path(self.write_fragments("kotlin", kotlin))
         compiled(projects.programs_jar, inputs.schema(Path(self.path("swarm.fbs"))), inputs.programs(folder))

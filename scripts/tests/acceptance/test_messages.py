@@ -3,6 +3,7 @@ import os
 import subprocess
 import sys
 
+import pytest
 from command import Project, collektive, last_error
 
 from build.places import COLLEKTIVE, ROOT
@@ -31,6 +32,7 @@ class Messages(Project):
         self.assertIn("the run had no nodes: create GameObjects with the component Node in the scene builder", last_error(result))
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "the run had no nodes")
 
+    @pytest.mark.slow
     def test_programs_without_a_runtime_mark_are_rejected_with_the_solution(self) -> None:
         self.change("programs/Brightest.kt", '@Program("brightest")', "")
         self.assertIn('the jars contain no programs: annotate the function with @Program("brightest")', last_error(self.run_it()))
@@ -40,6 +42,7 @@ class Messages(Project):
         place = self.path("project", "light.fbs")
         self.assertRegex(self.run_it().stderr, rf"(?m)^{place}:7: error: type referenced but not defined .*flaot")
 
+    @pytest.mark.slow
     def test_a_tick_in_which_all_rounds_fail_ends_the_run_unless_keep_going(self) -> None:
         self.in_program("if (mine == 3f) { val all = generateSequence { LongArray(1 shl 20) }.toList() }\n    if (mine == 4f) listOf(1).map { check(it > 2) }\n"
                         '    check(mine < 0) { "always" }')
@@ -110,6 +113,7 @@ class Messages(Project):
         self.assertEqual(closed.returncode, 0)
         self.assertEqual(self.manifest(self.path("out"))["outcome"], "complete")
 
+    @pytest.mark.slow
     def test_a_record_can_be_replayed_with_a_folder_of_kotlin(self) -> None:
         self.change("lamps.json", '"metrics": true', '"record": true')
         self.assertEqual(self.run_it().returncode, 0)

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import unittest
 
+import pytest
 import replay
 from command import Project, collektive, last_error, processes
 
@@ -35,6 +36,7 @@ class Outputs(Project):
         brightest = {round(value, 3) for *_, value in nodes.values()}
         self.assertEqual(len(brightest), 1, "in the end, all lamps must have the same answer")
 
+    @pytest.mark.slow
     def test_capsules_and_directions_of_links_are_in_the_replay(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("scene/Lamps.cs", "lamp.AddComponent<LampActuator>();", """lamp.AddComponent<LampActuator>();
@@ -81,6 +83,7 @@ class Outputs(Project):
             self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
             self.assertEqual(self.contents(), before, arguments)
 
+    @pytest.mark.slow
     def test_a_run_that_crashes_in_its_first_tick_keeps_earlier_results(self) -> None:
         self.assertEqual(self.run_it().returncode, 0)
         before = self.contents()
@@ -125,6 +128,7 @@ class Outputs(Project):
             self.assertEqual(file.read(), "mine")
         self.assertEqual([name for name in os.listdir(self.path("out")) if os.path.islink(self.path("out", name))], ["metrics.csv.part"])
 
+    @pytest.mark.slow
     def test_outputs_do_not_depend_on_scripts_that_change_the_current_folder(self) -> None:
         os.mkdir(self.path("elsewhere"))
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
@@ -212,6 +216,7 @@ class FullDisks(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("no class archive is written", result.stdout + result.stderr)
 
+    @pytest.mark.slow
     def test_a_full_disk_is_reported_in_one_line_and_no_output_looks_complete(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"seconds": 1', '"seconds": 20')

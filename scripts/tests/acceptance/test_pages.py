@@ -59,6 +59,7 @@ import org.collektive.api.Program
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.manifest(self.path("out"))["nodes"], 20)
 
+    @pytest.mark.slow
     def test_the_tutorial_for_the_editor_works(self) -> None:
         """Runs both programs of the page with its components, in a scene that equals the one that the reader builds."""
         scene = self.SCENE.replace("HopsColour>();", "SwarmMove>();\n            node.AddComponent<SwarmPosition>();")

@@ -33,6 +33,7 @@ class ProjectTest(Project):
         self.assertEqual(manifest["end"], {"agreeing": 10, "seen": 18})
         self.assertEqual(manifest["ticks"], 10)
 
+    @pytest.mark.slow
     def test_edits_behind_links_and_includes_are_detected(self) -> None:
         os.rename(self.path("project", "scene"), self.path("elsewhere"))
         os.symlink(self.path("elsewhere"), self.path("project", "scene"))
@@ -93,6 +94,7 @@ class ProjectTest(Project):
         recorded = subprocess.run([os.path.join(jdk(), "bin/jfr"), "summary", self.path("out", "profile.jfr")], capture_output=True, text=True).stdout
         self.assertRegex(recorded, r"(?m)^ collektive\.Tick +10 ")
 
+    @pytest.mark.slow
     def test_the_profile_is_also_printed_if_rounds_failed(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     'val mine = sensors.brightness()\n    check(mine != 3f) { "three is too dark" }')
@@ -114,6 +116,7 @@ class ProjectTest(Project):
         self.change("programs/Brightest.kt", "sensors.brightness()", "sensors.lightness()")
         self.refused("Brightest.kt:", "lightness")
 
+    @pytest.mark.slow
     def test_compilations_after_the_first_use_its_aot_cache(self) -> None:
         if projects.aot_cache() is None:
             self.skipTest("this JDK has no AOT cache")

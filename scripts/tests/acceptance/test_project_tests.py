@@ -27,6 +27,7 @@ class Lamps {
 
 
 class ProjectTestsTest(Project):
+    @pytest.mark.slow
     def test_tests_run_beside_the_programs(self) -> None:
         result = collektive("test", "project", cwd=self.folder)
         self.assertEqual(result.returncode, 1)

@@ -54,6 +54,7 @@ class Records(Project):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertRegex(result.stdout, r"tick \d+ is the first difference.*node \d+, actuators\.brightest: \S+ in the record, 9.0 in the replay")
 
+    @pytest.mark.slow
     def test_a_replay_has_the_same_maths_as_its_run(self) -> None:
         maths = "(0..3000).fold(0L) { sum, i -> 31 * sum + kotlin.math.tanh(i * 0.037).toRawBits() + kotlin.math.sin(i * 0.037).toRawBits() } % 1000"
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()", f"val mine = sensors.brightness() + {maths}")

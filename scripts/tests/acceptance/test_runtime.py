@@ -157,6 +157,7 @@ class Runtimes(Project):
         self.refused("programs.jar was compiled for the built-in runtime, and this session runs on the Collektive runtime",
                      "Rebuild the programs")
 
+    @pytest.mark.slow
     def test_programs_for_collektive_are_rejected_by_the_built_in_runtime(self) -> None:
         self.switch()
         self.completed()

@@ -93,7 +93,7 @@ class RecorderTest {
         assertTrue(events.getValue("collektive.SlotGrown").all { it.getLong("after") > it.getLong("before") })
     }
 
-    @Tag("slow")
+    @Tag("repeats")
     @Test
     fun `a dump contains the recording so far, and the recording continues`() {
         val dump = folder.resolve("dump.jfr")

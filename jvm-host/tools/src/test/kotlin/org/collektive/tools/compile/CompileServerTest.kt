@@ -42,6 +42,7 @@ class CompileServerTest {
     @AfterEach
     fun stop() = started.forEach { it.destroyForcibly().waitFor() }
 
+    @Tag("repeats")
     @Test
     fun `a process answers one request after the other, and ends with its client`() {
         val client = start("/bin/sleep", "1000")

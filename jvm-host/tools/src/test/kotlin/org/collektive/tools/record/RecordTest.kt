@@ -323,6 +323,7 @@ class RecordTest {
         )
     }
 
+    @Tag("repeats")
     @Test
     fun `differences in outputs of the same input and in programs are reported`() {
         val result = run("diff", record("a", jar = summing("sensors.value()")), record("b", jar = summing("sensors.value() % 503")))
