@@ -2,6 +2,7 @@
 import os
 import shutil
 import stat
+from pathlib import Path
 from typing import BinaryIO
 
 MARKER = ".collektive-sweep"
@@ -29,6 +30,13 @@ def make_marked(folder: str) -> None:
 def is_marked(folder: str) -> bool:
     """Returns whether a sweep has created the folder."""
     return not os.path.islink(folder) and os.path.isfile(os.path.join(folder, MARKER))
+
+
+def deletable_above(folder: str) -> str | None:
+    """Returns the folder of a run or a bundle that is the given folder or contains it, or None. A resumed sweep may delete such a folder."""
+    path = Path(os.path.realpath(folder))
+    return next((str(place) for place in (path, *path.parents) if is_marked(str(place)) and (
+        place.name.endswith(PART) or any(os.path.exists(place / name) for name in (RECORD, "inputs.json")))), None)
 
 
 def remove(folder: str) -> None:

@@ -53,6 +53,8 @@ class Store:
         if any(character > "\uffff" for character in folder):
             raise ExperimentError(f"'{folder}' contains an emoji or another character beyond U+FFFF, and the JVM cannot load classes from there: "
                                   "name another folder with --out")
+        if place := files.deletable_above(folder):
+            raise ExperimentError(f"'{place}' belongs to a sweep, which may delete it: name another folder with --out")
         root = experiment.scenario.root
         for key in FIXED:
             part = os.path.join(os.path.dirname(os.path.abspath(experiment.scenario.path)), str(root.get(key, "")))

@@ -288,6 +288,17 @@ def test_texts_with_many_lines_are_read_in_linear_time(tmp_path: Path) -> None:
     assert time.process_time() - began < 2
 
 
+def test_results_cannot_be_in_folders_that_another_sweep_may_delete(project: Project) -> None:
+    assert project.sweep(vary={"seed": [1]}).returncode == 0
+    (run,) = (project.folder / "out/runs").iterdir()
+    for place in (run, run / "again", project.folder / "out/bundle"):
+        before = sorted(place.rglob("*")) if place.exists() else []
+        result = project.sweep(out=str(place.relative_to(project.folder)), vary={"seed": [1]})
+        assert result.returncode == 1
+        assert "belongs to a sweep, which may delete it: name another folder with --out" in result.stderr
+        assert before == (sorted(place.rglob("*")) if place.exists() else [])
+
+
 def test_results_cannot_be_in_a_folder_with_an_emoji(project: Project) -> None:
     result = project.sweep(out="a\U0001f680", vary={"seed": [1]})
     assert result.returncode == 1

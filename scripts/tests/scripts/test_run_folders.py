@@ -42,6 +42,19 @@ def test_the_folder_of_a_sweep_is_rejected(tmp_path: Path) -> None:
     assert contents(tmp_path) == {".collektive-sweep": ""}
 
 
+@pytest.mark.parametrize("place", ["runs/seed=1", "runs/seed=2.part", "bundle"])
+def test_folders_that_a_sweep_may_delete_are_rejected(place: str, tmp_path: Path) -> None:
+    folder = tmp_path / place
+    folder.mkdir(parents=True)
+    for file in (".collektive-sweep", *({"runs/seed=1": ["run.json"], "bundle": ["inputs.json"]}.get(place, []))):
+        (folder / file).touch()
+    with pytest.raises(Failure, match=r"belongs to a sweep, which may delete it: name another folder"), outputs.open_folder(folder / "a/b", True):
+        pass
+    assert not (folder / "a").exists()
+    with outputs.open_folder(tmp_path / "runs/seed=1-repeated", False):
+        pass
+
+
 def test_a_run_that_starts_replaces_the_results(folder: Path) -> None:
     with outputs.open_folder(folder, True):
         (folder / "manifest.json").write_text("running")
