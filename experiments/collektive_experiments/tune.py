@@ -29,7 +29,8 @@ def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[]
     """Executes the remaining trials, up to `jobs` at the same time. Returns the exit code."""
     try:
         return _tune(experiment, search, store, pool, options)
-    except (sqlalchemy.exc.SQLAlchemyError, optuna.exceptions.StorageInternalError) as error:
+    # Optuna raises a ValueError for texts, times and JSON that it cannot decode.
+    except (sqlalchemy.exc.SQLAlchemyError, optuna.exceptions.StorageInternalError, ValueError) as error:
         raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' cannot be read or written: {error.__cause__ or error}; if it is damaged, "
                               "delete it and continue with --resume") from error
 
@@ -39,6 +40,11 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     check_search(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
+    for trial in _finished(study, search):
+        # SQLite has no checksums. The values of failed trials are unknown.
+        if trial.value is not None and trial.value != _mean(experiment, search, store, trial):
+            raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' differs from the runs of trial {trial.number}, or one of them is missing: "
+                                  "delete study.db and continue with --resume")
     store.write_settings()
     total = options.trials or search.trials
     distributions = {key: _distribution(value) for key, value in search.parameters.items()}
@@ -48,9 +54,8 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
         count = min(left, options.jobs - finished % options.jobs)
         trials: list[Any] = _trials(study, search, TrialState.RUNNING)[:count]
         trials += [_ask(study, search, distributions) for _ in range(count - len(trials))]
-        runs = {trial.number: [_run(experiment, run, trial.params) for run in experiment.runs()] for trial in trials}
         # Runs are collected by name, because different trials may propose the same values.
-        every = {run.name: run for group in runs.values() for run in group}
+        every = {run.name: run for trial in trials for run in _runs(experiment, trial)}
         todo = [(run, False) for run in every.values() if not store.is_complete(run)]
         if todo:
             is_limited = not options.keep_going and not finished
@@ -59,11 +64,11 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
             break
         code = 0
         for trial in trials:
-            values = [_value(store, run, search.metric) for run in runs[trial.number]]
-            if any(math.isnan(value) for value in values):
+            mean = _mean(experiment, search, store, trial)
+            if math.isnan(mean):
                 study.tell(trial.number, state=TrialState.FAIL)
             else:
-                study.tell(trial.number, statistics.mean(values))
+                study.tell(trial.number, mean)
     _write(study, search, os.path.join(store.folder, "trials.csv"))
     done = [trial for trial in _finished(study, search) if trial.value is not None]
     if not done and code >= 128:
@@ -127,10 +132,19 @@ def _ask(study: optuna.Study, search: Search, distributions: dict[str, optuna.di
     return study.ask(distributions)
 
 
-def _run(experiment: Experiment, run: Run, parameters: dict[str, Any]) -> Run:
-    values = {**parameters, **run.values}
-    settings = experiment.settings(values)
-    return Run(name_of(values, settings), values, settings)
+def _runs(experiment: Experiment, trial: Any) -> list[Run]:
+    """Returns the runs of a trial."""
+    runs = []
+    for run in experiment.runs():
+        values = {**trial.params, **run.values}
+        settings = experiment.settings(values)
+        runs.append(Run(name_of(values, settings), values, settings))
+    return runs
+
+
+def _mean(experiment: Experiment, search: Search, store: Store, trial: Any) -> float:
+    """Returns the mean of the metric over the runs of a trial, or NaN if one of them has no value."""
+    return statistics.mean(_value(store, run, search.metric) for run in _runs(experiment, trial))
 
 
 def _value(store: Store, run: Run, metric: str) -> float:

@@ -6,6 +6,7 @@ import json
 import math
 import os
 import shutil
+import sqlite3
 import subprocess
 from typing import Any, cast
 from unittest.mock import Mock
@@ -64,6 +65,21 @@ def test_trials_without_runs_are_not_continued_with_other_inputs(project: Projec
     assert "study.db' has trials whose runs were deleted" in again.stderr
     (project.folder / "out/study.db").unlink()
     assert tune(project, "--trials", "1").returncode == 0
+
+
+@pytest.mark.parametrize(("change", "message"), [
+    ("update trial_values set value = value + 1", "study.db' differs from the runs of trial 0, or one of them is missing: delete study.db and continue"),
+    ("update trial_params set distribution_json = '{'", "study.db' cannot be read or written: ")])
+def test_a_damaged_storage_is_an_error(project: Project, change: str, message: str) -> None:
+    first = tune(project, "--trials", "1")
+    storage = project.folder / "out/study.db"
+    with contextlib.closing(sqlite3.connect(storage)) as database, database:
+        database.execute(change)
+    again = tune(project, "--trials", "1", "--resume")
+    assert again.returncode == 1
+    assert message in again.stderr.splitlines()[-1]
+    storage.unlink()
+    assert tune(project, "--trials", "1", "--resume").stdout == first.stdout
 
 
 @pytest.mark.slow
