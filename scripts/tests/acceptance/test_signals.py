@@ -86,3 +86,16 @@ class Signals(Project):
                 self.assert_ends(process, number)
         result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite")
         self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_an_interrupted_replay_leaves_no_files(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"record": true')
+        result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "2000")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        os.mkdir(self.path("replays"))
+        for number in CODES:
+            with self.subTest(number):
+                process = subprocess.Popen([COLLEKTIVE, "replay", self.path("out", "run.clkrec"), "--out", self.path("replays", "a.clkrec")],
+                                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+                self.wait_until(lambda: os.listdir(self.path("replays")))
+                self.assert_ends(process, number)
+                self.assertEqual(os.listdir(self.path("replays")), [])

@@ -102,6 +102,8 @@ private fun replay(arguments: List<String>, report: Report): Int {
 private fun replaceWhenComplete(file: Path, write: (Path) -> Boolean): Boolean {
     if (Files.exists(file) && !Files.isRegularFile(file)) return write(file)
     val part = file.resolveSibling("${file.fileName}.${UUID.randomUUID()}.part")
+    // After a signal, the JVM does not execute the `finally` block.
+    part.toFile().deleteOnExit()
     try {
         return write(part).also { Files.move(part, file, REPLACE_EXISTING) }
     } finally {
