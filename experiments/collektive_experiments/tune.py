@@ -41,10 +41,11 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     check_search(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
     for trial in _finished(study, search):
-        # SQLite has no checksums. The values of failed trials are unknown.
-        if trial.value is not None and trial.value != _mean(experiment, search, store, trial):
-            raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' differs from the runs of trial {trial.number}, or one of them is missing: "
-                                  "delete study.db and continue with --resume")
+        # SQLite has no checksums. Failed trials have no value, and the runs of other trials may have been deleted or damaged.
+        mean = _mean(experiment, search, store, trial)
+        if trial.value is not None and not math.isnan(mean) and trial.value != mean:
+            raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' differs from the runs of trial {trial.number}: delete study.db and "
+                                  "continue with --resume")
     store.write_settings()
     total = options.trials or search.trials
     distributions = {key: _distribution(value) for key, value in search.parameters.items()}
