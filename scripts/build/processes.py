@@ -114,6 +114,8 @@ def _interrupted(_: int, __: FrameType | None) -> None:
 
 def _watch(watched: int, lifeline: int, group: int) -> None:
     """Ends the group when the watched process has ended, even after SIGKILL."""
+    # `timeout -s KILL` kills the whole group of the watched process, which must not include this process.
+    os.setpgid(0, 0)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     os.close(lifeline)

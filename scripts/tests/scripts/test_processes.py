@@ -2,6 +2,7 @@
 import os
 import signal
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -66,10 +67,11 @@ def test_a_command_ends_without_an_init_process_that_reaps_orphans(checkout: Che
     assert checkout.run(parent_without_reaping.format(SETUP + orphan)).returncode == 0
 
 
-def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout) -> None:
+@pytest.mark.parametrize("kill", [os.kill, os.killpg])
+def test_a_command_that_is_killed_leaves_no_process(checkout: Checkout, kill: Callable[[int, int], None]) -> None:
     process = checkout.start(run_in_group(SLEEP))
     child = child_of(checkout)
-    process.kill()
+    kill(process.pid, signal.SIGKILL)
     process.wait()
     assert ends(child)
 
