@@ -8,7 +8,7 @@ set(COLLEKTIVE "${PROJECT_SOURCE_DIR}/collektive")
 #
 # LABELS are the runs that include the suite; `extra` suites run only by name. RESULTS in a command is the suite's result folder. A SCRIPT is in
 # scripts/tests and runs in the test environment, like PYTEST. NUNIT suites are skipped without NUnit. UNLOCKED suites start commands that lock the
-# outputs themselves. A PARALLEL suite is often idle, and runs in parallel with up to three others.
+# outputs themselves. A PARALLEL suite is often idle, and runs in parallel with up to two others.
 function(suite NAME AREA)
   cmake_parse_arguments(PARSE_ARGV 2 S "UNLOCKED;NUNIT;PARALLEL" "TIMEOUT" "LABELS;NEEDS;ENVIRONMENT;COMMAND;SCRIPT;PYTEST")
   if(S_SCRIPT)

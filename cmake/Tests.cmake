@@ -109,7 +109,7 @@ suite(experiments experiments LABELS all TIMEOUT 1800 NEEDS ${experiments_tests}
 suite(experiments-slow experiments LABELS extra NEEDS ${experiments_tests} ${one_machine} -m slow)
 suite(ray experiments LABELS extra NEEDS setup:ray ${experiments_tests} "${experiments}/test_cluster.py")
 suite(chaos chaos LABELS all NEEDS build:runtime build:replay_page build:failing UNLOCKED PARALLEL
-  SCRIPT chaos/chaos.py 4 3 3 1 8 --results RESULTS/chaos.xml)
+  SCRIPT chaos/chaos.py 3 2 2 1 6 --results RESULTS/chaos.xml)
 # Corpora and random inputs of the other fuzzers are cases of the suites jvm, roundtrip and shim.
 suite(fuzz fuzz LABELS all NEEDS build:runtime build:Collektive.Fuzz.exe SCRIPT fuzz.py 5 RESULTS/scenario.xml)
 suite(bench bench LABELS all NEEDS build:runtime build:jvm_modules build:Collektive.Headless.Bench.exe UNLOCKED PARALLEL

@@ -239,7 +239,7 @@ def run_suites(names: Sequence[str]) -> dict[str, str]:
     report = RESULTS / "ctest.xml"
     report.unlink(missing_ok=True)
     pattern = "|".join(re.sub(r"[.+]", r"\\\g<0>", name) for name in names)
-    command: list[str | Path] = ["ctest", "--test-dir", GRAPH, "-j", "4", "--output-on-failure", "--output-junit", report, "-R", f"^({pattern})$"]
+    command: list[str | Path] = ["ctest", "--test-dir", GRAPH, "-j", "3", "--output-on-failure", "--output-junit", report, "-R", f"^({pattern})$"]
     processes.call(command, stdout=sys.stderr.fileno())
     if not report.exists():
         raise Failure("test: CTest ended before it wrote its results; the messages are above")

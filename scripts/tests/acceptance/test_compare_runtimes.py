@@ -62,6 +62,7 @@ class Compared(Folder):
         self.assertRegex(last, r'tick 3, node \d+: "AggregateDevice" on the built-in runtime, "MailboxRound" on the mailbox runtime')
         self.assertTrue(re.fullmatch(r"  tick 3: nodes (\d+) (\d+) (\d+); links \d+-\d+ \d+-\d+; rounds of \d+", ticks[2]), ticks[2])
 
+    @pytest.mark.slow
     def test_differences_in_texts_are_found_in_any_locale(self) -> None:
         functions = """
 fun Aggregate<Int>.`ein Maß`(): String = "\\r\\r" + if ("Mailbox" in "$this") "ä" else "ö"

@@ -204,6 +204,7 @@ class WholeRuns(Project):
     def test_a_run_whose_script_ends_the_process_is_incomplete(self) -> None:
         self.assertIn("the player exited with code 0 during the run. Usual causes: ", last_error(self.fails_at_tick_4("System.Environment.Exit(0);")))
 
+    @pytest.mark.slow
     def test_a_run_whose_jvm_crashes_is_incomplete(self) -> None:
         self.change("programs/Brightest.kt", "val mine = sensors.brightness()",
                     'val mine = sensors.brightness()\n'

@@ -27,7 +27,7 @@ CLAIMS: dict[str, dict[float, Callable[[Row], bool]]] = {
 
 
 @pytest.mark.parametrize("name", [
-    pytest.param(name, marks=[pytest.mark.slow] * (name not in ("gradient", "healing"))) for name in sorted(os.listdir(LESSONS))])
+    pytest.param(name, marks=[pytest.mark.slow] * (name != "healing")) for name in sorted(os.listdir(LESSONS))])
 def test_a_lesson_does_what_its_text_claims(name: str, tmp_path: Path) -> None:
     (program,) = (LESSONS / name / "programs").glob("*.kt")
     text = program.read_text().split("\npackage ")[0]

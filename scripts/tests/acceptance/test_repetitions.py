@@ -2,6 +2,7 @@
 import json
 import os
 
+import pytest
 from command import Project, collektive, last_error
 
 
@@ -50,6 +51,7 @@ class Repetitions(Project):
         for key in edited:
             self.assertRegex(last_error(result), f"{key} is .*, previously ")
 
+    @pytest.mark.slow
     def test_a_moved_project_is_found_with_the_folder_option(self) -> None:
         os.rename(self.path("project"), self.path("moved"))
         result = self.repeat()

@@ -5,6 +5,7 @@ import textwrap
 import unittest
 from pathlib import Path
 
+import pytest
 from command import Folder
 
 from build import csharp
@@ -45,6 +46,7 @@ class TestRunnerTest(Folder):
         self.assertEqual((code, verdict), (1, "1 passed, 1 failed"))
         self.assertIn("Fixture.Fails: this runner does not support [TheoryAttribute]", output)
 
+    @pytest.mark.slow
     def test_a_category_can_be_skipped(self) -> None:
         test = '[Test, Category("Slow")] public void Fails() => Assert.Fail("no");'
         code, verdict, output = self.run_fixture(test, "--without", "Other", "--without", "Slow")

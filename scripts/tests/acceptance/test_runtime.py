@@ -151,6 +151,7 @@ class Runtimes(Project):
         self.switch()
         self.refused("three is too dark [node 3 at ", "Brightest.kt:")
 
+    @pytest.mark.slow
     def test_programs_for_the_other_runtime_are_rejected(self) -> None:
         self.use_jar(self.programs_jar())
         self.switch()
@@ -190,6 +191,7 @@ class Runtimes(Project):
         os.remove(self.jar("stdlib"))
         self.refused("folder " + self.path("project", "collektive") + " contains no jar", "dsl and stdlib")
 
+    @pytest.mark.slow
     def test_an_invalid_or_incompatible_plugin_is_reported(self) -> None:
         self.switch()
         plugin = self.path("project", "plugin.jar")

@@ -63,6 +63,7 @@ class SamplesTest(Folder):
         for schedule, rows in self.under_each_schedule("GradientAscent", seconds=10, deltaTime=0.05, fields={"nodes": 80}):
             self.assertLess(rows[-1]["mean_distance"], rows[0]["mean_distance"] - 3, schedule)
 
+    @pytest.mark.slow
     def test_the_drones_form_each_shape_even_if_their_leader_fails(self) -> None:
         rows = self.rows("Swarm", seconds=24, fields={"drones": 300, "shapeSeconds": 8, "failAfter": 10})
         # These rows are just before each change of the shape. The leader fails during the second shape.

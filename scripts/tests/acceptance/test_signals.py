@@ -4,6 +4,7 @@ import signal
 import subprocess
 import time
 
+import pytest
 from command import Project, collektive, processes
 
 from build.places import COLLEKTIVE
@@ -45,6 +46,7 @@ class Signals(Project):
                 self.assertGreater(self.manifest(self.path("out"))["ticks"], 0)
                 os.remove(self.path("out", "metrics.csv"))
 
+    @pytest.mark.slow
     def test_a_signal_cancels_the_build_of_a_scene(self) -> None:
         self.change("scene/Lamps.cs", "Build(SimulationManager manager)\n        {", "Build(SimulationManager manager)\n        {\n"
                     "            System.Threading.Thread.Sleep(60000);")
@@ -87,6 +89,7 @@ class Signals(Project):
         result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite")
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    @pytest.mark.slow
     def test_an_interrupted_replay_leaves_no_files(self) -> None:
         self.change("lamps.json", '"metrics": true', '"record": true')
         result = collektive("run", self.path("project", "lamps.json"), "--out", self.path("out"), "--seconds", "2000")

@@ -17,7 +17,8 @@ from command import WORK
 from build.places import ROOT
 
 # Other tests cover debugging, profiling and scene builders.
-SLOW = ("first-study", "tutorial-debugging", "tutorial-experiment", "tutorial-profiling", "tutorial-scene-builder")
+SLOW = ("first-study", "tutorial-debugging", "tutorial-experiment", "tutorial-from-collektive", "tutorial-own-parts", "tutorial-own-rule",
+        "tutorial-profiling", "tutorial-scene-builder")
 # These commands exit with 1 if two runs differ, which is not an error in a tutorial.
 COMPARE = ("collektive diff ", "collektive replay ")
 

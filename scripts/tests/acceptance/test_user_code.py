@@ -4,6 +4,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import pytest
+
 from build import csharp
 from build.places import BUILD, CSHARP, ROOT
 
@@ -33,6 +35,7 @@ namespace CollektiveSamples.GradientAscent
 
 
 class UserCode(unittest.TestCase):
+    @pytest.mark.slow
     def test_names_of_other_packages_are_not_ambiguous(self) -> None:
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)

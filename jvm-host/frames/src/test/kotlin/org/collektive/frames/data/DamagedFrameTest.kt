@@ -36,7 +36,7 @@ internal class DamagedFrameTest {
     fun `truncated frames are rejected or readable`() = attack { bytes -> bytes.copyOf(random.nextInt(bytes.size)) }
 
     @Test
-    fun `frames of random bytes are rejected or readable`() = attack(count = 500) { bytes -> bytes.also(random::nextBytes) }
+    fun `frames of random bytes are rejected or readable`() = attack(count = 100) { bytes -> bytes.also(random::nextBytes) }
 
     private fun attack(count: Int = 1500, damage: (ByteArray) -> ByteArray) {
         var passed = 0
