@@ -529,6 +529,7 @@ def test_a_run_can_be_repeated_from_its_manifest(study: Study, tmp_path: Path) -
     assert "data" in result.stdout + result.stderr
 
 
+@pytest.mark.slow
 def test_an_interrupted_run_with_a_metric_in_kotlin_can_be_repeated(study: Study, tmp_path: Path) -> None:
     values = {**SCENARIO, "metrics": {"farthest": {"function": "farthest"}}, "converged": {}, "seconds": 1e6, "outputs": {"interval": 1e6}}
     (study.folder / "interrupted.json").write_text(json.dumps(values))

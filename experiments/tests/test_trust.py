@@ -43,11 +43,11 @@ def change_program(project: Project, statement: str) -> None:
 
 STATE = [
     ("lamps += Kept<int>.Count++;", "internal static class Kept<T> { public static int Count; }"),
-    ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",
-     "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
 ]
 # More examples of the same kinds of state.
 MORE_STATE = [
+    ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",
+     "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
     ('if (System.Globalization.CultureInfo.CurrentCulture.Name == "de-DE") lamps++;'
      'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
@@ -83,11 +83,11 @@ def test_a_run_is_not_affected_by_scripts_of_earlier_runs(project: Project, buil
 
 
 @pytest.mark.parametrize(("build", "declared"), [
-    ("", "internal static class First { public static readonly float Value = Random.value; }"),
+    pytest.param("", "internal static class First { public static readonly float Value = Random.value; }", marks=pytest.mark.slow),
     ("", "internal struct Draw { public float Number; internal static Draw Next() => new Draw { Number = Random.value }; }"
      "internal static class First { private static readonly Draw Drawn = Draw.Next(); public static float Value => Drawn.Number; }"),
-    ("Range.Length = Random.value;", "internal static class Range { public static float Length; }"
-     "internal static class First { public static readonly float Value; static First() { Value = Range.Length; } }"),
+    pytest.param("Range.Length = Random.value;", "internal static class Range { public static float Length; }"
+                 "internal static class First { public static readonly float Value; static First() { Value = Range.Length; } }", marks=pytest.mark.slow),
 ])
 def test_static_fields_are_initialised_in_the_run_that_needs_them(project: Project, build: str, declared: str) -> None:
     change_scene(project, build + "lamps += (int)(First.Value * 50);", declared)
@@ -115,7 +115,7 @@ def test_runs_do_not_depend_on_locale_and_time_zone(project: Project, monkeypatc
     assert list(project.table()["nodes"]) == [11]
 
 
-@pytest.mark.parametrize(("build", "is_used_again"), [("", True), ("System.GC.Collect();", False)])
+@pytest.mark.parametrize(("build", "is_used_again"), [("", True), pytest.param("System.GC.Collect();", False, marks=pytest.mark.slow)])
 def test_a_process_is_reused_only_for_scripts_without_state(project: Project, tmp_path: Path, build: str, is_used_again: bool) -> None:
     change_scene(project, build)
     assert project.sweep(vary={"seed": [1]}).returncode == 0

@@ -69,7 +69,7 @@ def test_trials_without_runs_are_not_continued_with_other_inputs(project: Projec
 
 @pytest.mark.parametrize(("change", "message"), [
     ("update trial_values set value = value + 1", "study.db' differs from the runs of trial 0: delete study.db and continue"),
-    ("update trial_params set distribution_json = '{'", "study.db' cannot be read or written: ")])
+    pytest.param("update trial_params set distribution_json = '{'", "study.db' cannot be read or written: ", marks=pytest.mark.slow)])
 def test_a_damaged_storage_is_an_error(project: Project, change: str, message: str) -> None:
     first = tune(project, "--trials", "1")
     storage = project.folder / "out/study.db"
