@@ -32,8 +32,8 @@ class Record:
         with contextlib.suppress(FileNotFoundError):
             # Compares blocks, because after a deletion the file begins with a hole, which adds to its size but occupies no blocks.
             if 512 * self._path.stat().st_blocks > self._maximum:
-                os.truncate(self._path, 0)
                 was_deleted, self._is_deleted = self._is_deleted, True
+                os.truncate(self._path, 0)
                 return not was_deleted
         return False
 
@@ -44,17 +44,21 @@ class Record:
     def save(self, target: Path) -> None:
         """Copies all finished ticks to a new file, and adds the end of a record.
 
-        Raises `Failure` if no tick is finished, and `FileExistsError` if the file or link exists.
+        Raises `Failure` if no tick is finished or the record was deleted, and `FileExistsError` if the file or link exists.
         """
-        if self._is_deleted:
-            raise Failure(self.deletion)
         end = self._end()
         with self._path.open("rb") as source, new_file(target) as output:
             shutil.copyfileobj(source, output)
+            self._require_kept()
             output.truncate(end)
             output.seek(end)
             head = struct.pack("<4sI", b"END ", 0)
             output.write(head + struct.pack("<I", zlib.crc32(head)))
+
+    def _require_kept(self) -> None:
+        # The record may become too large while it is read.
+        if self._is_deleted:
+            raise Failure(self.deletion)
 
     def _end(self) -> int:
         """Returns the position in the file after the last finished tick."""
@@ -62,12 +66,14 @@ class Record:
         if self._path.exists():
             with self._path.open("rb") as source:
                 size = os.fstat(source.fileno()).st_size
-                while at + _CHUNK.size <= size:
+                # After a deletion, the file begins with zeros.
+                while at + _CHUNK.size <= size and not self._is_deleted:
                     source.seek(at)
-                    kind, length, _ = _CHUNK.unpack(source.read(_CHUNK.size))
+                    kind, length, _ = _CHUNK.unpack(source.read(_CHUNK.size).ljust(_CHUNK.size))
                     at += _CHUNK.size + length
                     if at <= size and kind in (b"DONE", b"FAIL"):
                         end = at
+        self._require_kept()
         if end == 0:
             raise Failure("the run has not finished a tick yet")
         return end

@@ -84,6 +84,20 @@ def test_a_large_record_is_deleted_while_the_player_writes_it(tmp_path: Path) ->
     record.save(tmp_path / "saved.clkrec")
 
 
+def test_a_record_that_is_deleted_while_it_is_saved_is_not_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    source = tmp_path / "run.clkrec"
+    source.write_bytes(HEAD + 10_000 * TICK)
+    record = Record(source, maximum=100_000)
+
+    def copy(*_: object) -> None:
+        assert record.limit()
+
+    monkeypatch.setattr(shutil, "copyfileobj", copy)
+    with pytest.raises(Failure, match="was deleted; press Restart"):
+        record.save(tmp_path / "saved.clkrec")
+    assert os.listdir(tmp_path) == ["run.clkrec"]
+
+
 def sources(project: Path) -> dict[str, session.Source]:
     plan: Any = SimpleNamespace(parts={"programs": inputs.programs(project / "programs")})
     return session.sources(cast(Any, plan), project)
