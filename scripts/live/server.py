@@ -359,6 +359,8 @@ class Live:
             return "enter a file name that ends in .json; the file is saved beside the scenario"
         try:
             plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options(changes))
+            if plan.content != self.plan.content:
+                raise Failure(f"'{Path(self.scenario).name}' changed since the start of the run; press Restart first")
             values = plan["file"]
             if self.seed is not None:
                 values["seed"] = int(self.seed)

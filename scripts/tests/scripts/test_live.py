@@ -216,8 +216,8 @@ def test_a_saved_scenario_contains_the_texts_of_text_fields(tmp_path: Path, serv
     options = {"scenario": str(tmp_path / "a.json"), "trust_jvm": False, "seed": None, "values": ["label=5", "fields.note=6", "nodes=7"]}
     live_run = server.Live(options, tmp_path)
     live_run.header = {"sceneFields": {"label": "5", "note": "6", "nodes": 7, "range": "Infinity"}}
-    plan = {"file": {"fields": {"label": 5, "note": 8, "nodes": 7, "range": 9}}}
-    monkeypatch.setattr(server.player, "plan", lambda *_: plan)
+    live_run.plan = server.player.Plan({"file": {"fields": {"label": 5, "note": 8, "nodes": 7, "range": 9}}}, {})
+    monkeypatch.setattr(server.player, "plan", lambda *_: live_run.plan)
     asyncio.run(live_run.save_scenario("b.json", {"fields.note": 8, "fields.range": 9}))
     assert json.loads((tmp_path / "b.json").read_text())["fields"] == {"label": "5", "note": "8", "nodes": 7, "range": 9}
 
@@ -229,7 +229,8 @@ def test_a_saved_scenario_contains_the_parameters_that_the_page_has_set(tmp_path
     changed = {"gain": "1", "version": "1.0", "big": "1e3", "on": "false", "end": "NaN"}
     for name, value in changed.items():
         asyncio.run(live_run.execute(page, {"parameter": name, "program": "a.b", "value": value}))
-    monkeypatch.setattr(server.player, "plan", lambda *_: {"file": {"parameters": {"a.b": {"gain": 3, "other": 4}}}})
+    live_run.plan = server.player.Plan({"file": {"parameters": {"a.b": {"gain": 3, "other": 4}}}}, {})
+    monkeypatch.setattr(server.player, "plan", lambda *_: live_run.plan)
     # The program declares no parameter `on`, because it was edited.
     known = {name: ["1", "Float"] for name in ("gain", "other", "version", "big", "end")}
     monkeypatch.setattr(server.projects, "parameters", lambda _: {"a.b": known})
@@ -251,3 +252,12 @@ def test_a_page_that_begins_to_control_the_run_shows_the_current_parameters(tmp_
     asyncio.run(live_run.execute(page, {"parameter": "gain", "program": "a", "value": "2"}))
     live_run.send_welcome(page)
     assert page.event.call_args.args[0]["parameters"] == {"a": {"gain": "2", "on": "true"}}
+
+
+def test_a_scenario_that_changed_during_the_run_is_not_saved_under_another_name(tmp_path: Path, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    live_run = server.Live({"scenario": str(tmp_path / "a.json"), "trust_jvm": False, "seed": None, "values": []}, tmp_path)
+    live_run.plan = server.player.Plan({}, {}, content=b'{"deltaTime": 0.1}')
+    monkeypatch.setattr(server.player, "plan", lambda *_: server.player.Plan({"file": {"deltaTime": 0.2}}, {}, content=b'{"deltaTime": 0.2}'))
+    message = asyncio.run(live_run.save_scenario("b.json", {}))
+    assert message == "not saved: 'a.json' changed since the start of the run; press Restart first"
+    assert not (tmp_path / "b.json").exists()
