@@ -118,6 +118,8 @@ class Live:
         jar, dll = await asyncio.gather(asyncio.to_thread(plan.programs_jar), asyncio.to_thread(plan.scripts_dll))
         session.replace(self.jar, jar)
         projects.record_own_program(self.jar)
+        # Otherwise, the page could show newer programs than those that run.
+        plan.require_unchanged()
         self.record.begin()
         await self.player.start(self.scenario, self.plan, self.jar, dll, self.work / "out", self.player_options())
 
