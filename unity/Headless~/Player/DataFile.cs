@@ -51,6 +51,8 @@ namespace Collektive.Headless
             foreach (var line in File.ReadLines(Path))
             {
                 number++;
+                // File systems fill files with null characters after a crash, and Mono ignores them after a number.
+                if (line.IndexOf('\0') >= 0) throw Error(number, "the line contains a null character");
                 if (line.Trim().Length == 0) continue;
                 var cells = Cells(line, number);
                 if (header == null)

@@ -40,6 +40,8 @@ namespace Collektive.Headless
             if (!RegularFile.Exists(path)) throw new ScenarioException("'" + path + "' is not a file: enter the path of a scenario file (JSON)");
             if (new FileInfo(path).Length > MaxBytes) throw new ScenarioException(path + ": the file is too large for a scenario or a manifest (over 64 MB)");
             var text = File.ReadAllText(path);
+            // The reader skips null characters.
+            if (text.IndexOf('\0') >= 0) throw new ScenarioException(path + ": not valid JSON: the file contains a null character");
             try
             {
                 RejectDuplicateKeys(path, text);

@@ -336,6 +336,13 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(message, Is.StringContaining("scenario.json:" + line + ": not valid JSON: '" + number + "' is not a JSON number"));
         }
 
+        [Test]
+        public void A_null_character_is_not_JSON()
+        {
+            var message = Assert.Throws<ScenarioException>(() => ReadText(Minimal().ToString().Replace("\"seconds\": 1", "\"seconds\": 1\0"))).Message;
+            Assert.That(message, Is.StringContaining("scenario.json: not valid JSON: the file contains a null character"));
+        }
+
         [TestCase("2.5e+3", 2500)]
         [TestCase("-0.5E-1 /* 010 */", -0.05)]
         [TestCase("/* \n\r\r\n */ 3.439885336832876e-301", 3.439885336832876e-301)]
