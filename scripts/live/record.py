@@ -24,8 +24,9 @@ class Record:
         self._is_deleted = False
 
     def begin(self) -> None:
-        """Resets the state for a new run."""
+        """Deletes the record of the previous run."""
         self._is_deleted = False
+        self._path.unlink(missing_ok=True)
 
     def limit(self) -> bool:
         """Deletes the content of the record if it is too large. Returns whether this is the first deletion."""

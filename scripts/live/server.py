@@ -116,11 +116,12 @@ class Live:
         self.header = self.last_frame = self.stopped = self.compiled = None
         self.parameters = {}
         jar, dll = await asyncio.gather(asyncio.to_thread(plan.programs_jar), asyncio.to_thread(plan.scripts_dll))
-        session.replace(self.jar, jar)
-        projects.record_own_program(self.jar)
         # Otherwise, the page could show newer programs than those that run.
         plan.require_unchanged()
+        # The previous record may have filled the disk.
         self.record.begin()
+        session.replace(self.jar, jar)
+        projects.record_own_program(self.jar)
         await self.player.start(self.scenario, self.plan, self.jar, dll, self.work / "out", self.player_options())
 
     async def restart(self, scenario: str, seed: str | None, values: dict[str, str], trust: bool) -> None:

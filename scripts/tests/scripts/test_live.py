@@ -80,6 +80,7 @@ def test_a_large_record_is_deleted_while_the_player_writes_it(tmp_path: Path) ->
     with pytest.raises(Failure, match=r"the record exceeded 0\.0001 GB and was deleted; press Restart"):
         record.save(tmp_path / "saved.clkrec")
     record.begin()
+    assert not source.exists()
     source.write_bytes(HEAD + TICK)
     record.save(tmp_path / "saved.clkrec")
 
