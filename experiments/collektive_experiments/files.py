@@ -36,7 +36,7 @@ def deletable_above(folder: str) -> str | None:
     """Returns the folder of a run or a bundle that is the given folder or contains it, or None. A resumed sweep may delete such a folder."""
     path = Path(os.path.realpath(folder))
     return next((str(place) for place in (path, *path.parents) if is_marked(str(place)) and (
-        place.name.endswith(PART) or any(os.path.exists(place / name) for name in (RECORD, "inputs.json")))), None)
+        (place.parent.name == "runs" and is_marked(str(place.parent.parent))) or ((place.name == "bundle" or place.name.endswith(PART)) and is_marked(str(place.parent))))), None)
 
 
 def remove(folder: str) -> None:

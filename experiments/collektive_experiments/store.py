@@ -126,6 +126,11 @@ class Store:
             return False
         return bool(record["status"] == "complete")
 
+    def is_intact(self, run: Run) -> bool:
+        """Returns whether the run is finished, and its files are undamaged."""
+        record = self.record(run)
+        return record is not None and not self.changed_files(run, record)
+
     def record(self, run: Run) -> dict[str, Any] | None:
         """Returns the content of run.json, or None if the run is not finished or has other inputs."""
         record = _object(os.path.join(self.runs, run.name, files.RECORD))

@@ -29,10 +29,13 @@ def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[]
     """Executes the remaining trials, up to `jobs` at the same time. Returns the exit code."""
     try:
         return _tune(experiment, search, store, pool, options)
-    # Optuna raises a ValueError for texts, times and JSON that it cannot decode.
-    except (sqlalchemy.exc.SQLAlchemyError, optuna.exceptions.StorageInternalError, ValueError) as error:
-        raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' cannot be read or written: {error.__cause__ or error}; if it is damaged, "
-                              "delete it and continue with --resume") from error
+    except (sqlalchemy.exc.SQLAlchemyError, optuna.exceptions.StorageInternalError) as error:
+        raise _unreadable(store, error) from error
+
+
+def _unreadable(store: Store, error: Exception) -> ExperimentError:
+    return ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' cannot be read or written: {error.__cause__ or error!r}; if it is damaged, "
+                           "delete it and continue with --resume")
 
 
 def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[], Pool], options: argparse.Namespace) -> int:
@@ -40,10 +43,9 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     check_search(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
-    for trial in _finished(study, search):
-        # SQLite has no checksums. Failed trials have no value, and the runs of other trials may have been deleted or damaged.
-        mean = _mean(experiment, search, store, trial)
-        if trial.value is not None and not math.isnan(mean) and trial.value != mean:
+    for trial in _trials(study, search, TrialState.COMPLETE):
+        # SQLite has no checksums. Runs of finished trials may have been deleted, and are not repeated.
+        if all(store.is_intact(run) for run in _runs(experiment, trial)) and trial.value != _mean(experiment, search, store, trial):
             raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' differs from the runs of trial {trial.number}: delete study.db and "
                                   "continue with --resume")
     store.write_settings()
@@ -101,7 +103,12 @@ def _study(search: Search, store: Store) -> optuna.Study:
         raise ExperimentError(f"'{path}' is a symbolic link; remove it, or name another folder with --out")
     # The folder's name may contain characters that are special in a URL.
     storage = sqlalchemy.URL.create("sqlite", database=path).render_as_string()
-    study = optuna.create_study(storage=storage, study_name=STUDY, direction=search.direction, load_if_exists=True)
+    try:
+        study = optuna.create_study(storage=storage, study_name=STUDY, direction=search.direction, load_if_exists=True)
+        study.get_trials()
+    # Optuna raises these errors for values that it cannot decode.
+    except (ValueError, LookupError, TypeError, AssertionError) as error:
+        raise _unreadable(store, error) from error
     former = study.user_attrs.setdefault("search", search.identity) if "search" in study.user_attrs else search.identity
     # If the process is killed before it writes this attribute, only the direction is in the file.
     if former != search.identity or study.direction.name.lower() != search.direction:

@@ -191,7 +191,6 @@ def test_two_figures_with_the_same_name_are_an_error(tmp_path: Path) -> None:
         plot(folder)
 
 
-@pytest.mark.slow
 def test_metrics_that_differ_only_in_case_have_distinct_files(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 2, (0.0,), figures=[{"metric": ["nodes", "Nodes"], "kind": "ecdf"}])
     for path in (tmp_path / "out/runs.parquet", tmp_path / "out/series.parquet"):

@@ -239,7 +239,6 @@ def test_infinite_values_texts_and_large_whole_numbers_of_nodes_are_exact(projec
     assert ",9007199254740990,18446744073709551615" in (project.folder / "out/nodes.csv").read_text()
 
 
-@pytest.mark.slow
 def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     path = project.experiment(vary={"seed": [1]}, set={"outputs.nodes.fields": ["position"]})
     command = ["sweep", path, "--out", str(project.folder / "out"), "--jobs", "1"]
@@ -258,7 +257,6 @@ def test_no_table_is_replaced_if_the_disk_is_full_during_the_last_one(project: P
     assert {name: list(project.table(name=name)["run"]) for name in before} == before
 
 
-@pytest.mark.slow
 def test_tables_are_not_mixed_after_a_kill_between_two_renames(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     command = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out"), "--jobs", "1"]
     assert main([*command, "--csv"]) == 0
@@ -297,6 +295,12 @@ def test_results_cannot_be_in_folders_that_another_sweep_may_delete(project: Pro
         assert result.returncode == 1
         assert "belongs to a sweep, which may delete it: name another folder with --out" in result.stderr
         assert before == (sorted(place.rglob("*")) if place.exists() else [])
+
+
+def test_the_name_of_a_results_folder_may_end_like_that_of_an_unfinished_one(project: Project) -> None:
+    assert project.sweep(out="results.part", vary={"seed": [1]}).returncode == 0
+    result = project.sweep("--resume", out="results.part", vary={"seed": [1]})
+    assert result.returncode == 0, result.stderr
 
 
 def test_results_cannot_be_in_a_folder_with_an_emoji(project: Project) -> None:

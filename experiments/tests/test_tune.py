@@ -82,7 +82,6 @@ def test_a_damaged_storage_is_an_error(project: Project, change: str, message: s
     assert tune(project, "--trials", "1", "--resume").stdout == first.stdout
 
 
-@pytest.mark.slow
 def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
     # Characters that are special in a URL.
     out = "a?b%20#c"

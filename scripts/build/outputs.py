@@ -23,8 +23,6 @@ UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
 BACKUP = "earlier.part"
 # The file that marks the folder of a sweep, `MARKER` of collektive_experiments.
 SWEEP = ".collektive-sweep"
-# Files of a run and of a bundle in the folder of a sweep, `RECORD` of collektive_experiments and the list of inputs.
-SWEEP_PARTS = ("run.json", "inputs.json")
 
 
 @contextlib.contextmanager
@@ -35,8 +33,9 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
     be used, or if it has earlier results and `overwrite` is false.
     """
     for place in Path(os.path.realpath(folder)).parents:
-        # A resumed sweep may delete the folders of its runs and its bundle.
-        if os.path.exists(place / SWEEP) and (place.name.endswith(".part") or any(os.path.exists(place / name) for name in SWEEP_PARTS)):
+        # A resumed sweep may delete the folders of its runs and its bundle, as in `deletable_above` of collektive_experiments.
+        sweep = place.parent.parent if place.parent.name == "runs" else place.parent if place.name == "bundle" or place.suffix == ".part" else None
+        if sweep and (place / SWEEP).exists() and (sweep / SWEEP).exists():
             raise Failure(f"'{place}' belongs to a sweep, which may delete it: name another folder with --out")
     try:
         folder.mkdir(parents=True, exist_ok=True)

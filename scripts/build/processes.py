@@ -50,6 +50,8 @@ def run_in_group(main: Callable[[], int]) -> int:
         raise
     if watcher == 0:
         _watch(watched, lifeline, group)
+    with contextlib.suppress(OSError):
+        os.setpgid(watcher, watcher)
     os.close(watched)
     received: list[int] = []
 

@@ -24,7 +24,7 @@ class Record:
         self._is_deleted = False
 
     def begin(self) -> None:
-        """Deletes the record of the previous run."""
+        """Deletes the previous record, and begins a new one."""
         self._is_deleted = False
         self._path.unlink(missing_ok=True)
 
@@ -34,7 +34,11 @@ class Record:
             # Compares blocks, because after a deletion the file begins with a hole, which adds to its size but occupies no blocks.
             if 512 * self._path.stat().st_blocks > self._maximum:
                 was_deleted, self._is_deleted = self._is_deleted, True
-                os.truncate(self._path, 0)
+                try:
+                    os.truncate(self._path, 0)
+                except OSError:
+                    self._is_deleted = was_deleted
+                    raise
                 return not was_deleted
         return False
 

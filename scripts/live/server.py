@@ -112,12 +112,13 @@ class Live:
         """Reads the scenario, compiles changed code, and starts the player."""
         plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options())
         # The plan and its sources change together, because the file watcher compares them.
-        self.plan, self._sources = plan, self.read_sources(plan)
+        sources = self.read_sources(plan)
+        # Otherwise, the page could show newer programs than those that run.
+        await asyncio.to_thread(plan.require_unchanged)
+        self.plan, self._sources = plan, sources
         self.header = self.last_frame = self.stopped = self.compiled = None
         self.parameters = {}
         jar, dll = await asyncio.gather(asyncio.to_thread(plan.programs_jar), asyncio.to_thread(plan.scripts_dll))
-        # Otherwise, the page could show newer programs than those that run.
-        plan.require_unchanged()
         # The previous record may have filled the disk.
         self.record.begin()
         session.replace(self.jar, jar)
@@ -346,7 +347,9 @@ class Live:
         if file is None:
             return "enter a file name that ends in .clkrec; the file is saved beside the scenario"
         try:
-            await asyncio.to_thread(self.record.save, file)
+            # A restart would replace the record.
+            async with self._changing:
+                await asyncio.to_thread(self.record.save, file)
         except FileExistsError:
             return f"'{file.name}' already exists: enter another name"
         except OSError as error:

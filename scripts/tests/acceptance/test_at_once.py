@@ -39,7 +39,6 @@ class SimultaneousCommandsTest(Project):
         checked = subprocess.run([*java, "-cp", HOST_JAR, "-version"], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 0, checked.stderr + checked.stdout)
 
-    @pytest.mark.slow
     def test_a_scenario_that_changes_during_compilation_is_not_run(self) -> None:
         self.change("programs/Brightest.kt", "val mine", f"/* {self.folder} {os.getpid()}: not compiled yet */ val mine")
         run = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")], stderr=subprocess.PIPE, text=True)

@@ -104,7 +104,6 @@ class WholeRuns(Project):
                 self.assertIn("2^64 - 1", last_error(result))
             self.change("lamps.json", f'"threads": 2, "seed": {seed}', '"threads": 2')
 
-    @pytest.mark.slow
     def test_a_run_whose_manager_was_paused_or_disabled_is_incomplete(self) -> None:
         for code, cause in [("manager.Paused = true;", "paused the Simulation Manager"), ("manager.enabled = false;", "disabled the Simulation Manager"),
                             ("Destroy(manager);", "destroyed the Simulation Manager"), ("Time.timeScale = 0;", "set Time.timeScale to 0")]:
@@ -115,7 +114,6 @@ class WholeRuns(Project):
                 self.assertIn(f"4 of 10 ticks were completed: a script {cause}; ", last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], 4)
 
-    @pytest.mark.slow
     def test_a_disabled_manager_after_the_last_tick_and_two_ticks_in_a_frame_are_errors(self) -> None:
         self.change("scene/Lamps.cs", "if (loop) ", """manager.Ticked += all =>
             {
@@ -149,7 +147,6 @@ class WholeRuns(Project):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertEqual(self.manifest(self.path("out"))["ticks"], ticks)
 
-    @pytest.mark.slow
     def test_tables_and_records_that_are_deleted_during_the_run_are_an_error(self) -> None:
         table = self.path("out", "metrics.csv")
         for code in (f'System.IO.File.Delete("{table}");', f'System.IO.File.Copy("{table}", "{table}.new"); System.IO.File.Delete("{table}"); '
@@ -180,7 +177,6 @@ class WholeRuns(Project):
             with open(os.path.join(out, name)) as file:
                 self.assertEqual(file.read(), "other")
 
-    @pytest.mark.slow
     def test_the_exit_code_of_a_script_is_returned(self) -> None:
         for code, expected in [(3, 3), (256, 1)]:
             with self.subTest(code):

@@ -46,8 +46,8 @@ def test_the_folder_of_a_sweep_is_rejected(tmp_path: Path) -> None:
 def test_folders_that_a_sweep_may_delete_are_rejected(place: str, tmp_path: Path) -> None:
     folder = tmp_path / place
     folder.mkdir(parents=True)
-    for file in (".collektive-sweep", *({"runs/seed=1": ["run.json"], "bundle": ["inputs.json"]}.get(place, []))):
-        (folder / file).touch()
+    for marked in (tmp_path, folder):
+        (marked / ".collektive-sweep").touch()
     with pytest.raises(Failure, match=r"belongs to a sweep, which may delete it: name another folder"), outputs.open_folder(folder / "a/b", True):
         pass
     assert not (folder / "a").exists()

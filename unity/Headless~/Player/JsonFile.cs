@@ -41,7 +41,8 @@ namespace Collektive.Headless
             if (new FileInfo(path).Length > MaxBytes) throw new ScenarioException(path + ": the file is too large for a scenario or a manifest (over 64 MB)");
             var text = File.ReadAllText(path);
             // The reader skips null characters.
-            if (text.IndexOf('\0') >= 0) throw new ScenarioException(path + ": not valid JSON: the file contains a null character");
+            var at = text.IndexOf('\0');
+            if (at >= 0) throw new ScenarioException(path + ":" + LineAt(text, at) + ": not valid JSON: the file contains a null character");
             try
             {
                 RejectDuplicateKeys(path, text);
@@ -55,6 +56,8 @@ namespace Collektive.Headless
             }
         }
 
+        private static int LineAt(string text, int index) => text.Substring(0, index).Split('\n').Length;
+
         /// <summary>Reads one value from a text.</summary>
         /// <exception cref="JsonReaderException">The text is not one JSON value.</exception>
         internal static JToken Parse(string text, LineInfoHandling lines = LineInfoHandling.Ignore)
@@ -63,9 +66,8 @@ namespace Collektive.Headless
             for (var match = TokenPattern.Match(text); match.Success; match = match.NextMatch())
             {
                 if (!match.Groups["number"].Success) continue;
-                var before = text.Substring(0, match.Index);
-                var line = before.Length - before.Replace("\n", "").Length + 1;
-                throw new JsonReaderException("'" + match.Value + "' is not a JSON number", "", line, match.Index - before.LastIndexOf('\n'), null);
+                var column = match.Index - text.LastIndexOf('\n', match.Index);
+                throw new JsonReaderException("'" + match.Value + "' is not a JSON number", "", LineAt(text, match.Index), column, null);
             }
             var reader = Reader(text);
             var value = JToken.ReadFrom(reader, new JsonLoadSettings { LineInfoHandling = lines });
