@@ -25,14 +25,15 @@ def environment() -> Mapping[str, str]:
             "PYTHONDONTWRITEBYTECODE": "1"}
 
 
-def run(*tools: str) -> int:
+def run(*tools: str, is_sweep: bool = True) -> int:
     """Fetches `tools`, and then runs the package with the command line of this process."""
     system.setup_system()
     variables = environment()
     lock.shared()
     fetch.fetch("experiments", *tools)
-    # A sweep runs copies of the build outputs, so other commands can build during the sweep.
-    lock.release()
+    if is_sweep:
+        # It runs copies of the build outputs, so other commands can build during the sweep.
+        lock.release()
     # Ctrl-C waits until the package is imported, and handles it.
     signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     code = processes.call([EXPERIMENTS_PYTHON, "-P", "-s", "-m", "collektive_experiments", *sys.argv[1:]], env=variables)

@@ -1,9 +1,13 @@
 """Tests the lock on build outputs. Commands that change the outputs must wait for other commands, and print a message."""
+import argparse
+import importlib
 import os
 import select
 import subprocess
 import time
+from unittest.mock import MagicMock
 
+import pytest
 from checkout import Checkout
 
 WAITING = "waiting for another collektive command"
@@ -90,3 +94,15 @@ def test_a_released_lock_is_free(checkout: Checkout) -> None:
     with open(checkout.root / "gate", "w"):
         assert checkout.run("lock.exclusive()").stderr == ""
     assert first.wait() == 0
+
+
+@pytest.mark.parametrize(("command", "waits"), [("plot", True), ("sweep", False)])
+def test_only_commands_that_use_copies_of_the_outputs_release_the_lock(command: str, waits: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    release = MagicMock()
+    monkeypatch.setattr("build.lock.release", release)
+    for name in ("lock.shared", "system.setup_system", "fetch.fetch", "processes.end_orphans"):
+        monkeypatch.setattr(f"build.{name}", MagicMock())
+    monkeypatch.setattr("signal.pthread_sigmask", MagicMock())
+    monkeypatch.setattr("build.processes.call", MagicMock(return_value=0))
+    assert importlib.import_module(f"commands.{command}").run(argparse.Namespace(ray=None)) == 0
+    assert release.call_count == (0 if waits else 1)
