@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from .experiment import Experiment, reject_fixed_key
+from .experiment import Experiment, identity, reject_fixed_key
 from .positions import Located
 from .store import Store
 from .sweep import check_keys, convergence_times
@@ -22,8 +22,8 @@ class Search:
     trials: int
     parameters: dict[str, Any]
     """The values of each key: a list, or an object with `from`, `to`, and optionally `step` or `log`."""
-    runs: list[tuple[str, list[Any]]]
-    """The keys that vary between the runs of a trial, with their values."""
+    runs: list[Any]
+    """The keys of the runs of a trial with their values: those in `vary`, in `zip` and in `set`."""
 
     @property
     def identity(self) -> str:
@@ -56,7 +56,7 @@ def read_search(experiment: Experiment) -> Search:
         if key in experiment.fixed or key in experiment.keys:
             raise located.error(f"'{key}' is in 'tune', and also in 'vary', 'zip' or 'set'; remove one", "tune", "parameters", key)
     return Search(tune["metric"], direction, trials, {key: _values(located, key, value) for key, value in parameters.items()},
-                  experiment.product + experiment.together)
+                  [experiment.product, experiment.together, identity(experiment.fixed)])
 
 
 def _values(located: Located, key: str, given: Any) -> Any:

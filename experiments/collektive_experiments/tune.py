@@ -112,7 +112,7 @@ def _study(search: Search, store: Store) -> optuna.Study:
     former = study.user_attrs.setdefault("search", search.identity) if "search" in study.user_attrs else search.identity
     # If the process is killed before it writes this attribute, only the direction is in the file.
     if former != search.identity or study.direction.name.lower() != search.direction:
-        raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or varied values differ; "
+        raise ExperimentError(f"'{store.folder}' belongs to another search: its metric, direction, parameters or keys of runs differ; "
                               "name another folder with --out")
     if _finished(study, search) and not os.listdir(store.runs):
         # The bundle was created again, and its inputs may differ from those of the deleted runs.

@@ -118,8 +118,12 @@ def test_only_the_duration_of_runs_that_do_not_converge_replaces_a_value(project
 
 
 def test_a_search_with_other_runs_is_another_search(project: Project) -> None:
-    searches = [read_search(read(project.experiment(vary={"seed": seeds}, tune=TUNE))) for seeds in ("1-2", "1-2", "1-3")]
-    assert searches[0].identity == searches[1].identity != searches[2].identity
+    fixed = {"seconds": 1, "threads": 2}
+    keys: list[dict[str, Any]] = [
+        {"vary": {"seed": "1-2"}, "set": fixed}, {"vary": {"seed": "1-2"}, "set": dict(reversed(fixed.items()))}, {"vary": {"seed": "1-3"}, "set": fixed},
+        {"vary": {"seed": "1-2"}, "set": {**fixed, "seconds": 2}}, {"vary": {}, "zip": {"seed": "1-2"}, "set": fixed}]
+    first, *others = [read_search(read(project.experiment(**values, tune=TUNE))).identity for values in keys]
+    assert [first == other for other in others] == [True, False, False, False]
 
 
 def test_a_search_that_was_killed_at_its_start_keeps_its_direction(project: Project) -> None:
