@@ -35,8 +35,11 @@ def is_marked(folder: str) -> bool:
 def deletable_above(folder: str) -> str | None:
     """Returns the folder of a run or a bundle that is the given folder or contains it, or None. A resumed sweep may delete such a folder."""
     path = Path(os.path.realpath(folder))
-    return next((str(place) for place in (path, *path.parents) if is_marked(str(place)) and (
-        (place.parent.name == "runs" and is_marked(str(place.parent.parent))) or ((place.name == "bundle" or place.name.endswith(PART)) and is_marked(str(place.parent))))), None)
+    for place in (path, *path.parents):
+        sweep = place.parent.parent if place.parent.name == "runs" else place.parent if place.name == "bundle" or place.suffix == PART else None
+        if sweep and is_marked(str(place)) and is_marked(str(sweep)):
+            return str(place)
+    return None
 
 
 def remove(folder: str) -> None:

@@ -34,8 +34,9 @@ def tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[]
 
 
 def _unreadable(store: Store, error: Exception) -> ExperimentError:
-    return ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' cannot be read or written: {error.__cause__ or error!r}; if it is damaged, "
-                           "delete it and continue with --resume")
+    reason = error.__cause__ or str(error) or type(error).__name__
+    return ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' cannot be read or written: {reason}; if it is damaged, delete it and continue "
+                           "with --resume")
 
 
 def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[], Pool], options: argparse.Namespace) -> int:
