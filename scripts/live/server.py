@@ -358,6 +358,10 @@ class Live:
             return str(failure)
         return f"saved; replay it with ./collektive replay {shlex.quote(os.path.relpath(file))}"
 
+    async def file_values(self) -> Any:
+        """Returns the values of the scenario file with the command's options."""
+        return (await asyncio.to_thread(player.plan, self.scenario, self.player_options()))["file"]
+
     async def save_scenario(self, name: str, changes: dict[str, Any]) -> str:
         """Writes a scenario with the current values, and returns a message about it."""
         file = self.beside_scenario(name, ".json")
@@ -365,7 +369,8 @@ class Live:
             return "enter a file name that ends in .json; the file is saved beside the scenario"
         try:
             plan = await asyncio.to_thread(player.plan, self.scenario, self.player_options(changes))
-            if plan.content != self.plan.content:
+            # Comments may change.
+            if plan.content != self.plan.content and await self.file_values() != self.plan["file"]:
                 raise Failure(f"'{Path(self.scenario).name}' changed since the start of the run; press Restart first")
             values = plan["file"]
             if self.seed is not None:

@@ -257,7 +257,7 @@ def test_a_page_that_begins_to_control_the_run_shows_the_current_parameters(tmp_
 
 def test_a_scenario_that_changed_during_the_run_is_not_saved_under_another_name(tmp_path: Path, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     live_run = server.Live({"scenario": str(tmp_path / "a.json"), "trust_jvm": False, "seed": None, "values": []}, tmp_path)
-    live_run.plan = server.player.Plan({}, {}, content=b'{"deltaTime": 0.1}')
+    live_run.plan = server.player.Plan({"file": {"deltaTime": 0.1}}, {}, content=b'{"deltaTime": 0.1}')
     monkeypatch.setattr(server.player, "plan", lambda *_: server.player.Plan({"file": {"deltaTime": 0.2}}, {}, content=b'{"deltaTime": 0.2}'))
     message = asyncio.run(live_run.save_scenario("b.json", {}))
     assert message == "not saved: 'a.json' changed since the start of the run; press Restart first"
