@@ -46,7 +46,8 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     study = _study(search, store)
     for trial in _trials(study, search, TrialState.COMPLETE):
         # SQLite has no checksums. Runs of finished trials may have been deleted, and are not repeated.
-        if all(store.is_intact(run) for run in _runs(experiment, trial)) and trial.value != _mean(experiment, search, store, trial):
+        runs = _runs(experiment, trial)
+        if all(map(store.is_intact, runs)) and trial.value != _mean(search, store, runs):
             raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' differs from the runs of trial {trial.number}: delete study.db and "
                                   "continue with --resume")
     store.write_settings()
@@ -59,7 +60,8 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
         trials: list[Any] = _trials(study, search, TrialState.RUNNING)[:count]
         trials += [_ask(study, search, distributions) for _ in range(count - len(trials))]
         # Runs are collected by name, because different trials may propose the same values.
-        every = {run.name: run for trial in trials for run in _runs(experiment, trial)}
+        groups = [_runs(experiment, trial) for trial in trials]
+        every = {run.name: run for group in groups for run in group}
         todo = [(run, False) for run in every.values() if not store.is_complete(run)]
         if todo:
             is_limited = not options.keep_going and not finished
@@ -67,8 +69,8 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
         if code >= 128:
             break
         code = 0
-        for trial in trials:
-            mean = _mean(experiment, search, store, trial)
+        for trial, group in zip(trials, groups, strict=True):
+            mean = _mean(search, store, group)
             if math.isnan(mean):
                 study.tell(trial.number, state=TrialState.FAIL)
             else:
@@ -151,9 +153,9 @@ def _runs(experiment: Experiment, trial: Any) -> list[Run]:
     return runs
 
 
-def _mean(experiment: Experiment, search: Search, store: Store, trial: Any) -> float:
-    """Returns the mean of the metric over the runs of a trial, or NaN if one of them has no value."""
-    return statistics.mean(_value(store, run, search.metric) for run in _runs(experiment, trial))
+def _mean(search: Search, store: Store, runs: list[Run]) -> float:
+    """Returns the mean of the metric over runs, or NaN if one of them has no value."""
+    return statistics.mean(_value(store, run, search.metric) for run in runs)
 
 
 def _value(store: Store, run: Run, metric: str) -> float:
