@@ -265,20 +265,15 @@ def test_a_scenario_that_changed_during_the_run_is_not_saved_under_another_name(
 
 
 def test_a_program_that_changes_before_the_page_reads_it_does_not_run(tmp_path: Path, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    scenario, program, jar = (tmp_path / name for name in ("a.json", "programs/A.kt", "programs.jar"))
+    scenario, program = tmp_path / "a.json", tmp_path / "programs/A.kt"
     program.parent.mkdir()
-    for file in (scenario, program, jar):
-        file.touch()
+    scenario.touch()
+    program.touch()
     live_run = server.Live({"scenario": str(scenario), "trust_jvm": False, "seed": None, "values": []}, tmp_path)
     live_run.player = AsyncMock()
     plan = server.player.Plan({}, {"programs": inputs.programs(program.parent)}, scenario)
     program.write_text("new")
     monkeypatch.setattr(server.player, "plan", lambda *_: plan)
-    # The cache contains the jar of the previous program.
-    monkeypatch.setattr(server.player.Plan, "programs_jar", lambda _: jar)
-    monkeypatch.setattr(server.player.Plan, "scripts_dll", lambda _: jar)
-    monkeypatch.setattr(server.session, "replace", MagicMock())
-    monkeypatch.setattr(server.projects, "record_own_program", MagicMock())
     with pytest.raises(Failure, match="changed during compilation"):
         asyncio.run(live_run.start())
     assert live_run.player.start.call_count == 0

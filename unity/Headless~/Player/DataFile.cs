@@ -42,7 +42,8 @@ namespace Collektive.Headless
         /// <summary>Reads columns of numbers from a CSV file. Its first line contains the names of the columns. Blank lines are ignored.</summary>
         /// <param name="columns">Names of the columns to read.</param>
         /// <returns>An array per line: the values of the columns, NaN for missing columns, and last the number of the line.</returns>
-        /// <exception cref="ScenarioException">A column occurs twice, a line has a wrong number of cells, or a cell is not a finite number.</exception>
+        /// <exception cref="ScenarioException">A column occurs twice, a line has a wrong number of cells or contains a null character, or a cell
+        /// is not a finite number.</exception>
         public List<double[]> ReadCsv(params string[] columns)
         {
             var rows = new List<double[]>();
