@@ -30,25 +30,30 @@ _MAVEN = Lock()
 
 def fetch(*names: str) -> None:
     """Fetches the named tools that are missing, several at a time. Names are keys of `FETCHERS`."""
-    additions = [name for name in ADDITIONS if name in names]
-    independent = [*(["experiments"] if additions else []), *(name for name in names if name not in ADDITIONS)]
-    keys = {name: key_of(FETCHERS[name][0]) for name in independent}
+    lock.change(lambda: not missing(names), lambda: fill(names))
 
-    def missing() -> list[str]:
-        return [name for name, key in keys.items() if not _is_current(name, key)]
 
-    def fill() -> None:
-        with ThreadPoolExecutor(_AT_ONCE) as pool:
-            try:
-                list(pool.map(lambda name: _fill(name, keys[name], FETCHERS[name][1]), missing()))
-            finally:
-                pool.shutdown(cancel_futures=True)
+def missing(names: Iterable[str]) -> list[str]:
+    """Returns which of the named tools, and of the environment that they are added to, are missing."""
+    needed = ["experiments", *names] if any(name in ADDITIONS for name in names) else names
+    return [name for name in needed if not _is_current(name, key_of(FETCHERS[name][0]))]
 
-    lock.change(lambda: not missing(), fill)
+
+def fill(names: Iterable[str]) -> None:
+    """Fetches the named tools that are missing. The caller has locked the outputs for changes."""
+    with ThreadPoolExecutor(_AT_ONCE) as pool:
+        try:
+            list(pool.map(_fetch, (name for name in missing(names) if name not in ADDITIONS)))
+        finally:
+            pool.shutdown(cancel_futures=True)
     # These write to the environment of the experiments.
-    for name in additions:
-        inputs, fetcher = FETCHERS[name]
-        fill_once(name, key_of(inputs), fetcher)
+    for name in missing(names):
+        _fetch(name)
+
+
+def _fetch(name: str) -> None:
+    inputs, make = FETCHERS[name]
+    _fill(name, key_of(inputs), make)
 
 
 def fill_once(name: str, key: str, make: Callable[[Path], None]) -> Path:
@@ -279,5 +284,7 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "live": ([TOOLS / "live", _PYTHON], partial(_environment, TOOLS / "live/requirements.txt")),
     "zig": ([TOOLS / "zig"], _zig),
 }
+# Tools that Maven fetches.
+MAVEN = ("kotlinc", "junit", "ktlint")
 # The tools without which the build graph cannot be configured.
 BASE = ("flatbuffers", "flatc-linux-x64", "physx", "sqlite", "npm", "kotlinc")

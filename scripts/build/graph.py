@@ -2,6 +2,8 @@
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from build import fetch, jdk, lock, processes
@@ -13,22 +15,26 @@ from build.system import NUNIT, setup_system
 STAMP = GRAPH / "arguments"
 
 
-def build(*targets: str) -> None:
-    """Brings targets up to date, and keeps a shared lock on the outputs.
+def build(*targets: str, tools: Iterable[str] = ()) -> None:
+    """Brings targets up to date, fetches missing tools meanwhile, and keeps a shared lock on the outputs.
 
     If nothing has changed, no exclusive lock is needed, so runs do not wait for each other.
     """
     setup_system()
     lock.shared()
-    fetch.fetch(*fetch.BASE)
+    # Maven must not run twice at the same time, so its tools are fetched before the build.
+    fetch.fetch(*fetch.BASE, *(tool for tool in tools if tool in fetch.MAVEN))
 
     def make() -> None:
-        if not _is_configured():
-            _configure()
-        if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
-            raise Failure("the build failed; the messages are above")
+        with ThreadPoolExecutor(1) as pool:
+            fetched = pool.submit(fetch.fill, tools)
+            if not _is_configured():
+                _configure()
+            if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
+                raise Failure("the build failed; the messages are above")
+            fetched.result()
 
-    lock.change(lambda: _is_configured() and is_up_to_date(GRAPH, *targets), make)
+    lock.change(lambda: not fetch.missing(tools) and _is_configured() and is_up_to_date(GRAPH, *targets), make)
 
 
 def is_up_to_date(tree: Path, *targets: str) -> bool:

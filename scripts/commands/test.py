@@ -23,7 +23,6 @@ import site
 import subprocess
 import sys
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -159,6 +158,8 @@ def prepare() -> None:
         system.setup_nunit()
     except Failure as failure:
         print_progress(f"skipping the C# tests: {failure}")
+    lock.shared()
+    fetch.fetch("python", *fetch.BASE)
     setup_environment()
     graph.build("build.ninja")
 
@@ -176,19 +177,15 @@ def test(words: Sequence[str]) -> int:
     prepare()
     from tests import results
     suites = select_suites(read_suites(), words)
-    # One call for all tools, and one for all targets, use the processors better than the fixtures of the suites.
-    tools = {tool for suite in suites for tool in suite.tools}
+    # One call for all targets and tools uses the processors better than the fixtures of the suites.
+    tools = sorted({tool for suite in suites for tool in suite.tools})
     # Ninja 1.11 begins with the first target. After jvm_tests, Maven has nothing to do for the other targets of the JVM side.
     targets = sorted({target for suite in suites for target in suite.targets}, key=lambda target: (target != "jvm_tests", target))
-    steps = [partial(fetch.fetch, *sorted(tools))]
-    if targets:
-        steps.append(partial(graph.build, *targets))
-    for step in steps:
-        try:
-            step()
-        except (Failure, OSError, subprocess.CalledProcessError):
-            if processes.was_interrupted():
-                raise
+    try:
+        graph.build(*(targets or ["build.ninja"]), tools=tools)
+    except (Failure, OSError, subprocess.CalledProcessError):
+        if processes.was_interrupted():
+            raise
     # Each suite locks the outputs itself, and its fixtures retry failed tools and targets.
     lock.release()
     for suite in suites:

@@ -30,6 +30,16 @@ def project(checkout: Checkout) -> Checkout:
     return checkout
 
 
+def test_tools_are_fetched_while_targets_are_built(project: Checkout) -> None:
+    project.close_gate()
+    # Each side of the gate waits for the other.
+    tool = "fetch.BASE = (); fetch.FETCHERS['tool'] = ([], lambda folder: print((root / 'gate').write_text('')))\n"
+    for expected in ("0\n", ""):
+        result = project.run(f"{tool}graph.build('thing', tools=['tool'])")
+        assert (result.returncode, result.stdout) == (0, expected), result.stderr
+    assert project.log_lines() == ["made"]
+
+
 def test_only_changed_targets_are_built(project: Checkout) -> None:
     for text in ["one", "one", "two", "two"]:
         if (project.root / "in").read_text() != text:
