@@ -16,6 +16,8 @@ if (!file) {
   process.exit(2);
 }
 
+// Small pictures are faster, because the processor draws them.
+const SIZE = { width: 800, height: 500 };
 const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');
 const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
@@ -25,7 +27,7 @@ const blind = await launch(undefined, ['--disable-3d-apis']);
 
 /** Opens a page and collects its errors and requests. */
 async function open(path, { in: where = browser, ...options } = {}) {
-  const context = await where.newContext({ viewport: { width: 1280, height: 720 }, ...options });
+  const context = await where.newContext({ viewport: SIZE, ...options });
   const tab = await context.newPage();
   const url = pathToFileURL(resolve(path)).href;
   // The texts of charts, and where they begin in their canvas.
@@ -165,7 +167,7 @@ async function expectMessage(path, words, options) {
 
 /** Runs the tests that need a run with known content. */
 async function testSample(test, tab) {
-  await resize(tab, { width: 1280, height: 720 });
+  await resize(tab, SIZE);
   if (await tab.locator('#charts').isHidden()) await tab.click('#charts-shown');
 
   await test('chart labels are not cut off and have units', async () => {
@@ -261,7 +263,7 @@ async function testSample(test, tab) {
       }
     }
     await tab.selectOption('#field', { index: 0 });
-    await resize(tab, { width: 1280, height: 720 });
+    await resize(tab, SIZE);
   });
 
   await test('capsules are drawn as capsules', async () => {
@@ -270,7 +272,7 @@ async function testSample(test, tab) {
       ['upright', () => {}], ['ball', (header) => { header.metadata.nodeHeight = 0; }], ['lying', (header) => { header.metadata.shapes[2].axis = 0; }],
       ['short', (header) => { header.metadata.shapes[2].height = 2; }],
     ]) {
-      const page = await open(withHeader(name, change), { viewport: { width: 800, height: 500 } });
+      const page = await open(withHeader(name, change));
       await page.tab.evaluate(() => window.replay.ready);
       pictures.add(await canvas(page.tab));
       await page.close();
@@ -556,8 +558,8 @@ await suite('replay page', async (page) => {
         await tab.evaluate(() => window.replay.select(NaN));
         assert.ok(await tab.locator('#selection').isHidden(), `${id} stays selected`);
         let found = false;
-        for (let y = 120; y < 560 && !found; y += 12) {
-          for (let x = 260; x < 1020 && !found; x += 12) {
+        for (let y = 120; y < 380 && !found; y += 12) {
+          for (let x = 260; x < 540 && !found; x += 12) {
             await tab.mouse.click(x, y);
             found = await tab.locator('#selection').isVisible();
           }
@@ -568,9 +570,6 @@ await suite('replay page', async (page) => {
         assert.ok(await tab.locator('#selection').isHidden(), 'Escape does not deselect');
       });
     }
-
-    // Smaller pictures are faster, because the processor draws them.
-    await resize(tab, { width: 800, height: 500 });
 
     if (nodes > 0) {
       await test('another field colours the nodes and fills the legend', async () => {
@@ -741,16 +740,14 @@ await suite('replay page', async (page) => {
       });
     }
 
-    await resize(tab, { width: 1280, height: 720 });
-
     await test('dragging turns the view and R resets it', async () => {
       await seek(tab, middle);
       await tab.keyboard.press('r');
       await tab.waitForTimeout(300);
       const before = await canvas(tab);
-      await tab.mouse.move(640, 300);
+      await tab.mouse.move(400, 200);
       await tab.mouse.down();
-      await tab.mouse.move(760, 340, { steps: 4 });
+      await tab.mouse.move(520, 240, { steps: 4 });
       await tab.mouse.up();
       await tab.waitForTimeout(300);
       assert.ok((await canvas(tab)) !== before, 'the picture stays the same');
