@@ -61,7 +61,7 @@ internal class LiftedFunction private constructor(private val function: StdlibFu
         val arguments = names.indices.map { place -> if (place in fields) values[fields.indexOf(place)] else names[place] }
         val reified = if (isReified) function.typeParameters.joinToString(prefix = "<", postfix = ">") { it.name } else ""
         val call =
-            "${arguments[0]}.${function.name}$reified" +
+            "${arguments[0]}.${function.alias ?: function.name}$reified" +
                 if (function.isProperty) "" else arguments.drop(1).joinToString(prefix = "(", postfix = ")")
         val first = names[fields.first()]
         if (fields.size == 1) return "$first.mapValues { $call }"

@@ -27,6 +27,10 @@ internal class StdlibFunction private constructor(
     val parameters: List<KParameter> get() = callable.valueParameters
     val result: KType get() = callable.returnType
     val isProperty: Boolean get() = callable is KProperty<*>
+
+    /** The name with which lifted versions of an extension call it. With its own name, the compiler would consider all lifted versions for each call. */
+    val alias: String? get() = if (isMember) null else "kotlin${name.replaceFirstChar(Char::uppercase)}"
+
     val isInfix: Boolean get() = callable is KFunction<*> && callable.isInfix
 
     /** Whether it is an operator. `compareTo` is excluded, because its lifted version returns a field, which `<` does not accept. */
