@@ -73,8 +73,10 @@ class PowerFormatter(LogFormatter):
         if not super().__call__(x, pos):
             return ""
         if 1e-3 <= x < 1e4:
-            return f"{x:g}"
-        factor, exponent = f"{x:.0e}".split("e")
+            return f"{x:.12g}"
+        # Ticks between two powers need several digits if the axis contains no power.
+        factor, exponent = f"{x:.11e}".split("e")
+        factor = factor.rstrip("0").rstrip(".")
         return (f"{factor}·" if factor != "1" else "") + "10" + str(int(exponent)).translate(SUPERSCRIPTS)
 
 

@@ -278,6 +278,17 @@ def test_numbers_on_axes_and_in_cells_are_not_rounded_to_fewer_digits(tmp_path: 
     assert {text.get_text() for text in figure.axes[0].texts} == {"100"}
 
 
+def test_ticks_of_logarithmic_axes_between_two_powers_have_different_labels(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 3)
+    table = pd.read_parquet(f"{folder}/runs.parquet")
+    for low, high, label in ((12000, 13000, "1.25·10⁴"), (100, 100.0003, "100.0001")):
+        table.assign(error=np.linspace(low, high, len(table))).to_parquet(f"{folder}/runs.parquet")
+        (_, figure, _), *_ = draw(load(folder), read_options({"metric": "error", "x": "network.loss", "log": "y"}))
+        axis = figure.axes[0].yaxis
+        found = [tick.get_text() for tick in axis.get_ticklabels(which="both") if tick.get_text()]
+        assert label in found and len(set(found)) == len(found)
+
+
 def test_legends_contain_empty_values_and_values_that_start_with_an_underscore(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 3, (0.0, 0.1))
     for name in ("runs", "series"):
