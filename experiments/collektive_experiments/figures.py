@@ -328,9 +328,13 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
             continue
         bounds = np.array([interval(table[second].dropna().to_numpy()) for second in table.columns])
         line_style = _line_style(index)
-        # Lines have their markers at different times, so that markers do not cover each other.
+        # Lines have their markers at different times, so that markers do not cover each other. Values without neighbours are visible only as markers.
         step = max(1, len(table.columns) // 6)
-        axes.plot(table.columns, table.mean(), label=str(index), markevery=(index * step // (parts[-1][0] + 1), step), **line_style)
+        means = table.mean()
+        is_isolated = (means.notna() & means.shift().isna() & means.shift(-1).isna()).to_numpy()
+        marked = {*range(index * step // (parts[-1][0] + 1), len(means), step), *np.flatnonzero(is_isolated)}
+        axes.plot(table.columns, means, label=str(index), markevery=sorted(marked), **line_style)
+        axes.vlines(table.columns[is_isolated], *bounds[is_isolated].T, color=line_style["color"], alpha=0.4)
         axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=line_style["color"], alpha=0.2, linewidth=0)
     return counts
 

@@ -14,6 +14,7 @@ import pandas as pd
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+from matplotlib.collections import LineCollection
 
 from collektive_experiments import ExperimentError, at_end, draw, load, over_time, plot, read, read_options, results
 from collektive_experiments.__main__ import main
@@ -408,6 +409,19 @@ def test_missing_values_are_not_drawn(tmp_path: Path) -> None:
     assert "interval of 3 runs per configuration." in caption
     (_, figure, caption), = draw(load(folder), read_options({"metric": "error", "by": "program", "kind": "ecdf"}))
     assert [entry.get_text() for entry in figure.legends[0].get_texts()] == ["path-vector"]
+
+
+def test_values_between_missing_values_are_drawn_with_their_interval(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 3, (0.0,))
+    series = pd.read_parquet(f"{folder}/series.parquet")
+    series.loc[series["second"] % 1 == 0, "error"] = None
+    series.to_parquet(f"{folder}/series.parquet")
+    (_, figure, _), = draw(load(folder), read_options({"metric": "error", "by": "program"}))
+    axes = figure.axes[0]
+    for line in axes.get_lines():
+        assert set(np.flatnonzero(np.isfinite(line.get_ydata()))) <= set(line.get_markevery())
+    intervals = [len(lines.get_segments()) for lines in axes.collections if isinstance(lines, LineCollection)]
+    assert intervals == [series["second"].nunique() // 2] * len(PROGRAMS)
 
 
 def test_metrics_beyond_the_limit_of_figures_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
