@@ -11,6 +11,25 @@ namespace Collektive.Headless.Tests.Simulation
     public sealed class ManagerTests : SimulationFixture
     {
         [Test]
+        public void Scripts_can_set_the_id_of_an_active_node_before_its_first_tick()
+        {
+            Configure("sum");
+            var nodes = new List<Node>();
+            foreach (var id in new[] { 7, 3, -1, 0 })
+            {
+                nodes.Add(new GameObject("Node").AddComponent<Node>());
+                nodes[nodes.Count - 1].RequestedId = id;
+            }
+            Assert.That(nodes.ConvertAll(node => node.Id), Is.EqualTo(new[] { 7, 3, 8, 0 }));
+            Play(1);
+            nodes[1].RequestedId = 4;
+            Assert.That(nodes[1].Id, Is.EqualTo(3));
+            nodes.Add(new GameObject("Node").AddComponent<Node>());
+            nodes[4].RequestedId = 7;
+            Assert.That(Manager.Failure, Is.StringContaining("has id 7, which node"));
+        }
+
+        [Test]
         public void Node_positions_are_sampled_at_the_start_of_the_tick()
         {
             var node = MakeNode(1, Vector3.right).Node;

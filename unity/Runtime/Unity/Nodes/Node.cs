@@ -70,11 +70,18 @@ namespace Collektive.Unity
         /// <summary>The id in the running simulation; -1 while the node is not in one.</summary>
         public int Id { get; private set; } = -1;
 
-        /// <summary>The requested id; -1: the next free id. Read when the node joins the simulation.</summary>
+        /// <summary>
+        /// The requested id; -1: the next free id. Read when the node joins the simulation. Until its first tick, setting it changes the id, and removes links
+        /// that scripts have added.
+        /// </summary>
         public int RequestedId
         {
             get => id;
-            set => id = value;
+            set
+            {
+                id = value;
+                Simulation?.ChangeId(this);
+            }
         }
 
         /// <summary>

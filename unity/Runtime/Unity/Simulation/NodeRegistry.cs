@@ -60,6 +60,9 @@ namespace Collektive.Unity
             return null;
         }
 
+        /// <summary>Makes an id the next free one if it was the last one.</summary>
+        internal void FreeLast(int id) => nextId = id == nextId - 1 ? id : nextId;
+
         /// <summary>Removes a node. Its links are kept until <see cref="DropLinksOfDeparted"/> removes them.</summary>
         internal void Leave(Node node, NeighbourSearch links)
         {

@@ -282,6 +282,16 @@ namespace Collektive.Unity
             if (problem != null) Fail(problem, node);
         }
 
+        /// <summary>Gives a node its requested id before its first tick. Scripts often set it after AddComponent, during which the node joins.</summary>
+        internal void ChangeId(Node node)
+        {
+            var id = node.Id;
+            if (node.RequestedId < 0 || node.RequestedId == id || registry.IsKnown[id]) return;
+            Leave(node);
+            registry.FreeLast(id);
+            Join(node);
+        }
+
         internal void Leave(Node node)
         {
             Errors.Leave(node.Id);
