@@ -90,6 +90,40 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(copy.layers.value, Is.EqualTo(5));
         }
 
+        [Serializable]
+        public class Table : ISerializationCallbackReceiver
+        {
+            public List<int> keys = new List<int>();
+            public readonly Dictionary<int, string> names = new Dictionary<int, string>();
+
+            public void OnBeforeSerialize() => keys = new List<int>(names.Keys);
+
+            public void OnAfterDeserialize() => keys.ForEach(key => names.Add(key, "name " + key));
+        }
+
+        public class TableOwner : MonoBehaviour, ISerializationCallbackReceiver
+        {
+            public Table table = new Table();
+            public int count;
+            public int Names { get; private set; }
+
+            public void OnBeforeSerialize() => count = table.names.Count;
+
+            public void OnAfterDeserialize() => Names = 10 * count + table.names.Count;
+        }
+
+        [Test]
+        public void A_copy_receives_the_callbacks_of_serialisation()
+        {
+            var original = Add<TableOwner>();
+            original.table.names.Add(4, "four");
+            original.table.names.Add(7, "seven");
+            var copy = UnityEngine.Object.Instantiate(original);
+            Assert.That(copy.table.names, Is.EquivalentTo(new Dictionary<int, string> { [4] = "name 4", [7] = "name 7" }));
+            Assert.That(copy.Names, Is.EqualTo(22));
+            Assert.That(original.table.names[4], Is.EqualTo("four"));
+        }
+
         [Test]
         public void A_copy_under_a_parent_keeps_its_local_position()
         {

@@ -73,9 +73,11 @@ namespace UnityEngine
 
         void CopyFields(object original, object copy, Type stopAt)
         {
+            if (original is ISerializationCallbackReceiver serialized) Headless.Loop.InvokeAll(serialized.OnBeforeSerialize);
             for (var level = original.GetType(); level != stopAt && level != typeof(object); level = level.BaseType)
                 foreach (var field in level.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
                     if (IsSerialized(field)) field.SetValue(copy, CopyValue(field.GetValue(original), field.IsDefined(typeof(SerializeReference))));
+            if (copy is ISerializationCallbackReceiver deserialized) Headless.Loop.InvokeAll(deserialized.OnAfterDeserialize);
         }
 
         static bool IsSerialized(FieldInfo field) =>
