@@ -47,15 +47,15 @@ namespace Collektive.Unity.Editor
 
         /// <summary>
         /// Whether the jar is outdated: it was built from other sources, for another runtime, or by another package version, whose generated code would not
-        /// fit. Without programs, a missing jar and a jar that another build tool built are not outdated.
+        /// fit. Without Kotlin files, no jar is outdated, because its programs could not be built again.
         /// </summary>
         /// <exception cref="ToolException">The runtime's jars are missing.</exception>
         internal bool IsStale
         {
             get
             {
+                if (!HasPrograms) return false;
                 var attributes = JarManifest.Read(Jar);
-                if (!HasPrograms && !attributes.ContainsKey("Collektive-Sources")) return false;
                 bool Has(string name, string value) => attributes.TryGetValue(name, out var built) && built == value;
                 return !Has("Collektive-Version", PackageState.Version) || !Has("Collektive-Runtime", Runtime.ManifestValue)
                     || !Has("Collektive-Sources", Sources);

@@ -215,12 +215,13 @@ namespace Collektive.Headless.Tests.Editor
             Logged("Play was not started");
         }
 
-        [Test, Category("Slow"), Category("Repeats")]
-        public void A_jar_of_another_build_beside_its_schema_is_kept()
+        [TestCase(false), TestCase(true), Category("Slow"), Category("Repeats")]
+        public void Without_Kotlin_files_the_jar_of_another_build_or_project_is_kept(bool isOfProject)
         {
             UseKotlin();
+            if (isOfProject) Commit(Swarm());
+            else ProgramLibraryTests.Pack(Jar, "swarm.SwarmSchema");
             File.Delete(Count);
-            ProgramLibraryTests.Pack(Jar, "swarm.SwarmSchema");
             var bytes = File.ReadAllBytes(Jar);
             MakeManager(Jar);
             Save(Schema);
