@@ -1,5 +1,6 @@
 """Removes build/ and the target/ folders of the JVM modules. Keeps results in out/."""
 import argparse
+import errno
 import shutil
 
 from build import graph, lock, maven
@@ -24,5 +25,11 @@ def run(_: argparse.Namespace) -> int:
             mark.unlink(missing_ok=True)
     for folder in [BUILD / "stamp", *folders]:
         if folder.exists():
-            shutil.rmtree(folder)
+            shutil.rmtree(folder, onerror=_report)
     return 0
+
+
+def _report(_: object, __: str, error: tuple[type[BaseException], BaseException, object]) -> None:
+    """Raises an error of a deletion, unless another process has just changed the folder: commands that start write their modules to build/pycache."""
+    if not isinstance(error[1], OSError) or error[1].errno not in (errno.ENOENT, errno.ENOTEMPTY):
+        raise error[1]

@@ -113,7 +113,7 @@ def test_a_build_after_an_interrupted_clean_starts_over(tmp_path: Path, monkeypa
     (tmp_path / "stamp").mkdir()
     deleted: list[Path] = []
 
-    def delete(folder: Path) -> None:
+    def delete(folder: Path, **_: object) -> None:
         deleted.append(folder)
         if folder.name != "stamp":
             raise KeyboardInterrupt
@@ -123,6 +123,26 @@ def test_a_build_after_an_interrupted_clean_starts_over(tmp_path: Path, monkeypa
         clean.run(argparse.Namespace())
     assert deleted == [tmp_path / "stamp", tmp_path / "a/target"]
     assert (tmp_path / "maven-started").exists() and not os.listdir(tmp_path / "cmake")
+
+
+def test_commands_that_start_during_clean_write_their_modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    build = tmp_path / "build"
+    (build / "pycache").mkdir(parents=True)
+    monkeypatch.setattr(clean, "BUILD", build)
+    monkeypatch.setattr(clean, "JVM", tmp_path / "jvm-host")
+    monkeypatch.setattr(clean, "GRAPH", build / "cmake")
+    monkeypatch.setattr(maven, "STARTED", build / "maven-started")
+    monkeypatch.setattr(lock, "exclusive", lambda: None)
+    remove = os.rmdir
+
+    def rmdir(path: str | Path, **options: int) -> None:
+        remove(path, **options)
+        (build / "pycache").mkdir()
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "rmdir", rmdir)
+        assert clean.run(argparse.Namespace()) == 0
+    assert os.listdir(build) == ["pycache"]
 
 
 def test_a_cached_folder_without_its_output_is_built_again(tmp_path: Path) -> None:
