@@ -5,6 +5,7 @@ import importlib
 import os
 import re
 import resource
+import shutil
 import signal
 import sys
 from pathlib import Path
@@ -119,7 +120,9 @@ def run_command(arguments: argparse.Namespace) -> int:
         if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS) and ROOT in Path(str(error.filename)).parents:
             advice = ": the command must be able to write to its checkout; use a checkout that you own"
         place = f"'{error.filename}': " if error.filename else ""
-        return report(Failure(f"{place}{error.strerror or error}{advice}"), code)
+        # This error lists all files that could not be copied.
+        reason = error.args[0][0][2] if isinstance(error, shutil.Error) else error.strerror or error
+        return report(Failure(f"{place}{reason}{advice}"), code)
 
 
 def report(failure: Failure, otherwise: int = 1) -> int:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from checkout import Checkout
 
+import collektive
 from build import graph, lock, maven, processes, projects
 from build.console import Failure
 from commands import bench, check, clean, demo, profile, repeat
@@ -89,6 +90,14 @@ def test_a_demo_does_not_replace_the_run_of_another_scenario(tmp_path: Path, mon
     Path("out/demo-seed1").mkdir(parents=True)
     Path("out/demo-seed1/manifest.json").write_text(f'{{"outcome": "complete", "file": "demo.json", "folder": "{folder}"}}')
     assert demo.run(argparse.Namespace(nodes=None, seconds=None, seed="1", out=None, overwrite=False)) == is_replaced
+
+
+def test_a_copy_that_fails_for_many_files_is_reported_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
+    def run(_: argparse.Namespace) -> int:
+        raise shutil.Error([("a", "b", "No space left on device: 'a' -> 'b'"), ("c", "d", "No space left on device: 'c' -> 'd'")])
+
+    assert collektive.run_command(argparse.Namespace(run=run)) == 1
+    assert capsys.readouterr().err == "collektive: No space left on device: 'a' -> 'b'\n"
 
 
 def test_clean_does_not_follow_links(checkout: Checkout, tmp_path: Path) -> None:
