@@ -3,14 +3,19 @@ runtimes, PhysX for runs without Unity, and the C# compiler."""
 import argparse
 
 from build import fetch, graph, lock, platforms, system
-from build.console import print_progress
+from build.console import Failure, print_progress
+
+TOOLS = [*fetch.FETCHERS, "nunit", "platforms"]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("tools", nargs="*", metavar="TOOL", help="fetch only these tools: " + ", ".join([*fetch.FETCHERS, "nunit", "platforms"]))
+    parser.add_argument("tools", nargs="*", metavar="TOOL", help="fetch only these tools: " + ", ".join(TOOLS))
 
 
 def run(arguments: argparse.Namespace) -> int:
+    for tool in arguments.tools:
+        if tool not in TOOLS:
+            raise Failure(f"setup: unknown tool '{tool}'; the tools are: {', '.join(TOOLS)}")
     if not arguments.tools:
         graph.build("tools")
         print_progress("tools are ready")

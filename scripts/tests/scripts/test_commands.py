@@ -12,7 +12,7 @@ from checkout import Checkout
 import collektive
 from build import graph, lock, maven, processes, projects
 from build.console import Failure
-from commands import bench, check, clean, demo, profile, repeat
+from commands import bench, check, clean, demo, profile, repeat, setup
 from commands import run as run_command
 
 
@@ -98,6 +98,11 @@ def test_a_copy_that_fails_for_many_files_is_reported_in_one_line(capsys: pytest
 
     assert collektive.run_command(argparse.Namespace(run=run)) == 1
     assert capsys.readouterr().err == "collektive: No space left on device: 'a' -> 'b'\n"
+
+
+def test_setup_rejects_unknown_tools() -> None:
+    with pytest.raises(Failure, match="setup: unknown tool 'flat'; the tools are: flatbuffers, "):
+        setup.run(argparse.Namespace(tools=["npm", "flat"]))
 
 
 def test_clean_does_not_follow_links(checkout: Checkout, tmp_path: Path) -> None:
