@@ -17,7 +17,7 @@ internal class OutputFolder(private val root: Path) {
     fun write(path: String, bytes: ByteArray) {
         written += path
         val file = root.resolve(path)
-        val old = if (Files.exists(file)) Files.readAllBytes(file) else null
+        val old = if (Files.isRegularFile(file)) Files.readAllBytes(file) else null
         if (old.contentEquals(bytes)) return
         if (Files.isSymbolicLink(file)) throw GeneratorException("$file is a symbolic link: remove it, or choose another folder")
         if (isSource(path) && old != null && !isGenerated(old)) {

@@ -157,6 +157,15 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `a folder in the place of a file is named`() {
+        val output = Fixture.newFolder()
+        val file = Files.createDirectories(output.resolve("csharp/a/SensorData.cs"))
+        val schema = Files.writeString(output.resolve("a.fbs"), "namespace a; struct SensorData { x: float; } struct ActuatorData { x: float; }")
+        val error = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
+        assertEquals("cannot write $file: $file: Is a directory", error.message)
+    }
+
+    @Test
     fun `files that the generator has not written are kept, and links are not followed`() {
         val output = Fixture.newFolder()
         val schema = Fixture.testSchemas.resolve("globals.fbs")
