@@ -91,8 +91,11 @@ internal class GeneratedTextTest {
         assertEquals("a.ASchema\nb.BSchema\nc.CSchema\n", announced("one"))
         assertEquals(announced("one"), announced("other"))
         Files.delete(work.resolve("one/jvm/b/BSchema.kt"))
+        // The user added the first two lines.
+        val list = work.resolve("one/jvm/META-INF/services/org.collektive.frames.data.DataSchema")
+        Files.writeString(list, "# mine\nd.Own\n${announced("one")}")
         generate("c", "one")
-        assertEquals("a.ASchema\nc.CSchema\n", announced("one"))
+        assertEquals("# mine\na.ASchema\nc.CSchema\nd.Own\n", announced("one"))
     }
 
     @Test
@@ -160,7 +163,8 @@ internal class GeneratedTextTest {
     fun `a folder in the place of a file is named`() {
         val output = Fixture.newFolder()
         val file = Files.createDirectories(output.resolve("csharp/a/SensorData.cs"))
-        val schema = Files.writeString(output.resolve("a.fbs"), "namespace a; struct SensorData { x: float; } struct ActuatorData { x: float; }")
+        val text = "namespace a; struct SensorData { x: float; } struct ActuatorData { x: float; }"
+        val schema = Files.writeString(output.resolve("a.fbs"), text)
         val error = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
         assertEquals("cannot write $file: $file: Is a directory", error.message)
     }
