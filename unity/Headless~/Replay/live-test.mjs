@@ -7,7 +7,7 @@ import { existsSync, lstatSync, mkdirSync, readFileSync, rmSync, symlinkSync, wr
 import { request } from 'node:http';
 import { join } from 'node:path';
 import suite from 'node:test';
-import { launch } from './browser.mjs';
+import { FAST, launch } from './browser.mjs';
 
 const [collektive, folder] = process.argv.slice(2);
 if (!folder) {
@@ -18,7 +18,7 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
 const program = join(folder, 'out/live/GradientAscent/programs/GradientAscent.kt');
-const browser = await launch();
+const browser = await launch(undefined, FAST);
 
 /** Starts the command and waits for its address. */
 async function start(...words) {
@@ -39,7 +39,8 @@ async function stop({ child, ended }) {
 
 /** Opens the page and waits for its first frame. */
 async function open(address, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1120, height: 720 }, ...options });
+  // Half of the resolution, because the processor draws.
+  const context = await browser.newContext({ viewport: { width: 1120, height: 720 }, deviceScaleFactor: 0.5, ...options });
   const tab = await context.newPage();
   const complaints = [];
   tab.on('console', (message) => {

@@ -8,7 +8,7 @@ import { join, resolve } from 'node:path';
 import suite from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { gunzipSync, gzipSync } from 'node:zlib';
-import { launch } from './browser.mjs';
+import { FAST, launch } from './browser.mjs';
 
 const [file, expected] = process.argv.slice(2);
 if (!file) {
@@ -22,7 +22,7 @@ const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');
 const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
 const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
-const browser = await launch();
+const browser = await launch(undefined, FAST);
 const blind = await launch(undefined, ['--disable-3d-apis']);
 
 /** Opens a page and collects its errors and requests. */
