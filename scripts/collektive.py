@@ -120,9 +120,15 @@ def run_command(arguments: argparse.Namespace) -> int:
         if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS) and ROOT in Path(str(error.filename)).parents:
             advice = ": the command must be able to write to its checkout; use a checkout that you own"
         place = f"'{error.filename}': " if error.filename else ""
-        # This error lists all files that could not be copied.
-        reason = error.args[0][0][2] if isinstance(error, shutil.Error) else error.strerror or error
-        return report(Failure(f"{place}{reason}{advice}"), code)
+        return report(Failure(f"{place}{_reason(error)}{advice}"), code)
+
+
+def _reason(error: OSError) -> str:
+    # This error of shutil lists all files that could not be copied.
+    if isinstance(error, shutil.Error) and isinstance(error.args[0], list):
+        _, target, reason = error.args[0][0]
+        return f"cannot write '{target}': {reason}"
+    return error.strerror or str(error)
 
 
 def report(failure: Failure, otherwise: int = 1) -> int:

@@ -334,7 +334,7 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
         is_isolated = (means.notna() & means.shift().isna() & means.shift(-1).isna()).to_numpy()
         marked = {*range(index * step // (parts[-1][0] + 1), len(means), step), *np.flatnonzero(is_isolated)}
         axes.plot(table.columns, means, label=str(index), markevery=sorted(marked), **line_style)
-        axes.vlines(table.columns[is_isolated], *bounds[is_isolated].T, color=line_style["color"], alpha=0.4)
+        axes.vlines(table.columns[is_isolated], *bounds[is_isolated].T, color=line_style["color"], alpha=0.2)
         axes.fill_between(table.columns, bounds[:, 0], bounds[:, 1], color=line_style["color"], alpha=0.2, linewidth=0)
     return counts
 

@@ -30,28 +30,28 @@ _MAVEN = Lock()
 
 def fetch(*names: str) -> None:
     """Fetches the named tools that are missing, several at a time. Names are keys of `FETCHERS`."""
-    lock.change(lambda: not missing(names), lambda: fill(names))
+    lock.change(lambda: not missing(names), lambda: fetch_missing(names))
 
 
-def missing(names: Iterable[str]) -> list[str]:
-    """Returns which of the named tools, and of the environment that they are added to, are missing."""
-    needed = ["experiments", *names] if any(name in ADDITIONS for name in names) else names
+def missing(names: Sequence[str]) -> list[str]:
+    """Returns the missing tools, including the environment that additions need."""
+    needed = dict.fromkeys([*(["experiments"] if any(name in ADDITIONS for name in names) else []), *names])
     return [name for name in needed if not _is_current(name, key_of(FETCHERS[name][0]))]
 
 
-def fill(names: Iterable[str]) -> None:
+def fetch_missing(names: Sequence[str]) -> None:
     """Fetches the named tools that are missing. The caller has locked the outputs for changes."""
     with ThreadPoolExecutor(_AT_ONCE) as pool:
         try:
-            list(pool.map(_fetch, (name for name in missing(names) if name not in ADDITIONS)))
+            list(pool.map(_fill_tool, (name for name in missing(names) if name not in ADDITIONS)))
         finally:
             pool.shutdown(cancel_futures=True)
     # These write to the environment of the experiments.
     for name in missing(names):
-        _fetch(name)
+        _fill_tool(name)
 
 
-def _fetch(name: str) -> None:
+def _fill_tool(name: str) -> None:
     inputs, make = FETCHERS[name]
     _fill(name, key_of(inputs), make)
 
@@ -284,7 +284,7 @@ FETCHERS: dict[str, tuple[list[Path | str], Callable[[Path], None]]] = {
     "live": ([TOOLS / "live", _PYTHON], partial(_environment, TOOLS / "live/requirements.txt")),
     "zig": ([TOOLS / "zig"], _zig),
 }
-# Tools that Maven fetches.
-MAVEN = ("kotlinc", "junit", "ktlint")
+# The tools that Maven fetches.
+MAVEN = frozenset(name for name, (_, make) in FETCHERS.items() if isinstance(make, partial) and make.func is _maven_jars)
 # The tools without which the build graph cannot be configured.
 BASE = ("flatbuffers", "flatc-linux-x64", "physx", "sqlite", "npm", "kotlinc")

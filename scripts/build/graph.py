@@ -2,7 +2,7 @@
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterable
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -15,8 +15,8 @@ from build.system import NUNIT, setup_system
 STAMP = GRAPH / "arguments"
 
 
-def build(*targets: str, tools: Iterable[str] = ()) -> None:
-    """Brings targets up to date, fetches missing tools meanwhile, and keeps a shared lock on the outputs.
+def build(*targets: str, tools: Sequence[str] = ()) -> None:
+    """Brings targets up to date, fetches missing tools at the same time, and keeps a shared lock on the outputs.
 
     If nothing has changed, no exclusive lock is needed, so runs do not wait for each other.
     """
@@ -27,7 +27,7 @@ def build(*targets: str, tools: Iterable[str] = ()) -> None:
 
     def make() -> None:
         with ThreadPoolExecutor(1) as pool:
-            fetched = pool.submit(fetch.fill, tools)
+            fetched = pool.submit(fetch.fetch_missing, tools)
             if not _is_configured():
                 _configure()
             if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:

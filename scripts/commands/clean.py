@@ -2,6 +2,7 @@
 import argparse
 import errno
 import shutil
+from pathlib import Path
 
 from build import graph, lock, maven
 from build.console import Failure
@@ -25,11 +26,12 @@ def run(_: argparse.Namespace) -> int:
             mark.unlink(missing_ok=True)
     for folder in [BUILD / "stamp", *folders]:
         if folder.exists():
-            shutil.rmtree(folder, onerror=_report)
+            shutil.rmtree(folder, onerror=_raise_unless_changed)
     return 0
 
 
-def _report(_: object, __: str, error: tuple[type[BaseException], BaseException, object]) -> None:
-    """Raises an error of a deletion, unless another process has just changed the folder: commands that start write their modules to build/pycache."""
-    if not isinstance(error[1], OSError) or error[1].errno not in (errno.ENOENT, errno.ENOTEMPTY):
+def _raise_unless_changed(_: object, path: str, error: tuple[type[BaseException], BaseException, object]) -> None:
+    """Raises an error of a deletion, except for build/pycache, to which commands that start write their modules."""
+    is_changed = isinstance(error[1], OSError) and error[1].errno in (errno.ENOENT, errno.ENOTEMPTY)
+    if not is_changed or not (Path(path) == BUILD or Path(path).is_relative_to(BUILD / "pycache")):
         raise error[1]

@@ -5,7 +5,7 @@ SCENARIO is a scenario file, or the name of a sample or of a lesson: gradient, c
 it is the case study, GradientAscent. Samples and lessons are copied to out/live/NAME once. To start again with the original, delete that
 folder.
 
-Ctrl-C ends the simulation. Exit code: 0 the simulation was started; 1 it was not."""
+Ctrl-C ends the simulation. Exit code: 0 the page was shown; 1 it was not."""
 import argparse
 import json
 from pathlib import Path

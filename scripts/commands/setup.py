@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     for tool in arguments.tools:
         if tool not in TOOLS:
-            raise Failure(f"setup: unknown tool '{tool}'; the tools are: {', '.join(TOOLS)}")
+            raise Failure(f"setup: unknown tool '{tool}'; known: {', '.join(TOOLS)}")
     if not arguments.tools:
         graph.build("tools")
         print_progress("tools are ready")

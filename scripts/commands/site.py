@@ -48,7 +48,10 @@ def replace(site: Path, out: Path) -> None:
     """Copies a site to `out`, in place of an earlier site, which stays if the copy fails."""
     out.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(prefix=f".{out.name}.", dir=out.parent) as part:
-        shutil.copytree(site, Path(part, "new"))
+        try:
+            shutil.copytree(site, Path(part, "new"))
+        except shutil.Error as error:
+            raise Failure(f"site: cannot write '{out}': {error.args[0][0][2]}") from error
         # The folder may have appeared during the build.
         require_replaceable(out)
         if out.exists():

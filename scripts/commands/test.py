@@ -159,6 +159,7 @@ def prepare() -> None:
     except Failure as failure:
         print_progress(f"skipping the C# tests: {failure}")
     lock.shared()
+    # One call fetches them in parallel.
     fetch.fetch("python", *fetch.BASE)
     setup_environment()
     graph.build("build.ninja")

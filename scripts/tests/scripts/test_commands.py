@@ -2,6 +2,7 @@
 import argparse
 import contextlib
 import os
+import re
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -92,16 +93,27 @@ def test_a_demo_does_not_replace_the_run_of_another_scenario(tmp_path: Path, mon
     assert demo.run(argparse.Namespace(nodes=None, seconds=None, seed="1", out=None, overwrite=False)) == is_replaced
 
 
-def test_a_copy_that_fails_for_many_files_is_reported_in_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    def run(_: argparse.Namespace) -> int:
-        raise shutil.Error([("a", "b", "No space left on device: 'a' -> 'b'"), ("c", "d", "No space left on device: 'c' -> 'd'")])
+def test_errors_of_copies_are_reported_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for name in ("one", "other"):
+        (tmp_path / "from").mkdir(exist_ok=True)
+        (tmp_path / "from" / name).touch()
+        (tmp_path / "to" / name).mkdir(parents=True)
 
-    assert collektive.run_command(argparse.Namespace(run=run)) == 1
-    assert capsys.readouterr().err == "collektive: No space left on device: 'a' -> 'b'\n"
+    def copy(_: argparse.Namespace) -> int:
+        shutil.copytree(tmp_path / "from", tmp_path / "to", dirs_exist_ok=True)
+        return 0
+
+    def move(_: argparse.Namespace) -> int:
+        shutil.move(tmp_path / "from/one", tmp_path / "to")
+        return 0
+
+    for run, message in ((copy, "cannot write '{to}/o[a-z]+': .*Is a directory.*"), (move, "Destination path '{to}/one' already exists")):
+        assert collektive.run_command(argparse.Namespace(run=run)) == 1
+        assert re.fullmatch(f"collektive: {message}\n".replace("{to}", re.escape(str(tmp_path / "to"))), capsys.readouterr().err)
 
 
 def test_setup_rejects_unknown_tools() -> None:
-    with pytest.raises(Failure, match="setup: unknown tool 'flat'; the tools are: flatbuffers, "):
+    with pytest.raises(Failure, match="setup: unknown tool 'flat'; known: flatbuffers, "):
         setup.run(argparse.Namespace(tools=["npm", "flat"]))
 
 
@@ -139,7 +151,7 @@ def test_a_build_after_an_interrupted_clean_starts_over(tmp_path: Path, monkeypa
     assert (tmp_path / "maven-started").exists() and not os.listdir(tmp_path / "cmake")
 
 
-def test_commands_that_start_during_clean_write_their_modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_clean_succeeds_if_a_starting_command_writes_its_modules(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     build = tmp_path / "build"
     (build / "pycache").mkdir(parents=True)
     monkeypatch.setattr(clean, "BUILD", build)

@@ -116,6 +116,12 @@ namespace Collektive.Unity.Editor
 
         private static void Submit()
         {
+            // The Kotlin files may have been deleted while the build waited. It would then replace the jar with one without programs.
+            if (!current.HasPrograms)
+            {
+                Finish(Progress.Status.Canceled);
+                return;
+            }
             SessionState.SetString(CurrentKey, current.Jar);
             startTime = DateTime.UtcNow;
             try
@@ -210,7 +216,7 @@ namespace Collektive.Unity.Editor
             };
             foreach (var jar in project.Runtime.Library) options.AddRange(new[] { "--library", jar });
             foreach (var argument in project.Runtime.Arguments()) options.AddRange(new[] { "--kotlin", argument });
-            if (Directory.Exists(project.Programs)) options.AddRange(new[] { "--source", Path.GetFullPath(project.Programs) });
+            options.AddRange(new[] { "--source", Path.GetFullPath(project.Programs) });
             return options;
         }
     }

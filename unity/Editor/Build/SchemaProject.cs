@@ -47,7 +47,7 @@ namespace Collektive.Unity.Editor
 
         /// <summary>
         /// Whether the jar is outdated: it was built from other sources, for another runtime, or by another package version, whose generated code would not
-        /// fit. Without Kotlin files, no jar is outdated, because its programs could not be built again.
+        /// fit. Without Kotlin files, no jar is outdated, because it could not be rebuilt.
         /// </summary>
         /// <exception cref="ToolException">The runtime's jars are missing.</exception>
         internal bool IsStale

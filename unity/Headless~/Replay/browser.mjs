@@ -7,8 +7,8 @@ const FLAGS = [
   '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--hide-scrollbars', '--force-color-profile=srgb',
 ];
 
-/** Tests draw without smooth edges, because the processor draws. */
-export const FAST = ['--webgl-antialiasing-mode=none'];
+/** Disables antialiasing, which is slow without a graphics card. For tests. */
+export const NO_ANTIALIASING = ['--webgl-antialiasing-mode=none'];
 
 /**
  * Starts the browser. `modules` is the folder with playwright-core and the browser, which `./collektive setup` creates. CHROMIUM selects another browser.

@@ -7,7 +7,7 @@ import { existsSync, lstatSync, mkdirSync, readFileSync, rmSync, symlinkSync, wr
 import { request } from 'node:http';
 import { join } from 'node:path';
 import suite from 'node:test';
-import { FAST, launch } from './browser.mjs';
+import { NO_ANTIALIASING, launch } from './browser.mjs';
 
 const [collektive, folder] = process.argv.slice(2);
 if (!folder) {
@@ -18,7 +18,7 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
 const program = join(folder, 'out/live/GradientAscent/programs/GradientAscent.kt');
-const browser = await launch(undefined, FAST);
+const browser = await launch(undefined, NO_ANTIALIASING);
 
 /** Starts the command and waits for its address. */
 async function start(...words) {

@@ -8,7 +8,7 @@ import { join, resolve } from 'node:path';
 import suite from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { gunzipSync, gzipSync } from 'node:zlib';
-import { FAST, launch } from './browser.mjs';
+import { NO_ANTIALIASING, launch } from './browser.mjs';
 
 const [file, expected] = process.argv.slice(2);
 if (!file) {
@@ -17,12 +17,12 @@ if (!file) {
 }
 
 // Small pictures are faster, because the processor draws them.
-const SIZE = { width: 800, height: 500 };
+const SIZE = { width: 1040, height: 480 };
 const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');
 const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
 const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
-const browser = await launch(undefined, FAST);
+const browser = await launch(undefined, NO_ANTIALIASING);
 const blind = await launch(undefined, ['--disable-3d-apis']);
 
 /** Opens a page and collects its errors and requests. */
@@ -559,7 +559,7 @@ await suite('replay page', async (page) => {
         assert.ok(await tab.locator('#selection').isHidden(), `${id} stays selected`);
         let found = false;
         for (let y = 120; y < 380 && !found; y += 12) {
-          for (let x = 260; x < 540 && !found; x += 12) {
+          for (let x = 260; x < 780 && !found; x += 12) {
             await tab.mouse.click(x, y);
             found = await tab.locator('#selection').isVisible();
           }
@@ -706,7 +706,7 @@ await suite('replay page', async (page) => {
     await test('the current view can be saved as a picture', async () => {
       const { name, bytes } = await download(tab, '#picture');
       assert.match(name, /-seed\d+-[\d.]+s\.png$/);
-      assert.deepEqual([bytes.readUInt32BE(0), bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [0x89504e47, 800, 500]);
+      assert.deepEqual([bytes.readUInt32BE(0), bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [0x89504e47, SIZE.width, SIZE.height]);
     });
 
     await test('Tab reaches every control and is never trapped', async () => {
@@ -745,9 +745,9 @@ await suite('replay page', async (page) => {
       await tab.keyboard.press('r');
       await tab.waitForTimeout(300);
       const before = await canvas(tab);
-      await tab.mouse.move(400, 200);
+      await tab.mouse.move(520, 200);
       await tab.mouse.down();
-      await tab.mouse.move(520, 240, { steps: 4 });
+      await tab.mouse.move(640, 240, { steps: 4 });
       await tab.mouse.up();
       await tab.waitForTimeout(300);
       assert.ok((await canvas(tab)) !== before, 'the picture stays the same');

@@ -216,10 +216,10 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [TestCase(false), TestCase(true), Category("Slow"), Category("Repeats")]
-        public void Without_Kotlin_files_the_jar_of_another_build_or_project_is_kept(bool isOfProject)
+        public void Without_Kotlin_files_the_jar_of_another_build_or_project_is_kept(bool isBuiltByUnity)
         {
             UseKotlin();
-            if (isOfProject) Commit(Swarm());
+            if (isBuiltByUnity) Commit(Swarm());
             else ProgramLibraryTests.Pack(Jar, "swarm.SwarmSchema");
             File.Delete(Count);
             var bytes = File.ReadAllBytes(Jar);

@@ -30,6 +30,20 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_node_without_requested_id_gives_its_id_to_a_node_that_requests_it()
+        {
+            Configure("sum");
+            var nodes = new List<Node>();
+            for (var i = 0; i < 3; i++) nodes.Add(new GameObject("Node").AddComponent<Node>());
+            nodes[0].RequestedId = 1;
+            Assert.That(nodes.ConvertAll(node => node.Id), Is.EqualTo(new[] { 1, 3, 2 }));
+            nodes[1].RequestedId = 0;
+            Assert.That(nodes.ConvertAll(node => node.Id), Is.EqualTo(new[] { 1, 0, 2 }));
+            Play(1);
+            Assert.That(Manager.Failure, Is.Empty);
+        }
+
+        [Test]
         public void Node_positions_are_sampled_at_the_start_of_the_tick()
         {
             var node = MakeNode(1, Vector3.right).Node;

@@ -101,9 +101,21 @@ namespace Collektive.Headless.Tests.Engine
             public void OnAfterDeserialize() => keys.ForEach(key => names.Add(key, "name " + key));
         }
 
+        [Serializable]
+        public struct Values : ISerializationCallbackReceiver
+        {
+            public List<int> stored;
+            public HashSet<int> all;
+
+            public void OnBeforeSerialize() => stored = new List<int>(all ?? new HashSet<int>());
+
+            public void OnAfterDeserialize() => (all ??= new HashSet<int>()).UnionWith(stored);
+        }
+
         public class TableOwner : MonoBehaviour, ISerializationCallbackReceiver
         {
             public Table table = new Table();
+            public Values values;
             public int count;
             public int Names { get; private set; }
 
@@ -118,10 +130,41 @@ namespace Collektive.Headless.Tests.Engine
             var original = Add<TableOwner>();
             original.table.names.Add(4, "four");
             original.table.names.Add(7, "seven");
+            original.values.all = new HashSet<int> { 3 };
             var copy = UnityEngine.Object.Instantiate(original);
             Assert.That(copy.table.names, Is.EquivalentTo(new Dictionary<int, string> { [4] = "name 4", [7] = "name 7" }));
             Assert.That(copy.Names, Is.EqualTo(22));
             Assert.That(original.table.names[4], Is.EqualTo("four"));
+            Assert.That(copy.values.all, Is.EqualTo(new[] { 3 }).And.Not.SameAs(original.values.all));
+        }
+
+        [Serializable]
+        public class Linked
+        {
+            [SerializeReference] public Linked next;
+
+            public override bool Equals(object other) => other is Linked;
+
+            public override int GetHashCode() => 0;
+        }
+
+        public class LinkedOwner : MonoBehaviour
+        {
+            [SerializeReference] public Linked first;
+            [SerializeReference] public List<Linked> all = new List<Linked>();
+        }
+
+        [Test]
+        public void A_copy_shares_references_as_the_original_does()
+        {
+            var original = Add<LinkedOwner>();
+            original.first = new Linked { next = new Linked() };
+            original.first.next.next = original.first;
+            original.all.Add(original.first.next);
+            var copy = UnityEngine.Object.Instantiate(original);
+            Assert.That(copy.first, Is.Not.SameAs(original.first).And.Not.SameAs(copy.first.next));
+            Assert.That(copy.first.next.next, Is.SameAs(copy.first));
+            Assert.That(copy.all[0], Is.SameAs(copy.first.next));
         }
 
         [Test]

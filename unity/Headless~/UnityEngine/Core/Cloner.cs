@@ -11,6 +11,9 @@ namespace UnityEngine
     {
         readonly Dictionary<Object, Object> copies = new Dictionary<Object, Object>();
 
+        /// The copies of the values of fields with `SerializeReference`. As in Unity, fields of one script that share a value share its copy.
+        readonly Dictionary<object, object> references = new Dictionary<object, object>(new Identity());
+
         public static Object Clone(Object original, Transform parent, (Vector3 position, Quaternion rotation)? pose, bool worldPositionStays = false)
         {
             if (!original) throw new ArgumentException("The Object you want to instantiate is null.");
@@ -25,7 +28,7 @@ namespace UnityEngine
                 case ScriptableObject script:
                     var copy = (ScriptableObject)Activator.CreateInstance(script.GetType(), true);
                     copy.name = script.name + "(Clone)";
-                    cloner.CopyFields(script, copy, typeof(ScriptableObject));
+                    cloner.CopyScript(script, copy, typeof(ScriptableObject));
                     return copy;
                 case Material material:
                     return new Material(material) { name = material.name + "(Clone)" };
@@ -42,7 +45,7 @@ namespace UnityEngine
             if (pose.HasValue) transform.Place(pose.Value.position, pose.Value.rotation);
             transform.SetParent(parent, worldPositionStays || pose.HasValue);
             foreach (var pair in copies)
-                if (pair.Key is MonoBehaviour script) CopyFields(script, pair.Value, typeof(MonoBehaviour));
+                if (pair.Key is MonoBehaviour script) CopyScript(script, pair.Value, typeof(MonoBehaviour));
             copy.SetActive(original.activeSelf);
             return copy;
         }
@@ -69,6 +72,12 @@ namespace UnityEngine
                 copiedChild.SetActive(child.owner.activeSelf);
             }
             return copy;
+        }
+
+        void CopyScript(Object original, Object copy, Type stopAt)
+        {
+            references.Clear();
+            CopyFields(original, copy, stopAt);
         }
 
         void CopyFields(object original, object copy, Type stopAt)
@@ -118,9 +127,19 @@ namespace UnityEngine
             var type = value.GetType();
             if (type.IsPrimitive || type.IsEnum) return value;
             if (!type.IsSerializable && !byReference) return value;
-            var copy = type.IsValueType ? value : Activator.CreateInstance(type, true);
+            if (byReference && references.TryGetValue(value, out var shared)) return shared;
+            // A struct with callbacks must not share the objects that they restore.
+            var copy = type.IsValueType && !(value is ISerializationCallbackReceiver) ? value : Activator.CreateInstance(type, true);
+            if (byReference) references.Add(value, copy);
             CopyFields(value, copy, typeof(object));
             return copy;
+        }
+
+        sealed class Identity : IEqualityComparer<object>
+        {
+            bool IEqualityComparer<object>.Equals(object one, object other) => ReferenceEquals(one, other);
+
+            int IEqualityComparer<object>.GetHashCode(object value) => System.Runtime.CompilerServices.RuntimeHelpers.GetHashCode(value);
         }
     }
 }

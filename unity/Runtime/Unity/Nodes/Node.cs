@@ -71,8 +71,8 @@ namespace Collektive.Unity
         public int Id { get; private set; } = -1;
 
         /// <summary>
-        /// The requested id; -1: the next free id. Read when the node joins the simulation. Until its first tick, setting it changes the id, and removes links
-        /// that scripts have added.
+        /// The requested id; -1: the next free id. Read when the node joins the simulation. If it is set to another id before the node's first tick, the node
+        /// joins again: this ends its <see cref="Sleep"/>, and removes links that scripts have added.
         /// </summary>
         public int RequestedId
         {

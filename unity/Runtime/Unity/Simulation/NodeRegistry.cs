@@ -61,7 +61,10 @@ namespace Collektive.Unity
         }
 
         /// <summary>Makes an id the next free one if it was the last one.</summary>
-        internal void FreeLast(int id) => nextId = id == nextId - 1 ? id : nextId;
+        internal void FreeLast(int id)
+        {
+            if (id == nextId - 1) nextId = id;
+        }
 
         /// <summary>Removes a node. Its links are kept until <see cref="DropLinksOfDeparted"/> removes them.</summary>
         internal void Leave(Node node, NeighbourSearch links)

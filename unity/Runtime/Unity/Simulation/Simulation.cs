@@ -282,14 +282,26 @@ namespace Collektive.Unity
             if (problem != null) Fail(problem, node);
         }
 
-        /// <summary>Gives a node its requested id before its first tick. Scripts often set it after AddComponent, during which the node joins.</summary>
+        /// <summary>
+        /// Gives a node its requested id before its first tick. Scripts often set it after AddComponent, during which the node joins. If a node without a
+        /// requested id has this id and was not in a tick either, it gets another one.
+        /// </summary>
         internal void ChangeId(Node node)
         {
+            if (node.RequestedId < 0 || node.RequestedId == node.Id || registry.IsKnown[node.Id]) return;
+            var other = Find(node.RequestedId);
+            var givesWay = !(other is null) && other.RequestedId < 0 && !registry.IsKnown[other.Id];
+            Withdraw(node);
+            if (givesWay) Withdraw(other);
+            Join(node);
+            if (givesWay) Join(other);
+        }
+
+        private void Withdraw(Node node)
+        {
             var id = node.Id;
-            if (node.RequestedId < 0 || node.RequestedId == id || registry.IsKnown[id]) return;
             Leave(node);
             registry.FreeLast(id);
-            Join(node);
         }
 
         internal void Leave(Node node)

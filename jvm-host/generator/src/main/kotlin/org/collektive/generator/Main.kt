@@ -75,15 +75,12 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
         for ((name, model) in kotlin.values()) output.write("${path(name)}.kt", Templates.render("Value.kt", model))
         output.writeSchema("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
         sanitized.binarySchema(copies.of(file), work.resolve("portable"))
-        output.write(portable("${schema.name}"), Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
-        // Only lines of removed schemas are removed. Others may be the user's.
-        output.addLine(SERVICES, "${schema.name}") { output.contains("${it.replace('.', '/')}.kt") || !output.contains(portable(it)) }
+        output.write("META-INF/collektive/${schema.name}.bfbs", Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
+        output.addLine(SERVICES, "${schema.name}") { output.contains("${it.replace('.', '/')}.kt") }
     }
 }
 
 private const val SERVICES = "META-INF/services/org.collektive.frames.data.DataSchema"
-
-private fun portable(schema: String) = "META-INF/collektive/$schema.bfbs"
 
 private fun binary(schema: Path): String = schema.fileName.toString().substringBeforeLast('.') + ".bfbs"
 

@@ -17,7 +17,8 @@ internal class OutputFolder(private val root: Path) {
     fun write(path: String, bytes: ByteArray) {
         written += path
         val file = root.resolve(path)
-        val old = if (Files.isRegularFile(file)) Files.readAllBytes(file) else null
+        if (Files.isDirectory(file)) throw GeneratorException("cannot write $file: it is a folder")
+        val old = if (Files.exists(file)) Files.readAllBytes(file) else null
         if (old.contentEquals(bytes)) return
         if (Files.isSymbolicLink(file)) throw GeneratorException("$file is a symbolic link: remove it, or choose another folder")
         if (isSource(path) && old != null && !isGenerated(old)) {
@@ -73,7 +74,7 @@ internal class OutputFolder(private val root: Path) {
     /** Adds [line] to a file of sorted lines. Keeps other lines for which [isWanted] holds, because schemas share the file. */
     fun addLine(path: String, line: String, isWanted: (String) -> Boolean) {
         val file = root.resolve(path)
-        val old = if (Files.exists(file)) Files.readAllLines(file).map(String::trim) else emptyList()
+        val old = if (Files.isRegularFile(file)) Files.readAllLines(file).map(String::trim) else emptyList()
         val others = old.filter { it.isNotEmpty() && isWanted(it) }
         write(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
     }

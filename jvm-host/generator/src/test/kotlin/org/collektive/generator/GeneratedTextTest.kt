@@ -91,11 +91,8 @@ internal class GeneratedTextTest {
         assertEquals("a.ASchema\nb.BSchema\nc.CSchema\n", announced("one"))
         assertEquals(announced("one"), announced("other"))
         Files.delete(work.resolve("one/jvm/b/BSchema.kt"))
-        // The user added the first two lines.
-        val list = work.resolve("one/jvm/META-INF/services/org.collektive.frames.data.DataSchema")
-        Files.writeString(list, "# mine\nd.Own\n${announced("one")}")
         generate("c", "one")
-        assertEquals("# mine\na.ASchema\nc.CSchema\nd.Own\n", announced("one"))
+        assertEquals("a.ASchema\nc.CSchema\n", announced("one"))
     }
 
     @Test
@@ -166,7 +163,7 @@ internal class GeneratedTextTest {
         val text = "namespace a; struct SensorData { x: float; } struct ActuatorData { x: float; }"
         val schema = Files.writeString(output.resolve("a.fbs"), text)
         val error = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
-        assertEquals("cannot write $file: $file: Is a directory", error.message)
+        assertEquals("cannot write $file: it is a folder", error.message)
     }
 
     @Test

@@ -41,8 +41,9 @@ internal class LiftedObject private constructor(type: KClass<*>, file: String?) 
     private fun functions(): List<FunSpec> {
         val lifted = stdlibFunctions.flatMap(LiftedFunction::of)
         val clashing = lifted.groupBy { it.jvmSignature }.filterValues { it.size > 1 }.keys
-        // Sorted by their texts, of which each takes long to write.
-        return lifted.map { it.toFunSpec(isNamed = it.jvmSignature in clashing) }.associateBy { "$it" }.toSortedMap().values.toList()
+        val functions = lifted.map { it.toFunSpec(isNamed = it.jvmSignature in clashing) }
+        // Writing a function takes long, so each is written once, and not in each comparison.
+        return functions.map { it to "$it" }.sortedBy { it.second }.map { it.first }
     }
 
     companion object {

@@ -28,7 +28,7 @@ internal class StdlibFunction private constructor(
     val result: KType get() = callable.returnType
     val isProperty: Boolean get() = callable is KProperty<*>
 
-    /** The name with which lifted versions of an extension call it. With its own name, the compiler would consider all lifted versions for each call. */
+    /** The name with which lifted versions call an extension. With its own name, the compiler would consider all versions for each call. */
     val alias: String? get() = if (isMember) null else "kotlin${name.replaceFirstChar(Char::uppercase)}"
 
     val isInfix: Boolean get() = callable is KFunction<*> && callable.isInfix
