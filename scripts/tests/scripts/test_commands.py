@@ -96,7 +96,7 @@ def test_a_demo_does_not_replace_the_run_of_another_scenario(tmp_path: Path, mon
 def test_errors_of_copies_are_reported_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for name in ("one", "other"):
         (tmp_path / "from").mkdir(exist_ok=True)
-        (tmp_path / "from" / name).touch()
+        (tmp_path / "from" / name).symlink_to("nowhere")
         (tmp_path / "to" / name).mkdir(parents=True)
 
     def copy(_: argparse.Namespace) -> int:
@@ -107,7 +107,7 @@ def test_errors_of_copies_are_reported_in_one_line(tmp_path: Path, capsys: pytes
         shutil.move(tmp_path / "from/one", tmp_path / "to")
         return 0
 
-    for run, message in ((copy, "cannot write '{to}/o[a-z]+': .*Is a directory.*"), (move, "Destination path '{to}/one' already exists")):
+    for run, message in ((copy, "cannot write '{to}/o[a-z]+': .*No such file or directory.*"), (move, "Destination path '{to}/one' already exists")):
         assert collektive.run_command(argparse.Namespace(run=run)) == 1
         assert re.fullmatch(f"collektive: {message}\n".replace("{to}", re.escape(str(tmp_path / "to"))), capsys.readouterr().err)
 

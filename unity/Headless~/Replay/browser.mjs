@@ -7,9 +7,6 @@ const FLAGS = [
   '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist', '--hide-scrollbars', '--force-color-profile=srgb',
 ];
 
-/** Disables antialiasing, which is slow without a graphics card. For tests. */
-export const NO_ANTIALIASING = ['--webgl-antialiasing-mode=none'];
-
 /**
  * Starts the browser. `modules` is the folder with playwright-core and the browser, which `./collektive setup` creates. CHROMIUM selects another browser.
  * The browser uses the libraries and fonts in the same folder, so that pictures are the same on all systems.

@@ -7,7 +7,7 @@ import { existsSync, lstatSync, mkdirSync, readFileSync, rmSync, symlinkSync, wr
 import { request } from 'node:http';
 import { join } from 'node:path';
 import suite from 'node:test';
-import { NO_ANTIALIASING, launch } from './browser.mjs';
+import { launch } from './browser.mjs';
 
 const [collektive, folder] = process.argv.slice(2);
 if (!folder) {
@@ -18,7 +18,7 @@ rmSync(folder, { recursive: true, force: true });
 mkdirSync(folder, { recursive: true });
 const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
 const program = join(folder, 'out/live/GradientAscent/programs/GradientAscent.kt');
-const browser = await launch(undefined, NO_ANTIALIASING);
+const browser = await launch(undefined, ['--webgl-antialiasing-mode=none']);
 
 /** Starts the command and waits for its address. */
 async function start(...words) {
@@ -39,7 +39,7 @@ async function stop({ child, ended }) {
 
 /** Opens the page and waits for its first frame. */
 async function open(address, options = {}) {
-  // Half of the resolution, because the processor draws.
+  // Half of the resolution and no antialiasing, because the processor draws. No test compares pictures.
   const context = await browser.newContext({ viewport: { width: 1120, height: 720 }, deviceScaleFactor: 0.5, ...options });
   const tab = await context.newPage();
   const complaints = [];

@@ -8,7 +8,7 @@ import { join, resolve } from 'node:path';
 import suite from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { gunzipSync, gzipSync } from 'node:zlib';
-import { NO_ANTIALIASING, launch } from './browser.mjs';
+import { launch } from './browser.mjs';
 
 const [file, expected] = process.argv.slice(2);
 if (!file) {
@@ -17,12 +17,12 @@ if (!file) {
 }
 
 // Small pictures are faster, because the processor draws them.
-const SIZE = { width: 1040, height: 480 };
+const SIZE = { width: 1040, height: 600 };
 const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');
 const axe = readFileSync(join(process.env.COLLEKTIVE_NODE_MODULES, 'axe-core/axe.min.js'), 'utf8');
 const DATA = /(<script id="replay"[^>]*>)([^<]*)(<\/script>)/;
-const browser = await launch(undefined, NO_ANTIALIASING);
+const browser = await launch();
 const blind = await launch(undefined, ['--disable-3d-apis']);
 
 /** Opens a page and collects its errors and requests. */
@@ -571,6 +571,8 @@ await suite('replay page', async (page) => {
       });
     }
 
+    await resize(tab, { width: 800, height: 500 });
+
     if (nodes > 0) {
       await test('another field colours the nodes and fills the legend', async () => {
         await seek(tab, middle);
@@ -706,7 +708,7 @@ await suite('replay page', async (page) => {
     await test('the current view can be saved as a picture', async () => {
       const { name, bytes } = await download(tab, '#picture');
       assert.match(name, /-seed\d+-[\d.]+s\.png$/);
-      assert.deepEqual([bytes.readUInt32BE(0), bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [0x89504e47, SIZE.width, SIZE.height]);
+      assert.deepEqual([bytes.readUInt32BE(0), bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [0x89504e47, 800, 500]);
     });
 
     await test('Tab reaches every control and is never trapped', async () => {
@@ -739,6 +741,8 @@ await suite('replay page', async (page) => {
         assert.deepEqual(found, []);
       });
     }
+
+    await resize(tab, SIZE);
 
     await test('dragging turns the view and R resets it', async () => {
       await seek(tab, middle);
