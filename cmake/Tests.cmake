@@ -87,7 +87,7 @@ suite(platforms-all platforms LABELS extra NEEDS build:runtime build:jvm_modules
   SCRIPT platforms/run.py RESULTS win-x64 linux-x64 linux-arm64 mac-x64 mac-arm64)
 suite(assets assets LABELS quick all NEEDS build:Collektive.SerializedFields.exe build:Collektive.Samples.dll PARALLEL PYTEST "${SCRIPTS}/checks/validator")
 suite(faults faults LABELS all NEEDS ${csharp_needs} build:incompatible_host NUNIT PARALLEL SCRIPT faults/faults.py --results RESULTS/faults.xml)
-suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 2 --results RESULTS/exits.xml)
+suite(exits exits LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT faults/exits.py 1 --results RESULTS/exits.xml)
 suite(soak soak LABELS all NEEDS ${csharp_needs} NUNIT PARALLEL SCRIPT soak.py 0.4 results=RESULTS/soak.xml)
 suite(roundtrip roundtrip LABELS all NEEDS build:roundtrip build:jvm_tests PARALLEL PYTEST "${PROJECT_SOURCE_DIR}/schema/test")
 suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleReplay.exe UNLOCKED PARALLEL SCRIPT pages.py page RESULTS)
