@@ -56,6 +56,14 @@ def test_a_new_environment_of_experiments_gets_its_additions_again(checkout: Che
     assert (checkout.root / "build/experiments/requirements-test.txt").exists()
 
 
+def test_an_environment_and_its_addition_are_each_fetched_once(checkout: Checkout) -> None:
+    for name in ("requirements.txt", "requirements-test.txt"):
+        (checkout.root / "experiments" / name).touch()
+    install = "fetch._install = lambda requirements, folder: print(requirements.name); fetch.run_logged = lambda *words: None; lock.shared(); "
+    result = checkout.run(f"{install}fetch.fetch('experiments', 'experiments-tests')")
+    assert result.stdout == "requirements.txt\nrequirements-test.txt\n", result.stderr
+
+
 def test_a_second_command_waits_for_the_first_and_skips_the_step(checkout: Checkout) -> None:
     checkout.close_gate()
     first = checkout.start(once("1"))
