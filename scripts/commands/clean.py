@@ -31,7 +31,7 @@ def run(_: argparse.Namespace) -> int:
 
 
 def _raise_unless_changed(_: object, path: str, error: tuple[type[BaseException], BaseException, object]) -> None:
-    """Raises an error of a deletion, except for build/pycache, to which commands that start write their modules."""
+    """Raises an error of a deletion, unless another command has just written its compiled modules to build/pycache."""
     is_changed = isinstance(error[1], OSError) and error[1].errno in (errno.ENOENT, errno.ENOTEMPTY)
     if not is_changed or not (Path(path) == BUILD or Path(path).is_relative_to(BUILD / "pycache")):
         raise error[1]

@@ -116,7 +116,7 @@ namespace Collektive.Unity.Editor
 
         private static void Submit()
         {
-            // The Kotlin files may have been deleted while the build waited. It would then replace the jar with one without programs.
+            // If the Kotlin files were deleted while the build waited, it would replace the jar with one without programs.
             if (!current.HasPrograms)
             {
                 Finish(Progress.Status.Canceled);

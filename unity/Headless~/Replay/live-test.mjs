@@ -39,7 +39,7 @@ async function stop({ child, ended }) {
 
 /** Opens the page and waits for its first frame. */
 async function open(address, options = {}) {
-  // Half of the resolution and no antialiasing, because the processor draws. No test compares pictures.
+  // Half of the resolution and no antialiasing, because drawing is slow without a graphics card. No test compares pictures.
   const context = await browser.newContext({ viewport: { width: 1120, height: 720 }, deviceScaleFactor: 0.5, ...options });
   const tab = await context.newPage();
   const complaints = [];

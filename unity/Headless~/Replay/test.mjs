@@ -16,7 +16,7 @@ if (!file) {
   process.exit(2);
 }
 
-// Small pictures are faster, because the processor draws them.
+// Small pictures, because drawing is slow without a graphics card.
 const SIZE = { width: 1040, height: 600 };
 const folder = mkdtempSync(join(tmpdir(), 'replay-test-'));
 const html = readFileSync(file, 'utf8');

@@ -2,6 +2,7 @@ using System;
 using System.Collections;
 using System.Collections.Generic;
 using System.Reflection;
+using System.Runtime.CompilerServices;
 
 namespace UnityEngine
 {
@@ -139,7 +140,7 @@ namespace UnityEngine
         {
             bool IEqualityComparer<object>.Equals(object one, object other) => ReferenceEquals(one, other);
 
-            int IEqualityComparer<object>.GetHashCode(object value) => System.Runtime.CompilerServices.RuntimeHelpers.GetHashCode(value);
+            int IEqualityComparer<object>.GetHashCode(object value) => RuntimeHelpers.GetHashCode(value);
         }
     }
 }

@@ -72,7 +72,7 @@ namespace Collektive.Unity
 
         /// <summary>
         /// The requested id; -1: the next free id. Read when the node joins the simulation. If it is set to another id before the node's first tick, the node
-        /// joins again: this ends its <see cref="Sleep"/>, and removes links that scripts have added.
+        /// joins again, which ends its <see cref="Sleep"/> and removes links that scripts have added.
         /// </summary>
         public int RequestedId
         {

@@ -60,7 +60,7 @@ namespace Collektive.Unity
             return null;
         }
 
-        /// <summary>Makes an id the next free one if it was the last one.</summary>
+        /// <summary>Frees an id for the next node if it is the greatest one.</summary>
         internal void FreeLast(int id)
         {
             if (id == nextId - 1) nextId = id;

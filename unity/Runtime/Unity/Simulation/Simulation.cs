@@ -283,8 +283,8 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Gives a node its requested id before its first tick. Scripts often set it after AddComponent, during which the node joins. If a node without a
-        /// requested id has this id and was not in a tick either, it gets another one.
+        /// Changes the id of a node to its requested id before its first tick. Scripts often set it after AddComponent, during which the node joins. Another
+        /// node with this id gets a new one if it did not request the id and was not in a tick either.
         /// </summary>
         internal void ChangeId(Node node)
         {

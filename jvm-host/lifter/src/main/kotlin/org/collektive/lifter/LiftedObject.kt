@@ -42,7 +42,7 @@ internal class LiftedObject private constructor(type: KClass<*>, file: String?) 
         val lifted = stdlibFunctions.flatMap(LiftedFunction::of)
         val clashing = lifted.groupBy { it.jvmSignature }.filterValues { it.size > 1 }.keys
         val functions = lifted.map { it.toFunSpec(isNamed = it.jvmSignature in clashing) }
-        // Writing a function takes long, so each is written once, and not in each comparison.
+        // Each function is converted to text once, not in each comparison, because this is slow.
         return functions.map { it to "$it" }.sortedBy { it.second }.map { it.first }
     }
 
