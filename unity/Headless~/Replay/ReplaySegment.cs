@@ -147,36 +147,46 @@ namespace Collektive.Headless
         {
             Reserve(MaxBytesPerNumber * (3 + 2 * (frame.PairCount + (before?.PairCount ?? 0))));
             WriteNumber((uint)frame.Links);
+            var shared = before == null ? 0 : CountShared(before, frame);
             // Removed pairs come first, then added pairs.
-            WritePairs(before, frame);
-            WritePairs(frame, before);
+            if (before == null) WriteNumber(0);
+            else WritePairs(before, frame, shared);
+            WritePairs(frame, before, shared);
+        }
+
+        private static int CountShared(ReplayFrame one, ReplayFrame other)
+        {
+            long[] keys = one.LinkKeys, otherKeys = other.LinkKeys;
+            int count = 0, i = 0, j = 0;
+            while (i < one.PairCount && j < other.PairCount)
+            {
+                var difference = keys[i] - otherKeys[j];
+                if (difference <= 0) i++;
+                if (difference >= 0) j++;
+                if (difference == 0) count++;
+            }
+            return count;
         }
 
         /// <summary>Writes the pairs of a frame that another frame does not contain.</summary>
-        private void WritePairs(ReplayFrame frame, ReplayFrame excluded)
+        /// <param name="shared">Number of pairs in both frames.</param>
+        private void WritePairs(ReplayFrame frame, ReplayFrame excluded, int shared)
         {
-            WriteNumber((uint)WalkPairs(frame, excluded, false));
-            WalkPairs(frame, excluded, true);
-        }
-
-        private int WalkPairs(ReplayFrame frame, ReplayFrame excluded, bool write)
-        {
-            if (frame == null) return 0;
-            int excludedCount = excluded?.PairCount ?? 0, other = 0, count = 0, a = -1, b = 0;
+            WriteNumber((uint)(frame.PairCount - shared));
+            if (frame.PairCount == shared) return;
+            long[] keys = frame.LinkKeys, excludedKeys = excluded?.LinkKeys;
+            int excludedCount = excluded?.PairCount ?? 0, other = 0, a = -1, b = 0;
             for (var i = 0; i < frame.PairCount; i++)
             {
-                var key = frame.LinkKeys[i];
-                while (other < excludedCount && excluded.LinkKeys[other] < key) other++;
-                if (other < excludedCount && excluded.LinkKeys[other] == key) continue;
-                count++;
-                if (!write) continue;
+                var key = keys[i];
+                while (other < excludedCount && excludedKeys[other] < key) other++;
+                if (other < excludedCount && excludedKeys[other] == key) continue;
                 int nextA = (int)(key >> 26), nextB = (int)(key >> 2) & 0xFFFFFF;
                 WriteNumber((uint)(nextA - a));
                 WriteNumber((uint)((nextB - (nextA == a ? b : nextA)) << 2 | (int)key & 3));
                 a = nextA;
                 b = nextB;
             }
-            return count;
         }
 
         private void WriteSigned(int value) => WriteNumber((uint)(value << 1 ^ value >> 31));
