@@ -7,7 +7,7 @@ import struct
 
 
 def read(path):
-    """Returns the metadata and a list of frames. A frame is (time, {id: (x, y, z, first field or None)}, set of links (from, to))."""
+    """Returns the metadata, a list of frames, and the set of links (from, to) in the last one. A frame is (time, {id: (x, y, z, first field or None)})."""
     text = open(path, encoding="utf-8").read()
     lines = re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1).split("\n")
     header = json.loads(_unpack(lines[0]))
@@ -17,9 +17,9 @@ def read(path):
     for line in lines[1:]:
         segment = _Segment(_unpack(line), header)
         while segment.at < len(segment.data):
-            frames.append((next(times), *segment.frame()))
+            frames.append((next(times), segment.frame()))
     assert len(frames) == len(header["times"])
-    return header["metadata"], frames
+    return header["metadata"], frames, {(segment.ids[a], segment.ids[b]) for a, b in segment.links}
 
 
 def _unpack(text):
@@ -53,7 +53,7 @@ class _Segment:
         self.number()  # skips the total number of links
         self.links -= set(self.pairs())
         self.links |= set(self.pairs())
-        return nodes, {(self.ids[a], self.ids[b]) for a, b in self.links}
+        return nodes
 
     def range(self):
         self.at += 8

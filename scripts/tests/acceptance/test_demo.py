@@ -23,6 +23,7 @@ class DemoTest(Folder):
             raise AssertionError(cls.result.stderr)
         with open(os.path.join(cls.out, "manifest.json")) as file:
             cls.whole = json.load(file)
+        cls.metadata, cls.frames, _ = replay.read(os.path.join(cls.out, "replay.html"))
 
     def test_the_manifest_describes_the_run(self) -> None:
         self.assertEqual(self.whole["nodes"], 500)
@@ -63,23 +64,21 @@ class DemoTest(Folder):
         self.assertLess(seconds, self.whole["wall_seconds"] + 0.01)
 
     def test_obstacles_block_the_way_of_at_least_a_tenth_of_the_nodes(self) -> None:
-        metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
-        boxes = [shape for shape in metadata["shapes"] if shape["size"] == [1, 3, 5]]
+        boxes = [shape for shape in self.metadata["shapes"] if shape["size"] == [1, 3, 5]]
         self.assertEqual(len(boxes), 4)
-        source = metadata["markers"][0]["position"]
-        behind = sum(any(crosses((x, z), (source[0], source[2]), box) for box in boxes) for x, _, z, _ in frames[0][1].values())
+        source = self.metadata["markers"][0]["position"]
+        behind = sum(any(crosses((x, z), (source[0], source[2]), box) for box in boxes) for x, _, z, _ in self.frames[0][1].values())
         self.assertGreaterEqual(behind, 50)
 
     def test_no_node_ends_inside_an_obstacle_or_off_the_floor(self) -> None:
-        metadata, frames = replay.read(os.path.join(self.out, "replay.html"))
-        self.assertEqual(len(frames), 601)
-        for node, (x, y, z, _) in frames[-1][1].items():
+        self.assertEqual(len(self.frames), 601)
+        for node, (x, y, z, _) in self.frames[-1][1].items():
             self.assertTrue(-50 <= x <= 50 and -30 <= z <= 30, f"node {node} is at {x}, {z}")
             self.assertTrue(0.2 <= y <= 0.75, f"node {node} is {y} m high")
-            for box in metadata["shapes"]:
+            for box in self.metadata["shapes"]:
                 inside = all(abs(p - c) < s / 2 for p, c, s in zip((x, y, z), box["centre"], box["size"]))
                 self.assertFalse(inside, f"node {node} is inside an obstacle")
-        self.assertEqual(len(frames[-1][1]), 500)
+        self.assertEqual(len(self.frames[-1][1]), 500)
 
     def test_it_is_fast_enough(self) -> None:
         # On two idle cores, the targets are 2 ms and 33 ms. A busy machine may take twice as long.

@@ -80,8 +80,8 @@ class WholeRuns(Project):
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.03')
         result = self.run_it("--seconds", "0.3")
         self.assertEqual(result.returncode, 0, result.stderr)
-        _, frames = replay.read(self.path("out", "replay.html"))
-        self.assertEqual([round(time, 2) for time, *_ in frames], [0, 0.12, 0.24, 0.3])
+        _, frames, _ = replay.read(self.path("out", "replay.html"))
+        self.assertEqual([round(time, 2) for time, _ in frames], [0, 0.12, 0.24, 0.3])
 
     @pytest.mark.slow
     def test_seeds_have_64_bits_in_files_on_the_command_line_and_in_records(self) -> None:

@@ -31,8 +31,8 @@ class Outputs(Project):
     def test_a_replay_without_colourings_shows_answers_of_nodes(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)
-        _, frames = replay.read(self.path("out", "replay.html"))
-        _, nodes, _ = frames[-1]
+        _, frames, _ = replay.read(self.path("out", "replay.html"))
+        _, nodes = frames[-1]
         brightest = {round(value, 3) for *_, value in nodes.values()}
         self.assertEqual(len(brightest), 1, "in the end, all lamps must have the same answer")
 
@@ -52,11 +52,11 @@ class Outputs(Project):
             if (loop)""")
         result = self.run_it()
         self.assertEqual(result.returncode, 0, result.stderr)
-        metadata, frames = replay.read(self.path("out", "replay.html"))
+        metadata, frames, links = replay.read(self.path("out", "replay.html"))
         self.assertEqual((metadata["nodeRadius"], metadata["nodeHeight"]), (0.5, 3))
         shape = {"kind": "capsule", "radius": 0.5, "height": 6, "axis": 2, "centre": [4, 1, 5], "rotation": [0, 0, 0, 1]}
         self.assertEqual(metadata["shapes"], [shape])
-        _, nodes, links = frames[-1]
+        _, nodes = frames[-1]
         first, second, third = sorted(nodes)[:3]
         self.assertEqual({link for link in links if first in link}, {(first, second), (second, first), (first, third)})
 

@@ -45,16 +45,16 @@ class SamplesTest(Folder):
         for schedule, rows in self.under_each_schedule("Channel", seconds=15, fields={"failAfter": 1000}, outputs={"replay": True}):
             self.assertEqual(rows[-1]["connected"], 1, schedule)
             self.assertTrue(90 <= rows[-1]["length"] <= 125, schedule)
-            _, frames = replay.read(self.path("out", "replay.html"))
+            _, frames, _ = replay.read(self.path("out", "replay.html"))
             # Every frame must show the whole channel, including nodes that were not due.
-            shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes, _ in frames[-5:]}
+            shown = {sum(shade == 1 for *_, shade in nodes.values()) for _, nodes in frames[-5:]}
             self.assertEqual(shown, {rows[-1]["channel_nodes"]}, schedule)
 
     @pytest.mark.slow
     def test_all_walkers_compute_the_density_under_each_schedule(self) -> None:
         for schedule, rows in self.under_each_schedule("Crowd", seconds=5, fields={"walkers": 60}, outputs={"replay": True}):
-            _, frames = replay.read(self.path("out", "replay.html"))
-            for _, nodes, _ in frames[-5:]:
+            _, frames, _ = replay.read(self.path("out", "replay.html"))
+            for _, nodes in frames[-5:]:
                 self.assertEqual([node for node, (*_, density) in nodes.items() if density == 0], [], schedule)
             self.assertAlmostEqual(max(density for *_, density in frames[-1][1].values()), rows[-1]["density"], 3, schedule)
 

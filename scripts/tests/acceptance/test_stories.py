@@ -74,7 +74,8 @@ def test_tutorials_work_as_written(page, folder) -> None:
 
 def count_neighbours(page) -> None:
     """Checks that the value of each node on the page is its number of neighbours, which colours nodes whose answers contain no numbers."""
-    _, nodes, links = replay.read(page)[1][-1]
+    _, frames, links = replay.read(page)
+    _, nodes = frames[-1]
     for node, (*_, value) in nodes.items():
         assert value == pytest.approx(len({frozenset(link) for link in links if node in link}), abs=0.01)
 
