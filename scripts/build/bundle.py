@@ -19,9 +19,9 @@ from build.inputs import Part
 from build.places import ADAPTER_JAR, CSHARP, HOST_JAR, LIBRARY_JAR, SHIM
 from collektive import run_command
 
-ASSEMBLIES = ("Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "Collektive.Bridge.pdb", "Collektive.Unity.dll", "Collektive.Unity.pdb",
-              "UnityEngine.dll", "UnityEngine.pdb", "Newtonsoft.Json.dll", "libcollektive_physics.so", "libcollektive_sqlite.so",
-              "Collektive.Player.exe", "Collektive.Player.exe.so", "Collektive.Player.pdb")
+COMPILED = ("Newtonsoft.Json.dll", "Collektive.FlatBuffers.dll", "Collektive.Bridge.dll", "UnityEngine.dll", "Collektive.Player.exe")
+ASSEMBLIES = (*COMPILED, *(f"{name}.so" for name in COMPILED), "Collektive.Bridge.pdb", "Collektive.Unity.dll", "Collektive.Unity.pdb", "UnityEngine.pdb",
+              "Collektive.Player.pdb", "libcollektive_physics.so", "libcollektive_sqlite.so")
 
 
 def run(arguments: argparse.Namespace) -> int:

