@@ -3,6 +3,7 @@
 Creates the folder RESULTS. With --lock, locks the build outputs for use until the suite ends. The command runs in a separate process group, which ends when
 CTest kills this process after the time limit.
 """
+import os
 import sys
 from pathlib import Path
 
@@ -15,6 +16,8 @@ def main(words: list[str]) -> int:
     """Runs the command of the suite and returns its exit code."""
     options, command = words[1:words.index("--")], words[words.index("--") + 1:]
     Path(words[0]).mkdir(parents=True, exist_ok=True)
+    # Commands of the suite find Python directly. The Python on the path may be a script that needs longer than a command.
+    os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     if "--lock" in options:
         lock.shared()
     return processes.run_in_group(lambda: processes.call(command))
