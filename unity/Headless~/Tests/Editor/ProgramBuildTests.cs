@@ -77,6 +77,14 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(Project.Refreshes, Is.EqualTo(refreshes + 1), "Unity must compile the changed C#");
             Assert.That(File.ReadAllText("Assets/Swarm/Generated/swarm/ActuatorData.cs"), Is.StringContaining("olour"));
             Assert.That(Log, Is.Empty);
+
+            File.AppendAllText(Count, "\n");
+            Save(Count);
+            Menus.Tick();
+            File.Delete(Count);
+            Build();
+            Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt" }), "a file that is deleted during the build must not empty the jar");
+            Assert.That(Project.ProgressItems[Project.ProgressItems.Count - 1], Is.EqualTo((Schema, Progress.Status.Canceled)));
         }
 
         [Test, Category("Slow"), Category("Repeats")]

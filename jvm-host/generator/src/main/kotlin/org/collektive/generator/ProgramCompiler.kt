@@ -67,8 +67,9 @@ internal object ProgramCompiler {
         val generated = path("--work").resolve("generated")
         val classes = path("--work").resolve("classes")
         val sources = values.getValue("--source")
+        fun sourceFiles(extension: String) = sources.flatMap { files(Path.of(it), "").values }.filter { "$it".endsWith(extension) }
         // The Kotlin compiler reads Java files but does not compile them.
-        sources.flatMap { files(Path.of(it), "").values }.find { "$it".endsWith(".java") }?.let {
+        sourceFiles(".java").firstOrNull()?.let {
             throw GeneratorException("$it: only Kotlin is compiled: convert this Java file to Kotlin, or move it to another folder")
         }
         val library = values.getValue("--library").joinToString(File.pathSeparator)
@@ -83,6 +84,10 @@ internal object ProgramCompiler {
         val code =
             compileKotlin("$library${File.pathSeparator}$classes", classes, sources + "$generated" + values.getValue("--kotlin"), log)
         val marks = values.getValue("--mark") + listOf("Collektive-Version:$VERSION", "Collektive-Sources:$hash")
+        // A jar must not lose its programs if their files were deleted meanwhile, for example by a change of the branch.
+        if (sources.isNotEmpty() && sourceFiles(".kt").isEmpty()) {
+            throw GeneratorException("no Kotlin file (.kt) is in ${sources.joinToString()}, so ${jar.fileName} is unchanged")
+        }
         if (code == 0) pack(jar, marks, files(generated.resolve("META-INF"), "META-INF/") + files(classes, ""))
         return code
     }
