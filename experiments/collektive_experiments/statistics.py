@@ -25,6 +25,7 @@ def interval(values: Floats, statistic: Any = np.mean, confidence: float = 0.95)
     The statistic is a function with the parameter `axis`, such as `numpy.mean`. The resampling has a fixed seed, so equal values give equal intervals.
     The interval of fewer than two values is NaN.
     """
+    values = np.asarray(values, float)
     if len(values) < 2:
         return float("nan"), float("nan")
     random = np.random.default_rng(0)
@@ -82,6 +83,8 @@ def _slack(a: Floats, b: Floats) -> float:
 
 def holm(values: Floats) -> Floats:
     """Corrects p-values for multiple comparisons with Holm's method. A NaN stays NaN and does not count as a comparison."""
+    # A series would be indexed by its labels, and its index may have another order.
+    values = np.asarray(values, float)
     corrected = np.full(len(values), np.nan)
     order = np.argsort(values, kind="stable")[:np.count_nonzero(~np.isnan(values))]
     corrected[order] = np.minimum(1, np.maximum.accumulate(values[order] * np.arange(len(order), 0, -1)))
@@ -96,6 +99,7 @@ def kaplan_meier(times: Floats, is_observed: npt.NDArray[np.bool_]) -> tuple[Flo
     the limits of its 95 % interval, which uses Greenwood's variance of log(-log). The limits are NaN where the share is 1. If no run is censored, the
     share is the empirical distribution function.
     """
+    times, is_observed = np.asarray(times, float), np.asarray(is_observed, bool)
     moments = np.unique(times[is_observed])
     at_risk = (times[None, :] >= moments[:, None]).sum(axis=1)
     events = ((times[None, :] == moments[:, None]) & is_observed).sum(axis=1)

@@ -151,6 +151,17 @@ def test_holm_corrects_as_published_and_never_lowers_or_reorders() -> None:
         assert (corrected[known] <= values[known] * known.sum() + 1e-12).all(), "Holm's correction must not exceed Bonferroni's"
 
 
+def test_the_index_of_a_series_and_the_type_of_numbers_do_not_change_statistics() -> None:
+    values, is_observed = np.array([3.0, 1, 2, 5, 4]), np.array([True, False, True, True, False])
+    for index in (range(5), [4, 2, 0, 3, 1], list("abcde")):
+        sample = pd.Series(values, index=index)
+        assert list(holm(sample / 100)) == list(holm(values / 100))
+        assert interval(sample) == interval(values)
+        for observed in (pd.Series(is_observed, index=index), is_observed.astype(int), list(is_observed)):
+            for curve, expected in zip(kaplan_meier(sample, observed), kaplan_meier(values, is_observed)):
+                np.testing.assert_array_equal(curve, expected)
+
+
 def test_kaplan_meier_reproduces_a_published_curve() -> None:
     # Weeks in remission with 6-mercaptopurine, from Freireich et al. (1963).
     times = np.array([6, 6, 6, 7, 10, 13, 16, 22, 23, 6, 9, 10, 11, 17, 19, 20, 25, 32, 32, 34, 35], float)
