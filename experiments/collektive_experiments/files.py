@@ -33,11 +33,15 @@ def is_marked(folder: str) -> bool:
 
 
 def deletable_above(folder: str) -> str | None:
-    """Returns the folder of a run or a bundle that is the given folder or contains it, or None. A resumed sweep may delete such a folder."""
+    """
+    Returns the folder of a run or a bundle that is the given folder or contains it, or None. A resumed sweep may delete such a folder.
+
+    The given folder may be new. Its sweep marks it.
+    """
     path = Path(os.path.realpath(folder))
     for place in (path, *path.parents):
         sweep = place.parent.parent if place.parent.name == "runs" else place.parent if place.name == "bundle" or place.suffix == PART else None
-        if sweep and is_marked(str(place)) and is_marked(str(sweep)):
+        if sweep and (place == path or is_marked(str(place))) and is_marked(str(sweep)):
             return str(place)
     return None
 

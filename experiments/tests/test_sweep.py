@@ -289,7 +289,7 @@ def test_texts_with_many_lines_are_read_in_linear_time(tmp_path: Path) -> None:
 def test_results_cannot_be_in_folders_that_another_sweep_may_delete(project: Project) -> None:
     assert project.sweep(vary={"seed": [1]}).returncode == 0
     (run,) = (project.folder / "out/runs").iterdir()
-    for place in (run, run / "again", project.folder / "out/bundle"):
+    for place in (run, run / "again", project.folder / "out/bundle", project.folder / "out/new.part", project.folder / "out/runs/new.part"):
         before = sorted(place.rglob("*")) if place.exists() else []
         result = project.sweep(out=str(place.relative_to(project.folder)), vary={"seed": [1]})
         assert result.returncode == 1
