@@ -23,7 +23,7 @@ from . import files
 from .experiment import Experiment, check_labels, read_figures, text
 from .figure_options import CENSORED, CONVERGED, TIME, Fail, FigureOptions, check_keys, check_metrics
 from .positions import ExperimentError, Located
-from .results import VALUE, Results, compare, load, name_of_metric
+from .results import VALUE, Results, compare, load, name_of_metric, require_distinct
 from .statistics import interval, kaplan_meier
 from .store import Store
 
@@ -237,6 +237,7 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
     """Draws the requested figure for each metric and each combination of values of the keys that it does not show. Yields name, figure and caption."""
     options = _with_columns(results, options)
     data = results.series if options.x == TIME else results.complete
+    require_distinct(data, results.configuration)
     others = _other_keys(results, [key for key in (options.x, options.by) if key and key != TIME])
     combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
     if len(combinations) > MAX_PANELS:
@@ -318,8 +319,6 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
     counts = set()
     parts = _split(results, data, by)
     for index, runs in parts:
-        if runs.duplicated(["run", "second"]).any():
-            raise ValueError("two runs have the same name: rename the runs of one sweep in both tables before you combine them")
         # Times at which no run has a value interrupt the line.
         table = runs.pivot(index="run", columns="second", values=metric)
         # Runs that end earlier have no values at later times, so the number of runs differs between times.
@@ -509,6 +508,7 @@ def at_end(results: Results, metric: str) -> tuple[Figure, str]:
 def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame], str]:
     """Returns the figure, its axes, the key that colours show, the rows of each panel, and the sentence of a caption about omitted panels."""
     keys = results.configuration
+    require_distinct(data, keys)
     colour = keys[0] if keys else None
     # Titles also contain keys with one value.
     others = [key for key in keys[1:] if results.runs[key].nunique() == 1 or key in _other_keys(results, keys[:1])]

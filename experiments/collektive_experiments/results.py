@@ -120,6 +120,12 @@ def _read(folder: str, name: str) -> tuple[pd.DataFrame, bytes | None]:
                               f"./collektive sweep EXPERIMENT.json --out {folder} --resume") from error
 
 
+def require_distinct(data: pd.DataFrame, keys: list[str]) -> None:
+    """Raises `ValueError` if two runs in a table have the same seed and equal values of the keys. Combined tables may contain such runs."""
+    if data.duplicated([*keys, "seed", *(["second"] if "second" in data else [])]).any():
+        raise ValueError("two runs of a configuration have the same seed: add the column that distinguishes them to the keys of the results")
+
+
 def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     """
     Compares the end values of a metric, or any other number in the table of runs, between each pair of values of a key.
@@ -138,13 +144,12 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     others = [key for key in results.configuration
               if key != by and (results.runs[key].nunique() == 1 or results.runs.groupby(by)[key].nunique().max() > 1)]
     data = results.complete.assign(**{VALUE: results.values(metric)}).dropna(subset=VALUE)
+    require_distinct(data, [*others, by])
     groups = data.groupby(others, sort=False, dropna=False) if others else [((), data)]
     for place, group in groups:
         samples = {value: part.set_index("seed")[VALUE] for value, part in group.groupby(by, sort=False)}
         for first, second in itertools.combinations(samples, 2):
             a, b = samples[first], samples[second]
-            if not (a.index.is_unique and b.index.is_unique):
-                raise ValueError("two runs of a configuration have the same seed: add the column that distinguishes them to the keys of the results")
             seeds = a.index.intersection(b.index)
             effect = (paired_effect(a[seeds].to_numpy(float), b[seeds].to_numpy(float)) if len(seeds) else
                       unpaired_effect(a.to_numpy(float), b.to_numpy(float)))

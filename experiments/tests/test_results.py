@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from collektive_experiments import Results, compare, holm, interval, kaplan_meier
+from collektive_experiments import Results, compare, draw, holm, interval, kaplan_meier, read_options
 from collektive_experiments.figures import _table, _title, at_end, over_time
 from collektive_experiments.statistics import paired_effect, unpaired_effect
 
@@ -63,14 +63,20 @@ def test_incomplete_runs_are_ignored() -> None:
     assert compare(some, "error", "program").iloc[0]["n_a"] == 19
 
 
-def test_combined_tables_without_distinct_labels_names_or_seeds_are_rejected() -> None:
+def test_combined_tables_without_distinct_labels_or_seeds_are_rejected() -> None:
     some = results(2)
     with pytest.raises(ValueError, match="ignore_index"):
         replace(some, runs=pd.concat([some.runs, some.runs]))
     with pytest.raises(ValueError, match="have the same seed"):
         compare(replace(some, runs=pd.concat([some.runs, some.runs], ignore_index=True)), "error", "program")
-    with pytest.raises(ValueError, match="two runs have the same name"):
-        over_time(replace(some, series=pd.concat([some.series, some.series], ignore_index=True)), "error")
+    twice = replace(some, series=pd.concat([some.series.assign(source=source) for source in "ab"], ignore_index=True),
+                    runs=pd.concat([some.runs.assign(source=source, run=source + some.runs["run"]) for source in "ab"], ignore_index=True))
+    options = read_options({"metric": "error", "by": "program"})
+    for draw_figure in (lambda: over_time(twice, "error"), lambda: at_end(twice, "error"), lambda: next(draw(twice, options))):
+        with pytest.raises(ValueError, match="have the same seed"):
+            draw_figure()
+    assert over_time(replace(twice, keys=["program", "source", "seed"]), "error")[1].endswith("of 20 runs per configuration.")
+    assert list(compare(twice, "error", "source")["pairs"]) == [20, 20]
 
 
 def test_combined_tables_without_a_value_of_a_key_are_rejected() -> None:
