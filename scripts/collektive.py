@@ -76,6 +76,13 @@ def parser_for(name: str | None) -> Parser:
     return parser
 
 
+def resolve_parents(word: str) -> str:
+    """Resolves a path with `..` after a symbolic link. Mono and other tools would remove `..` and the link, and use another file."""
+    option, path = re.fullmatch("(--[a-z-]+=)?(.*)", word, re.DOTALL).groups("")  # type: ignore[union-attr]
+    folder, name = os.path.split(path)
+    return word if os.path.realpath(os.path.normpath(path)) == os.path.realpath(path) else option + os.path.join(os.path.realpath(folder), name)
+
+
 def main(words: list[str]) -> int:
     """Runs a command line and returns its exit code."""
     if not words or words[0] in ("-h", "--help", "help"):
@@ -89,6 +96,8 @@ def main(words: list[str]) -> int:
         for text in [_current_folder(), *words]:
             if re.search("[\udc80-\udcff]", text):
                 raise Failure(f"{text!r} is not UTF-8, which the player and the JVM need: rename the file or folder")
+        # Some commands pass `sys.argv` to another process.
+        sys.argv[1:] = words = [resolve_parents(word) for word in words]
         arguments = parser_for(words[0]).parse_args(words)
         from build.processes import run_in_group
         return run_in_group(lambda: run_command(arguments))

@@ -149,7 +149,8 @@ def read(path: str) -> Experiment:
             raise located.error(f"the key '{key}' is missing")
     if root["version"] != VERSION:
         raise located.error(f"version {root['version']} is not supported; use version {VERSION}", "version")
-    scenario = os.path.join(os.path.dirname(path), root["scenario"])
+    # Like paths in scenarios, `..` removes the name before it, even if that is a symbolic link.
+    scenario = os.path.normpath(os.path.join(os.path.dirname(path), root["scenario"]))
     if not os.path.isfile(scenario):
         raise located.error(f"the scenario file '{scenario}' does not exist", "scenario")
     settings = Located(scenario)

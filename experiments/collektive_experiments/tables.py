@@ -128,8 +128,8 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
 
 def read_parquet(folder: str, name: str, **options: Any) -> pa.Table:
     """Reads a table of a sweep with the given options of PyArrow."""
-    # PyArrow would replace `~` in a relative path by the home folder.
-    return pq.read_table(os.path.abspath(os.path.join(folder, f"{name}.parquet")), **options)
+    # PyArrow would replace `~` in a relative path by the home folder, and remove `..` with a symbolic link before it.
+    return pq.read_table(os.path.realpath(os.path.join(folder, f"{name}.parquet")), **options)
 
 
 def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> int:

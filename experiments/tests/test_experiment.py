@@ -106,6 +106,15 @@ def test_files_are_read_as_the_player_reads_them(tmp_path: Path) -> None:
     assert experiment.product == [("seed", [1, 2])]
 
 
+def test_the_scenario_in_a_folder_above_a_symbolic_link_is_the_one_that_the_player_reads(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere/deep").mkdir(parents=True)
+    (tmp_path / "link").symlink_to("elsewhere/deep")
+    for folder in (tmp_path, tmp_path / "elsewhere"):
+        (folder / "scenario.json").write_text("{}")
+    (tmp_path / "link/experiment.json").write_text('{"version": 1, "scenario": "../scenario.json"}')
+    assert read(str(tmp_path / "link/experiment.json")).scenario.path == str(tmp_path / "scenario.json")
+
+
 def named(values: dict[str, object]) -> str:
     return name_of(values, values)
 

@@ -76,6 +76,11 @@ def test_series_have_a_row_per_second_and_nodes_a_row_per_node(lamps: Project) -
     assert list(last["position.x"][:10]) == list(range(10))
 
 
+def test_tables_are_read_above_a_symbolic_link(lamps: Project, tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to(lamps.folder / "out")
+    assert len(load(str(tmp_path / "link/../out")).runs) == 8
+
+
 def test_tables_are_also_written_as_csv(lamps: Project) -> None:
     for name in ("runs", "series"):
         table = pd.read_csv(lamps.folder / "out" / f"{name}.csv")

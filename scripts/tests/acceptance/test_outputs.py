@@ -146,6 +146,19 @@ class Outputs(Project):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(self.outcome(), "complete")
 
+    def test_parent_folders_of_symbolic_links_are_those_of_their_targets(self) -> None:
+        os.makedirs(self.path("elsewhere", "deep"))
+        os.symlink("elsewhere/deep", self.path("link"))
+        shutil.copytree(self.path("project"), self.path("elsewhere", "project"))
+        self.change("lamps.json", '"version": 1', '"version": 1, "seed": 7')
+        for command, out in [("run", "--out=link/../out"), ("profile", "--out=link/../profiled")]:
+            result = collektive(command, "link/../project/lamps.json", out, cwd=self.folder)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["elsewhere", "link", "project"])
+        manifest = self.manifest(self.path("elsewhere", "out"))
+        self.assertEqual((manifest["folder"], manifest["scenario"]["seed"]), (os.path.realpath(self.path("elsewhere", "project")), 1))
+        self.assertTrue(os.path.exists(self.path("elsewhere", "profiled", "profile.jfr")))
+
     def test_a_player_killed_by_a_shell_limit_is_reported_in_one_line(self) -> None:
         command = ["bash", "-c", 'ulimit -f 1; exec "$@"', "bash", COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")]
         result = subprocess.run(command, capture_output=True, text=True)
