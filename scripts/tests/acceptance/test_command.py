@@ -35,6 +35,13 @@ class CommandTest(unittest.TestCase):
                 self.assertEqual(result.returncode, 1)
                 self.assertIn(f"'{folder}' exists and is not a site built by this command", last_error(result))
             self.assertTrue(Path(other, "sitemap.xml").exists())
+            # A clone of the branch with a published site contains its marker.
+            Path(other, ".collektive-site").touch()
+            Path(other, ".git").mkdir()
+            result = collektive("site", "--out", other)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("is a Git working tree", last_error(result))
+            self.assertTrue(Path(other, ".git").exists())
 
 
 class TestCommandTest(unittest.TestCase):
