@@ -45,7 +45,7 @@ class ProjectionTest {
     @Test
     fun `a field is projected wherever it comes from`() {
         val programs = "property reference pair element chosenElement destructured ofDataClass hashMap delegated lazyProperty " +
-            "smartCast cast fromFunction fromGeneric fromLambda"
+            "smartCast smartCastProperty cast castProperty fromFunction fromGeneric fromLambda"
         for (program in programs.split(" ")) assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         val calledInArm = "each iterated jdkLambda ownFunction callableReference functionValue lambdaFromOutside listParameter " +
             "member lazily"
@@ -143,6 +143,17 @@ class ProjectionTest {
             fun Aggregate<Int>.cast(): Set<Int> {
                 val f: Any = neighboring(localId)
                 return if (even) ids(f as Field<Int, Int>) else ids(f as Field<Int, Int>)
+            }
+            class Value(val value: Any)
+            @Suppress("UNCHECKED_CAST")
+            fun Aggregate<Int>.castProperty(): Set<Int> {
+                val f = Value(neighboring(localId))
+                return if (even) (f.value as Field<Int, Int>).neighbors.ids.set else (f.value as? Field<Int, Int>)?.neighbors?.ids?.set.orEmpty()
+            }
+            fun Aggregate<Int>.smartCastProperty(): Set<Any> {
+                val f = Value(neighboring(localId))
+                if (f.value !is Field<*, *>) return setOf()
+                return if (even) f.value.neighbors.ids.set else f.value.neighbors.ids.set
             }
             fun Aggregate<Int>.each(): Set<Int> {
                 val f = listOf(neighboring(localId))

@@ -203,11 +203,16 @@ internal class AlignmentTransformer(
         return if (!isInside && dsl.isField(expression.type)) projected(expression, nameOf(expression), declared) else expression
     }
 
-    /** Projects a variable of another type that is read as a field, after `is` or with `as`. */
+    /** Projects a value of another type that is read as a field, after `is` or with `as`. */
     override fun visitTypeOperator(expression: IrTypeOperatorCall): IrExpression {
-        val read = expression.argument as? IrGetValue
-        val becomesField = read != null && dsl.isField(expression.type) && !dsl.isField(read.type)
-        return if (becomesField) projected(expression, nameOf(read)) else super.visitTypeOperator(expression)
+        val value = expression.argument
+        val name = when (value) {
+            is IrGetValue -> nameOf(value)
+            is IrFunctionAccessExpression -> callName(value)
+            else -> "as"
+        }
+        val becomesField = dsl.isField(expression.type) && !dsl.isField(value.type)
+        return super.visitTypeOperator(expression).let { if (becomesField) projected(it, name) else it }
     }
 
     /** Whether [call] may return an existing field, for example from a property, a list, a pair, or a function of these. */
