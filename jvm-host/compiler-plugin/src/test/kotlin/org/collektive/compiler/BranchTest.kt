@@ -66,6 +66,13 @@ class BranchTest {
     }
 
     @Test
+    fun `an object behind an abstract type, or with functions, does not align across the arms`() {
+        for (program in "interfaceInArms sealedInArms propertyInArms jobInArms listOfFunctionsInArms".split(" ")) {
+            assertSeen(program, 0 to setOf(2), 1 to setOf(3))
+        }
+    }
+
+    @Test
     fun `an arm that only returns does not affect devices that continue`() = assertSeen("earlyReturn", 1 to setOf(3), 3 to setOf(1))
 
     @Test
@@ -195,6 +202,17 @@ class BranchTest {
                 return if (even) look(child.parent) else look(child.parent)
             }
             fun node(device: Aggregate<Int>) = Node2().let { parent -> Node(parent, Keeper(device)).also { parent.child = it } }
+
+            interface Step { val around: Set<Int>; fun run(): Set<Int> }
+            fun Aggregate<Int>.step(): Step = object : Step { override val around get() = seen(); override fun run() = seen() }
+            fun Aggregate<Int>.interfaceInArms(): Set<Int> { val step = step(); return if (even) step.run() else step.run() }
+            fun Aggregate<Int>.propertyInArms(): Set<Int> { val step = step(); return if (even) step.around else step.around }
+            sealed class Duty { abstract fun run(): Set<Int>; class Watch(val device: Aggregate<Int>) : Duty() { override fun run() = device.seen() } }
+            fun Aggregate<Int>.sealedInArms(): Set<Int> { val duty: Duty = Duty.Watch(this); return if (even) duty.run() else duty.run() }
+            class Job(private val look: () -> Set<Int>) { fun run() = look() }
+            fun Aggregate<Int>.jobInArms(): Set<Int> { val job = Job { seen() }; return if (even) job.run() else job.run() }
+            fun first(looks: List<() -> Set<Int>>): Set<Int> = looks.first()()
+            fun Aggregate<Int>.listOfFunctionsInArms(): Set<Int> { val looks = listOf({ seen() }); return if (even) first(looks) else first(looks) }
 
             val table: Map<Boolean, Aggregate<Int>.() -> Set<Int>> = mapOf(true to { seen() }, false to { seen() })
             fun Aggregate<Int>.table(): Set<Int> = table.getValue(even)(this)
