@@ -101,7 +101,7 @@ class AlignmentTest {
         "go > near > neighboring",
         "inherited > neighboring",
         "viaMixin > neighboring",
-        "all > neighboring",
+        "all > near > neighboring",
     )
 
     @Test
@@ -151,7 +151,7 @@ class AlignmentTest {
             fun Aggregate<Int>.keeping(): Int = Team(Keeper(this)).all() + Team(Keeper(this)).all()
             """,
         )
-        assertEquals(listOf("all > neighboring", "all > neighboring"), trace(compiled.program("kotlinswarm.keeping")).second)
+        assertEquals(listOf("all > near > neighboring", "all > near > neighboring"), trace(compiled.program("kotlinswarm.keeping")).second)
     }
 
     @Test

@@ -73,6 +73,13 @@ class BranchTest {
     }
 
     @Test
+    fun `functions that get the Aggregate inside another object do not align across their arms`() {
+        for (program in "ofContext ofContextInArms ofLateinit ofComputed ofDeepContext ofCast ofList ofInitializer".split(" ")) {
+            assertSeen(program, 0 to setOf(2), 1 to setOf(3))
+        }
+    }
+
+    @Test
     fun `an arm that only returns does not affect devices that continue`() = assertSeen("earlyReturn", 1 to setOf(3), 3 to setOf(1))
 
     @Test
@@ -213,6 +220,25 @@ class BranchTest {
             fun Aggregate<Int>.jobInArms(): Set<Int> { val job = Job { seen() }; return if (even) job.run() else job.run() }
             fun first(looks: List<() -> Set<Int>>): Set<Int> = looks.first()()
             fun Aggregate<Int>.listOfFunctionsInArms(): Set<Int> { val looks = listOf({ seen() }); return if (even) first(looks) else first(looks) }
+
+            class Context(val device: Aggregate<Int>, val even: Boolean)
+            fun Context.near(): Set<Int> = device.seen()
+            fun Context.look(): Set<Int> = if (even) device.seen() else device.seen()
+            fun lookAgain(context: Context): Set<Int> = if (context.even) context.near() else context.near()
+            fun Aggregate<Int>.ofContext(): Set<Int> = Context(this, even).look()
+            fun Aggregate<Int>.ofContextInArms(): Set<Int> = lookAgain(Context(this, even))
+            class Late { lateinit var device: Aggregate<Int>; fun look(even: Boolean) = if (even) device.seen() else device.seen() }
+            fun Aggregate<Int>.ofLateinit(): Set<Int> = Late().also { it.device = this }.look(even)
+            class Computed(private val of: () -> Aggregate<Int>) { val device get() = of(); fun look(even: Boolean) = if (even) device.seen() else device.seen() }
+            fun Aggregate<Int>.ofComputed(): Set<Int> = Computed { this }.look(even)
+            class Deep(val context: Context) { fun look() = if (context.even) context.device.seen() else context.device.seen() }
+            fun Aggregate<Int>.ofDeepContext(): Set<Int> = Deep(Context(this, even)).look()
+            fun look(device: Any, even: Boolean) = if (even) (device as Aggregate<Int>).seen() else (device as Aggregate<Int>).seen()
+            fun Aggregate<Int>.ofCast(): Set<Int> = look(this, even)
+            fun look(devices: List<Aggregate<Int>>, even: Boolean) = if (even) devices[0].seen() else devices[0].seen()
+            fun Aggregate<Int>.ofList(): Set<Int> = look(listOf(this), even)
+            class Initialized(context: Context) { val seen = if (context.even) context.device.seen() else context.device.seen() }
+            fun Aggregate<Int>.ofInitializer(): Set<Int> = Initialized(Context(this, even)).seen
 
             val table: Map<Boolean, Aggregate<Int>.() -> Set<Int>> = mapOf(true to { seen() }, false to { seen() })
             fun Aggregate<Int>.table(): Set<Int> = table.getValue(even)(this)

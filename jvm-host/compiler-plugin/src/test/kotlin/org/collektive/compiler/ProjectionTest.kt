@@ -48,7 +48,7 @@ class ProjectionTest {
             "smartCast smartCastProperty cast castProperty fromFunction fromGeneric fromLambda"
         for (program in programs.split(" ")) assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         val calledInArm = "each iterated jdkLambda ownFunction callableReference functionValue lambdaFromOutside listParameter " +
-            "member lazily"
+            "member lazily inMember inFunctionOfPair inFunctionOfNullable"
         for (program in calledInArm.split(" ")) assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
     }
 
@@ -204,6 +204,12 @@ class ProjectionTest {
                 val look = { ids(f) }
                 return if (even) look() else look()
             }
+            fun Frame.seen(even: Boolean): Set<Int> = if (even) ids(field) else field.neighbors.ids.set
+            fun Aggregate<Int>.inMember(): Set<Int> = Frame(neighboring(localId)).seen(even)
+            fun seen(frame: Pair<Field<Int, Int>, Boolean>): Set<Int> = if (frame.second) ids(frame.first) else frame.first.neighbors.ids.set
+            fun Aggregate<Int>.inFunctionOfPair(): Set<Int> = seen(neighboring(localId) to even)
+            fun seen(field: Field<Int, Int>?, even: Boolean): Set<Int> = if (even) ids(field!!) else field?.neighbors?.ids?.set.orEmpty()
+            fun Aggregate<Int>.inFunctionOfNullable(): Set<Int> = seen(neighboring(localId), even)
             fun first(of: List<Field<Int, Int>>): Field<Int, Int> = of.first()
             fun Aggregate<Int>.fromFunction(): Set<Int> {
                 val f = listOf(neighboring(localId))

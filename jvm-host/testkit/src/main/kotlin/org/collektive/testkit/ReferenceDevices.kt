@@ -14,6 +14,7 @@ import it.unibo.collektive.path.FullPath
 import org.collektive.alignment.AlignmentStack
 import org.collektive.alignment.ProgramPlace
 import org.collektive.alignment.readable
+import org.collektive.alignment.setRunningDevice
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.Export
@@ -58,7 +59,12 @@ public open class ReferenceDevice internal constructor(override val localId: Int
         this.inbox = inbox
         running = Record()
         stack.clear()
-        return program.run(this, sensors).also { check(stack.isEmpty()) { "tokens left on the stack: ${describe(stack)}" } }
+        val outer = setRunningDevice(this)
+        try {
+            return program.run(this, sensors).also { check(stack.isEmpty()) { "tokens left on the stack: ${describe(stack)}" } }
+        } finally {
+            setRunningDevice(outer)
+        }
     }
 
     override fun commit(): Export = running.also { last = it }

@@ -8,6 +8,7 @@ import org.jetbrains.kotlin.backend.common.extensions.IrPluginContext
 import org.jetbrains.kotlin.backend.common.lower.DeclarationIrBuilder
 import org.jetbrains.kotlin.backend.common.lower.irCatch
 import org.jetbrains.kotlin.backend.common.lower.irThrow
+import org.jetbrains.kotlin.ir.IrElement
 import org.jetbrains.kotlin.ir.IrStatement
 import org.jetbrains.kotlin.ir.builders.IrBlockBuilder
 import org.jetbrains.kotlin.ir.builders.declarations.buildVariable
@@ -61,9 +62,13 @@ import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.hasAnnotation
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isNullable
+import org.jetbrains.kotlin.ir.util.isSubtypeOfClass
 import org.jetbrains.kotlin.ir.util.parentAsClass
 import org.jetbrains.kotlin.ir.util.parentClassOrNull
+import org.jetbrains.kotlin.ir.util.parents
 import org.jetbrains.kotlin.ir.util.primaryConstructor
+import org.jetbrains.kotlin.ir.visitors.IrVisitorVoid
+import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
 import org.jetbrains.kotlin.name.Name
 
 /**
@@ -88,8 +93,8 @@ internal class AlignmentTransformer(
     /** The outermost lambda with an Aggregate; `null` inside named aggregate functions. See [Tokens]. */
     private var entry: IrFunction? = null
 
-    /** An Aggregate that is the [parameter] itself, or is stored in the parameter's [property]. */
-    private class Source(val parameter: IrValueParameter, val property: IrProperty? = null)
+    /** An Aggregate that is the [parameter] itself, or is stored in the parameter's [property], or is the device that runs the code. */
+    private class Source(val parameter: IrValueParameter?, val property: IrProperty? = null)
 
     /** An arm, a function body or code between `align` and `dealign`. Different neighbours may be aligned inside it. */
     private class Region(val outer: Region?, val isBranch: Boolean)
@@ -118,7 +123,7 @@ internal class AlignmentTransformer(
     /** Visits an initialiser of a class. It can read the parameters of the primary constructor, so the Aggregate may be one of them. */
     private inline fun <R> withSourceOfConstructor(initializer: IrDeclaration, visit: () -> R): R {
         val outer = source
-        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer
+        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer ?: runningDevice(initializer)
         return visit().also { source = outer }
     }
 
@@ -130,9 +135,10 @@ internal class AlignmentTransformer(
         val outerSource = source
         val outerRegion = region
         val outerEntry = entry
-        source = sourceIn(declaration) ?: outerSource
+        source = sourceIn(declaration) ?: outerSource ?: runningDevice(declaration)
         val outerDepends = dependsOnPath
-        val isEntry = outerSource == null && source != null && declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA
+        val isEntry = outerSource?.parameter == null && source?.parameter != null &&
+            declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA
         if (isEntry) {
             entry = declaration
             dependsOnPath = false
@@ -348,14 +354,15 @@ internal class AlignmentTransformer(
     /** Reads the Aggregate of the enclosing function. */
     private fun IrBlockBuilder.current(): IrExpression {
         val source = checkNotNull(source)
-        val given = irGet(source.parameter)
+        val parameter = source.parameter ?: return irCall(dsl.runningDevice)
+        val given = irGet(parameter)
         val property = source.property
         val getter = property?.getter
         val field = property?.backingField
         return when {
             field != null -> irGetField(given, field)
             getter != null -> irCall(getter).apply { arguments[0] = given }
-            dsl.isAggregate(source.parameter.type) -> given
+            dsl.isAggregate(parameter.type) -> given
             else -> irCall(dsl.fieldContext, dsl.aggregate.starProjectedType).apply { arguments[0] = given }
         }
     }
@@ -384,6 +391,19 @@ internal class AlignmentTransformer(
     private fun storedIn(self: IrValueParameter, type: IrClass): Source? {
         dsl.aggregateProperty(type)?.let { return Source(self, it) }
         return if (type.isInner) type.parentAsClass.let { outer -> outer.thisReceiver?.let { storedIn(it, outer) } } else null
+    }
+
+    /** The device that runs [code] if it uses an Aggregate or a Field, or `null`. Implementations of Aggregate are not programs. */
+    private fun runningDevice(code: IrDeclaration): Source? {
+        if (code.parents.any { it is IrClass && it.symbol.isSubtypeOfClass(dsl.aggregate) }) return null
+        var usesAggregate = false
+        code.acceptChildrenVoid(object : IrVisitorVoid() {
+            override fun visitElement(element: IrElement) {
+                usesAggregate = usesAggregate || element is IrExpression && dsl.containsDslType(element.type)
+                if (!usesAggregate) element.acceptChildrenVoid(this)
+            }
+        })
+        return if (usesAggregate) Source(null) else null
     }
 
     private fun isLocalEntry(callee: IrSimpleFunction) = dsl.isFieldMember(callee) &&

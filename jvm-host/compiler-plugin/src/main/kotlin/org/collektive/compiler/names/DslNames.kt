@@ -25,6 +25,7 @@ internal object DslNames {
     val local = Name.identifier("local")
     val localValue = Name.identifier("localValue")
 
+    val runningDevice = CallableId(alignmentPackage, Name.identifier("runningDevice"))
     val pushToken = CallableId(alignmentPackage, Name.identifier("pushToken"))
     val pushBranchToken = CallableId(alignmentPackage, Name.identifier("pushBranchToken"))
     val pushLambdaToken = CallableId(alignmentPackage, Name.identifier("pushLambdaToken"))
