@@ -9,13 +9,8 @@ import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.DelicateCollektiveApi
 import it.unibo.collektive.aggregate.api.InMemory
 
-private val running = ThreadLocal<Aggregate<*>>()
-
-/** The device whose round runs on this thread, or `null`. Used by functions that receive the device inside another object. */
-public fun runningDevice(): Aggregate<*>? = running.get()
-
-/** Called by devices when a round starts, and with the returned previous device when it ends. */
-public fun setRunningDevice(device: Aggregate<*>?): Aggregate<*>? = running.get().also { running.set(device) }
+/** Returns the device whose round runs on this thread, or `null`. Used by functions that receive the device inside another object. */
+public fun runningDevice(): Aggregate<*>? = RunningDevice.ofThread().device
 
 /** Called before an aligned call. Returns the depth to pass to [popToken]. */
 public fun pushToken(aggregate: Aggregate<*>?, token: String): Int {

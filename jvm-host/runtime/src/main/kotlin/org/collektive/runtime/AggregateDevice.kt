@@ -11,7 +11,6 @@ import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.networking.PayloadRepresentation
 import it.unibo.collektive.path.FullPath
 import org.collektive.alignment.ProgramPlace
-import org.collektive.alignment.setRunningDevice
 import org.collektive.alignment.withPlace
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.Export
@@ -49,14 +48,12 @@ internal class AggregateDevice<ID : Any>(
         running.clear()
         val stack = stacks.get()
         ownStack = stack
-        val outer = setRunningDevice(this)
         try {
-            return program.run(this, sensors)
+            return stack.running.run(this) { program.run(this, sensors) }
         } catch (failure: Throwable) {
             recordFailure(failure)
             throw failure
         } finally {
-            setRunningDevice(outer)
             stack.popTo(0)
             ownStack = null
         }

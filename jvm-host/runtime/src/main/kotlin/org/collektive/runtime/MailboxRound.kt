@@ -14,7 +14,7 @@ import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.Path
 import it.unibo.collektive.path.PathFactory
 import it.unibo.collektive.state.State
-import org.collektive.alignment.setRunningDevice
+import org.collektive.alignment.RunningDevice
 import org.collektive.alignment.withPlace
 
 /** One round of a device that reaches its neighbours through messages. */
@@ -39,13 +39,10 @@ internal class MailboxRound<ID : Any>(
     private val neighbors = ascending(inbound.neighbors)
 
     fun <R> run(program: Aggregate<ID>.() -> R): AggregateResult<ID, R> {
-        val outer = setRunningDevice(this)
         val result = try {
-            program()
+            RunningDevice.ofThread().run(this) { program() }
         } catch (failure: StackOverflowError) {
             throw StackOverflowError(withPlace("infinite recursion", failurePlace(failure))).initCause(failure)
-        } finally {
-            setRunningDevice(outer)
         }
         return AggregateResult(localId, result, outbound, newState)
     }

@@ -1,10 +1,14 @@
 package org.collektive.runtime
 
+import org.collektive.alignment.RunningDevice
+
 /**
  * The alignment stack of a thread, which all rounds on the thread reuse. A single stack stays in the core's L1 cache, but one stack per
  * device would not.
  */
 internal class PathStack(private val tree: PathTree) {
+    val running: RunningDevice = RunningDevice.ofThread()
+
     // tokens[0 until depth] is the stack. nodes[0..resolved] are the paths of its first prefixes. Paths are looked up only when a
     // primitive runs, so a pivot without primitives costs no look-up.
     private var tokens = arrayOfNulls<Any?>(INITIAL_DEPTH)

@@ -13,8 +13,8 @@ import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.FullPath
 import org.collektive.alignment.AlignmentStack
 import org.collektive.alignment.ProgramPlace
+import org.collektive.alignment.RunningDevice
 import org.collektive.alignment.readable
-import org.collektive.alignment.setRunningDevice
 import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
 import org.collektive.spi.Export
@@ -59,12 +59,9 @@ public open class ReferenceDevice internal constructor(override val localId: Int
         this.inbox = inbox
         running = Record()
         stack.clear()
-        val outer = setRunningDevice(this)
-        try {
-            return program.run(this, sensors).also { check(stack.isEmpty()) { "tokens left on the stack: ${describe(stack)}" } }
-        } finally {
-            setRunningDevice(outer)
-        }
+        val answer = RunningDevice.ofThread().run(this) { program.run(this, sensors) }
+        check(stack.isEmpty()) { "tokens left on the stack: ${describe(stack)}" }
+        return answer
     }
 
     override fun commit(): Export = running.also { last = it }
