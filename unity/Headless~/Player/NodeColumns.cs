@@ -53,16 +53,26 @@ namespace Collektive.Headless
             }
         }
 
-        /// <summary>Adds names of the schema that a query uses and that differ from those of the columns, such as is_a_leader for IsALeader.</summary>
-        internal void AddSchemaNames(string query)
+        /// <summary>
+        /// Adds names of the schema that a query uses and that differ from those of the columns, such as is_a_leader for IsALeader. Returns the problem of a
+        /// name with which SQL, which ignores case, would read another field, or null.
+        /// </summary>
+        internal string AddSchemaNames(string query)
         {
             foreach (Match word in Regex.Matches(query, @"\w*[^\W_]\w*"))
             {
-                if (byName.ContainsKey(word.Value)) continue;
-                var generated = AnswerField.GeneratedName(word.Value);
-                var column = columns.Find(each => each.Generated == generated || AnswerField.GeneratedName(each.Prefix + each.Generated) == generated);
-                if (column != null) byName.Add(word.Value, column);
+                var column = Find(word.Value, StringComparison.Ordinal);
+                if (!byName.TryGetValue(word.Value, out var known))
+                {
+                    column = column ?? Find(word.Value, StringComparison.OrdinalIgnoreCase);
+                    if (column != null) byName.Add(word.Value, column);
+                }
+                else if (column != null && column != known && known.Name != word.Value && char.IsLower(word.Value[0]))
+                {
+                    return "'" + word.Value + "' is ambiguous, because SQL ignores case: write " + column.Name + " or " + known.Name;
+                }
             }
+            return null;
         }
 
         /// <summary>Names of the columns that metrics use, in the order of <see cref="Read"/>.</summary>
@@ -184,7 +194,13 @@ namespace Collektive.Headless
             var column = new Column { Prefix = prefix, Name = name, Generated = AnswerField.GeneratedName(generated), Kind = kind, Index = index };
             columns.Add(column);
             byName.Add(name, column);
-            if (generated.Length > 0 && !byName.ContainsKey(generated)) byName.Add(generated, column);
+        }
+
+        private Column Find(string name, StringComparison comparison)
+        {
+            var generated = AnswerField.GeneratedName(name);
+            return columns.Find(
+                each => generated.Equals(each.Generated, comparison) || generated.Equals(AnswerField.GeneratedName(each.Prefix + each.Generated), comparison));
         }
 
         private static void Grow<T>(ref T[] array, int count)

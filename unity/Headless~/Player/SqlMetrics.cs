@@ -37,7 +37,11 @@ namespace Collektive.Headless
             var queries = root.Properties().Where(property => !FunctionMetrics.IsFunction(property)).ToList();
             if (queries.Count == 0) return;
             columns = new NodeColumns(schema);
-            foreach (var property in queries) columns.AddSchemaNames(property.Value.ToString());
+            foreach (var property in queries)
+            {
+                if (columns.AddSchemaNames(property.Value.ToString()) is string problem)
+                    throw file.Error(property.Value, "'metrics." + property.Name + "': " + problem);
+            }
             database = new Sqlite(limitMs);
             try
             {

@@ -169,7 +169,16 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("count(maybeNumber) + count(maybe_number) + count(MAYBE_NUMBER)")]
         [TestCase("avg(position_x) + count(mode)")]
         [TestCase("max(x_y) + max(answer_x_y) + max(xy)")]
+        [TestCase("max(maybenumber) + max(hop_count) + max(hopcount)")]
         public void Columns_accept_schema_and_Kotlin_names(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
+
+        [TestCase("avg(hrd)", " hop_count, hopcount, ")]
+        [TestCase("max(hopCount)", "'hopCount' is ambiguous, because SQL ignores case: write hop_count or hopcount")]
+        public void A_column_is_the_field_with_its_name_in_the_schema(string sql, string message)
+        {
+            var error = Assert.Throws<ScenarioException>(() => Make(sql, new test.features.FeaturesSchema()).Dispose());
+            Assert.That(error.Message, Is.StringContaining(message));
+        }
 
         [DllImport("collektive_sqlite")]
         private static extern long sqlite3_memory_used();
