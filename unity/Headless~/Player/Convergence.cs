@@ -101,7 +101,7 @@ namespace Collektive.Headless
                 if (!(value >= From && value <= To)) since = null;
                 else since = since ?? second;
                 // The metric cannot converge at second 0, because no round has run yet.
-                if (since != null && second > 0 && second - since >= Seconds - 1e-6) Time = Time ?? Math.Round(since.Value, 6);
+                if (since != null && second > 0 && second - since >= Seconds - 1e-6) Time = Time ?? Math.Round(since.Value, 6, MidpointRounding.AwayFromZero);
             }
 
             internal JObject ToJson()

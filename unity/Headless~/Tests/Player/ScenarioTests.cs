@@ -253,6 +253,17 @@ namespace Collektive.Headless.Tests.Player
                 + "are: other"));
         }
 
+        [Test]
+        public void A_time_of_convergence_is_rounded_as_in_the_table()
+        {
+            var root = Minimal();
+            root["converged"] = new JObject(new JProperty("error", new JObject(new JProperty("to", 1))));
+            var convergence = Read(root).Convergence;
+            convergence.Bind(new[] { "error" });
+            convergence.Add(1.6666665, new[] { 0.0 });
+            Assert.That((double)convergence.Times()["error"], Is.EqualTo(double.Parse(1.6666665.ToString("0.######"))));
+        }
+
         [TestCase("-Xmx1g")]
         [TestCase("-XX:+UseZGC")]
         [TestCase("-XX:-OmitStackTraceInFastThrow")]
