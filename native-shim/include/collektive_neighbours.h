@@ -177,7 +177,7 @@ CLK_NEIGHBOURS_API int32_t clk_neighbours_update(clk_neighbours *neighbours, con
 CLK_NEIGHBOURS_API int32_t clk_neighbours_take(clk_neighbours *neighbours, int32_t rule, int32_t centre, const clk_neighbour *list,
                                                int32_t count, float tolerance, int32_t both);
 
-/* Sets a link for scripts: adds the one reference that scripts have, if it is missing, and sets the values of the link. */
+/* Sets a link for scripts: adds the one reference that scripts have, if it is missing. The values apply while no rule references the link. */
 CLK_NEIGHBOURS_API int32_t clk_neighbours_hold(clk_neighbours *neighbours, const clk_link *link);
 
 /* Removes the reference of scripts to a link. Returns 0 if scripts did not reference it, otherwise 1. */

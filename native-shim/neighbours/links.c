@@ -148,16 +148,14 @@ bool links_hold(struct links *links, const clk_link *link) {
     /* A new pair has at most the index `used`. */
     if (!reserve(&links->scripts, &links->script_capacity, 2 * ((int64_t)links->used + 1), sizeof *links->scripts)) return false;
     int32_t index = find(links, link->from, link->to);
-    bool is_new = index == NONE || !direction_of(links, index, link->from, link->to)->by_script;
-    if (is_new) {
-        reference added = links_add(links, link->from, link->to, false, link->length, link->attenuation);
-        if (added < 0) return false;
-        index = added >> 2;
-    }
-    links->scripts[2 * index + (link->from > link->to)] = (struct script){link->length, link->attenuation};
+    if (index == NONE) index = insert(links, link->from, link->to);
+    if (index == NONE) return false;
     clk_direction *direction = direction_of(links, index, link->from, link->to);
+    if (!direction->by_script && !add(links, index, direction)) return false;
     direction->by_script = 1;
-    return set(links, index, direction, link->length, link->attenuation);
+    links->scripts[2 * index + (link->from > link->to)] = (struct script){link->length, link->attenuation};
+    /* Rules take precedence. */
+    return direction->references > 1 || set(links, index, direction, link->length, link->attenuation);
 }
 
 int32_t links_release_script(struct links *links, int32_t from, int32_t to) {

@@ -419,7 +419,7 @@ static void rules_of_the_caller_replace_the_values_of_scripts(void) {
     CHECK(clk_neighbours_know(neighbours, 4, 1) == 0 && clk_neighbours_know(neighbours, 9, 1) == 0);
     for (int32_t i = 0; i < 2; i++) {
         CHECK(clk_neighbours_take(neighbours, rule, 4, &(clk_neighbour){9, 4, 0}, 1, 0.25f, 0) == 0);
-        if (i == 0) CHECK(clk_neighbours_hold(neighbours, &(clk_link){4, 9, 4.4f, 0}) == 0);
+        CHECK(clk_neighbours_hold(neighbours, &(clk_link){4, 9, 4.4f, 0}) == 0);
     }
     CHECK(clk_neighbours_flush(neighbours, &changes) == 0);
     CHECK(changes.set_count == 1 && changes.set[0].length == 4);
