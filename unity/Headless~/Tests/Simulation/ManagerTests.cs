@@ -2,6 +2,7 @@ using System.Collections.Generic;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
+using probe;
 using UnityEngine;
 using UnityEngine.Headless;
 
@@ -280,6 +281,38 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.HasLink(a.Node.Id, id), Is.False);
             Play(1);
             Assert.That(Errors, Is.Empty);
+        }
+
+        [TestCase(false)]
+        [TestCase(true)]
+        public void A_node_that_leaves_in_a_sensor_is_heard_until_the_next_tick(bool readsLinks)
+        {
+            Configure("sum");
+            var a = MakeNode(1);
+            var b = MakeNode(10);
+            b.Node.gameObject.AddComponent<RadiusNeighbourhood>().Radius = 2;
+            var leaving = a.Node.gameObject.AddComponent<LeavingSensor>();
+            leaving.ReadsLinks = readsLinks;
+            Play(2);
+            leaving.Victim = b.Node;
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(10));
+            Play(1);
+            Assert.That(a.Answer, Is.EqualTo(0));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        public sealed class LeavingSensor : Sensor<SensorData>
+        {
+            public Node Victim;
+            public bool ReadsLinks;
+
+            protected override void Sense(ref SensorData data)
+            {
+                if (Victim == null) return;
+                Victim.enabled = false;
+                if (ReadsLinks) Assert.That(SimulationManager.Current.LinkCount, Is.EqualTo(0));
+            }
         }
 
         [Test]

@@ -375,7 +375,7 @@ namespace Collektive.Unity
             {
                 Sense();
                 // Users' code may add and remove links up to this point.
-                Links.Flush(session.Request);
+                PresentLinks.Flush(session.Request);
             }
             timestamps.SenseEnd = Stopwatch.GetTimestamp();
         }
