@@ -49,6 +49,8 @@ STYLES: Any = {
 }
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 MAX_PANELS = 24
+MAX_LINES = 24
+"""The maximum number of lines in a figure over time, and of values in a table of effect sizes. More lines would need a legend larger than the figure."""
 MAX_POINTS = 20
 """The maximum number of runs for which a box plot shows a point for each run."""
 BOUND = "bound\0"
@@ -484,13 +486,14 @@ def _line_style(index: int) -> dict[str, Any]:
 def over_time(results: Results, metric: str) -> tuple[Figure, str]:
     """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and the caption."""
     metric = results.column(metric)
-    figure, panels, colour, groups, remark = _panels(results, results.series)
+    data, lines = _first_values(results, results.series)
+    figure, panels, colour, groups, remark = _panels(results, data)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):
         counts |= _line_over_time(axes, results, group, metric, colour)
         axes.set_xlabel("simulated time [s]")
     _finish(figure, panels, results, metric, colour)
-    return figure, _caption(results, results.series, metric, "line", TIME, counts) + remark + _omitted(results)
+    return figure, _caption(results, data, metric, "line", TIME, counts) + (f" Only {lines} are shown." if lines else "") + remark + _omitted(results)
 
 
 @matplotlib.rc_context(STYLE)
@@ -503,6 +506,15 @@ def at_end(results: Results, metric: str) -> tuple[Figure, str]:
         counts |= _boxes(axes, results, group, metric, colour, None)
     _finish(figure, panels, results, metric, None)
     return figure, _caption(results, results.complete, metric, "box", colour, counts) + remark + _omitted(results)
+
+
+def _first_values(results: Results, data: pd.DataFrame) -> tuple[pd.DataFrame, str]:
+    """Returns the rows with the first values of the first key that varies, and a description of these values, or an empty string for all values."""
+    key = next(iter(results.configuration), None)
+    values = _order(results.runs[key]) if key else []
+    if len(values) <= MAX_LINES:
+        return data, ""
+    return data[data[key].isin(values[:MAX_LINES])], f"the first {MAX_LINES} of {len(values)} values of {_text(results, str(key))}"
 
 
 def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame], str]:
@@ -592,14 +604,15 @@ def _runs(counts: set[int]) -> str:
 def _table(results: Results, metric: str) -> str:
     if not results.configuration:
         return ""
-    effects = compare(results, metric, results.configuration[0])
+    runs, values = _first_values(results, results.runs)
+    effects = compare(replace(results, runs=runs), metric, results.configuration[0])
     if effects.empty:
         return ""
     # Values of keys must not be rounded, because rounded values could be equal.
     keys = list(effects.columns[:effects.columns.get_loc("n_a")])
     effects[keys] = effects[keys].map(lambda value: _value(results, value)).astype(str)
     table = effects.to_html(index=False, float_format=lambda number: f"{number:.3g}", na_rep="too few runs", border=0)
-    return f"<details><summary>{html.escape(_text(results, metric))}: effect sizes</summary>{table}</details>"
+    return f"<details><summary>{html.escape(_text(results, metric))}: effect sizes{html.escape(values and f' of {values}')}</summary>{table}</details>"
 
 
 def _page(title: str, results: Results, sections: list[str]) -> str:

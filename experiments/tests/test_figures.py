@@ -320,6 +320,19 @@ def test_captions_state_how_many_panels_are_missing(tmp_path: Path) -> None:
             assert len(figure.axes) == 24 and ("panels" in caption) == bool(remark) and remark in caption
 
 
+def test_many_values_do_not_hide_figures_over_time_behind_their_legend(tmp_path: Path) -> None:
+    for values, remark in ((24, ""), (25, "Only the first 24 of 25 values of network.loss are shown.")):
+        losses = tuple(index / values for index in range(values))
+        folder = write_sweep(tmp_path / str(values), 1, losses, keys=["network.loss", "program", "seed"])
+        figure, caption = over_time(load(folder), "error")
+        assert len(figure.legends[0].get_texts()) == 24
+        assert ("Only" in caption) == bool(remark) and remark in caption
+    plot(folder, ["error"])
+    page = Path(folder, "figures.html").read_text()
+    assert "error: effect sizes of the first 24 of 25 values of network.loss</summary>" in page
+    assert page.count("<td>0</td>") == 2 * 23
+
+
 def test_long_labels_do_not_overlap(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 1, tuple(1000000.5 + index for index in range(6)))
     for kind in ("box", "heat"):
