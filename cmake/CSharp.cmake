@@ -74,7 +74,8 @@ assembly(UnityEngine.dll SOURCES "${HEADLESS}/UnityEngine" OPTIONS -unsafe+)
 assembly(Collektive.Unity.dll SOURCES "${UNITY}/Runtime/Unity" REFERENCES Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll)
 set(package Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Unity.dll)
 assembly(Collektive.Player.exe SOURCES "${HEADLESS}/Player" "${HEADLESS}/Replay" REFERENCES ${package} Newtonsoft.Json.dll Mono.Posix.dll)
-# The start of a run takes a quarter less processor time. Collektive.Unity.dll is not compiled, because calls of sensors would then take a sixth longer.
+# The start of a run takes a quarter less processor time. Ticks take the same time as with the JIT compiler,
+# except that sensors would take a sixth more time with a compiled Collektive.Unity.dll.
 set(compiled Newtonsoft.Json.dll Collektive.FlatBuffers.dll Collektive.Bridge.dll UnityEngine.dll Collektive.Player.exe)
 list(TRANSFORM compiled PREPEND "${CSHARP}/")
 set(machine_code ${compiled})

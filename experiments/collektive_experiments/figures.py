@@ -322,7 +322,7 @@ def _line_over_time(axes: Axes, results: Results, data: pd.DataFrame, metric: st
     parts = _split(results, data, by)
     for index, runs in parts:
         # Times at which no run has a value interrupt the line.
-        table = runs.pivot(index="run", columns="second", values=metric)
+        table = runs.pivot(index=["run", "seed"], columns="second", values=metric)
         # Runs that end earlier have no values at later times, so the number of runs differs between times.
         counts.update(count for count in table.notna().sum() if count)
         if table.isna().all(axis=None):

@@ -36,7 +36,7 @@ def deletable_above(folder: str) -> str | None:
     """
     Returns the folder of a run or a bundle that is the given folder or contains it, or None. A resumed sweep may delete such a folder.
 
-    The given folder may be new. Its sweep marks it.
+    The given folder need not exist yet, because a new sweep marks it.
     """
     path = Path(os.path.realpath(folder))
     for place in (path, *path.parents):

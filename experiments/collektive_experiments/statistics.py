@@ -83,7 +83,7 @@ def _slack(a: Floats, b: Floats) -> float:
 
 def holm(values: Floats) -> Floats:
     """Corrects p-values for multiple comparisons with Holm's method. A NaN stays NaN and does not count as a comparison."""
-    # A series would be indexed by its labels, and its index may have another order.
+    # The index of a pandas Series selects values by labels, not by positions.
     values = np.asarray(values, float)
     corrected = np.full(len(values), np.nan)
     order = np.argsort(values, kind="stable")[:np.count_nonzero(~np.isnan(values))]

@@ -77,6 +77,10 @@ def test_combined_tables_without_distinct_labels_or_seeds_are_rejected() -> None
             draw_figure()
     assert over_time(replace(twice, keys=["program", "source", "seed"]), "error")[1].endswith("of 20 runs per configuration.")
     assert list(compare(twice, "error", "source")["pairs"]) == [20, 20]
+    # Names of runs do not contain a seed that does not vary.
+    again = replace(some, runs=pd.concat([some.runs, some.runs.assign(seed=some.runs["seed"] + 20)], ignore_index=True),
+                    series=pd.concat([some.series, some.series.assign(seed=some.series["seed"] + 20)], ignore_index=True))
+    assert over_time(again, "error")[1].endswith("of 40 runs per configuration.")
 
 
 def test_combined_tables_without_a_value_of_a_key_are_rejected() -> None:

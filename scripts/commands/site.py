@@ -42,7 +42,7 @@ def require_replaceable(out: Path) -> None:
     """Raises `Failure` if `out` exists and is not a site built by this command, or is also a Git working tree."""
     if os.path.lexists(out) and (out.is_symlink() or not (out / MARKER).is_file()):
         raise Failure(f"site: '{out}' exists and is not a site built by this command: name another folder with --out, or remove it")
-    if (out / ".git").exists():
+    if os.path.lexists(out / ".git"):
         raise Failure(f"site: '{out}' is a Git working tree, whose history would be deleted: name another folder with --out, and copy the site")
 
 

@@ -16,7 +16,7 @@ def main(words: list[str]) -> int:
     """Runs the command of the suite and returns its exit code."""
     options, command = words[1:words.index("--")], words[words.index("--") + 1:]
     Path(words[0]).mkdir(parents=True, exist_ok=True)
-    # Commands of the suite find Python directly. The Python on the path may be a script that needs longer than a command.
+    # A `python3` on the path may be a slow shim of pyenv.
     os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
     if "--lock" in options:
         lock.shared()

@@ -46,7 +46,7 @@ namespace Collektive.Headless
         private long textLength;
 
         private readonly Dictionary<int, int> slotOfId = new Dictionary<int, int>();
-        // Slots by the low bits of ids. An entry may belong to another id. Links need many lookups, and most are twice as fast here.
+        // Slots by the low bits of ids, as a cache for lookups of links. An entry may belong to another id.
         private int[] recent = new int[64];
         // The id of the current or last node of each slot.
         private readonly List<int> ids = new List<int>();

@@ -81,6 +81,7 @@ namespace Collektive.Headless.Tests.Editor
             File.AppendAllText(Count, "\n");
             Save(Count);
             Menus.Tick();
+            Assert.That(ProgramBuild.IsRunning, Is.True);
             File.Delete(Count);
             Build();
             Assert.That(Programs(), Is.EqualTo(new[] { "swarm.CountKt" }), "a file that is deleted during the build must not empty the jar");

@@ -2,7 +2,7 @@ package org.collektive.alignment
 
 import it.unibo.collektive.aggregate.api.Aggregate
 
-/** Holds the device whose round runs on a thread. Runtimes keep the object of a thread, because a look-up takes as long as a small round. */
+/** Holds the device whose round runs on a thread. Runtimes keep the instance of a thread, because each look-up takes several nanoseconds. */
 public class RunningDevice private constructor() {
     @PublishedApi
     internal var device: Aggregate<*>? = null
@@ -21,7 +21,7 @@ public class RunningDevice private constructor() {
     public companion object {
         private val ofThread = ThreadLocal.withInitial { RunningDevice() }
 
-        /** Returns the object of this thread, on which alone it may be used. */
+        /** Returns the instance of this thread. Use it only on this thread. */
         public fun ofThread(): RunningDevice = ofThread.get()
     }
 }

@@ -17,6 +17,7 @@ import java.util.zip.ZipEntry
 import javax.tools.ToolProvider
 import kotlin.io.path.ExperimentalPathApi
 import kotlin.io.path.deleteRecursively
+import kotlin.io.path.isDirectory
 import kotlin.io.path.isRegularFile
 
 /**
@@ -85,8 +86,8 @@ internal object ProgramCompiler {
             compileKotlin("$library${File.pathSeparator}$classes", classes, sources + "$generated" + values.getValue("--kotlin"), log)
         val marks = values.getValue("--mark") + listOf("Collektive-Version:$VERSION", "Collektive-Sources:$hash")
         // A jar must not lose its programs if their files were deleted meanwhile, for example by a change of the branch.
-        if (sources.isNotEmpty() && sourceFiles(".kt").isEmpty()) {
-            throw GeneratorException("no Kotlin file (.kt) is in ${sources.joinToString()}, so ${jar.fileName} is unchanged")
+        if (code == 0 && sources.any { Path.of(it).isDirectory() } && sourceFiles(".kt").isEmpty()) {
+            throw GeneratorException("no Kotlin file (.kt) is in ${sources.joinToString()}, so ${jar.fileName} is not written")
         }
         if (code == 0) pack(jar, marks, files(generated.resolve("META-INF"), "META-INF/") + files(classes, ""))
         return code

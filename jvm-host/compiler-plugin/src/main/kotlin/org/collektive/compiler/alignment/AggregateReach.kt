@@ -4,12 +4,10 @@ package org.collektive.compiler.alignment
 
 import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.builtins.StandardNames
-import org.jetbrains.kotlin.descriptors.Modality
 import org.jetbrains.kotlin.ir.IrElement
 import org.jetbrains.kotlin.ir.declarations.IrConstructor
 import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
 import org.jetbrains.kotlin.ir.declarations.IrFunction
-import org.jetbrains.kotlin.ir.declarations.IrSimpleFunction
 import org.jetbrains.kotlin.ir.declarations.IrVariable
 import org.jetbrains.kotlin.ir.expressions.IrCallableReference
 import org.jetbrains.kotlin.ir.expressions.IrExpression
@@ -21,6 +19,8 @@ import org.jetbrains.kotlin.ir.expressions.IrSpreadElement
 import org.jetbrains.kotlin.ir.expressions.IrTypeOperatorCall
 import org.jetbrains.kotlin.ir.expressions.IrVararg
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
+import org.jetbrains.kotlin.ir.types.IrType
+import org.jetbrains.kotlin.ir.types.getClass
 import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.isAnonymousObject
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
@@ -45,7 +45,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
         val callee = call.symbol.owner
         return when {
-            dsl.isManualAlignment(callee) || isStoredProperty(callee) -> false
+            dsl.isManualAlignment(callee) || callee.origin == IrDeclarationOrigin.DEFAULT_PROPERTY_ACCESSOR -> false
 
             // The code of an object literal is part of the enclosing function.
             callee is IrConstructor && callee.parentAsClass.isAnonymousObject -> false
@@ -60,10 +60,6 @@ internal class AggregateReach(private val dsl: DslSymbols) {
             else -> call.arguments.any { it != null && passesDslType(it) }
         }
     }
-
-    /** Whether [callee] reads or writes a property that no subclass overrides. */
-    private fun isStoredProperty(callee: IrFunction) =
-        callee.origin == IrDeclarationOrigin.DEFAULT_PROPERTY_ACCESSOR && (callee as IrSimpleFunction).modality == Modality.FINAL
 
     private fun functionArguments(call: IrFunctionAccessExpression): List<IrExpression> =
         call.symbol.owner.parameters.filter { it.type.isFunctionTypeOrSubtype() }.mapNotNull { call.arguments[it] }
@@ -83,10 +79,15 @@ internal class AggregateReach(private val dsl: DslSymbols) {
 
         is IrVararg -> value.elements.any { passesDslType(if (it is IrSpreadElement) it.expression else it as IrExpression) }
 
-        is IrGetValue -> functionIn(value)?.let(::reachesPrimitive) ?: dsl.mayUseAggregate(value.type)
+        is IrGetValue -> functionIn(value)?.let(::reachesPrimitive) ?: mayPassDslType(value)
 
-        else -> dsl.mayUseAggregate(value.type)
+        else -> mayPassDslType(value)
     }
+
+    /** Whether [value] may pass on a DSL type. A function value whose body is unknown may reach a primitive. */
+    private fun mayPassDslType(value: IrExpression) = isFunction(value.type) || dsl.containsDslType(value.type)
+
+    private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
     /** The lambda that initialises the `val` read by [read]; `null` if the initialiser is not a lambda. */
     private fun functionIn(read: IrGetValue): IrFunction? {

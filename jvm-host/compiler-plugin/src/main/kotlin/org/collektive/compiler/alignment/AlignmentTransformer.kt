@@ -123,7 +123,7 @@ internal class AlignmentTransformer(
     /** Visits an initialiser of a class. It can read the parameters of the primary constructor, so the Aggregate may be one of them. */
     private inline fun <R> withSourceOfConstructor(initializer: IrDeclaration, visit: () -> R): R {
         val outer = source
-        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer ?: runningDevice(initializer)
+        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer?.takeIf { it.parameter != null } ?: runningDevice(initializer)
         return visit().also { source = outer }
     }
 
@@ -135,7 +135,7 @@ internal class AlignmentTransformer(
         val outerSource = source
         val outerRegion = region
         val outerEntry = entry
-        source = sourceIn(declaration) ?: outerSource ?: runningDevice(declaration)
+        source = sourceIn(declaration) ?: outerSource?.takeIf { it.parameter != null } ?: runningDevice(declaration)
         val outerDepends = dependsOnPath
         val isEntry = outerSource?.parameter == null && source?.parameter != null &&
             declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA

@@ -5,11 +5,9 @@ package org.collektive.compiler.alignment
 import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.backend.common.extensions.DeclarationFinder
 import org.jetbrains.kotlin.descriptors.DescriptorVisibilities
-import org.jetbrains.kotlin.descriptors.Modality
 import org.jetbrains.kotlin.ir.declarations.IrClass
 import org.jetbrains.kotlin.ir.declarations.IrDeclaration
 import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
-import org.jetbrains.kotlin.ir.declarations.IrFile
 import org.jetbrains.kotlin.ir.declarations.IrFunction
 import org.jetbrains.kotlin.ir.declarations.IrParameterKind
 import org.jetbrains.kotlin.ir.declarations.IrProperty
@@ -25,7 +23,6 @@ import org.jetbrains.kotlin.ir.util.functions
 import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.getPropertyGetter
 import org.jetbrains.kotlin.ir.util.isFakeOverride
-import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isNullable
 import org.jetbrains.kotlin.ir.util.isSubtypeOfClass
 import org.jetbrains.kotlin.ir.util.parentAsClass
@@ -51,19 +48,15 @@ internal class DslSymbols private constructor(
 
     fun isField(type: IrType) = type.isSubtypeOfClass(field)
 
-    /** Whether a value of [type] is or may contain an Aggregate or a Field, or contains functions. */
+    /** Whether a value of [type] is or may contain an Aggregate or a Field. */
     fun containsDslType(type: IrType): Boolean = isAggregate(type) || isField(type) ||
-        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::mayUseAggregate) == true } ||
+        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::containsDslType) == true } ||
         type.getClass()?.let(::storesAggregate) == true
 
-    /** Whether a value of [type] may use an Aggregate. The body of a function is unknown. */
-    fun mayUseAggregate(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true || containsDslType(type)
-
     private val storing = Reachability<IrClass> { type ->
-        // Any class of the module may implement an abstract type.
-        aggregateProperty(type) != null || type.modality != Modality.FINAL && type.getPackageFragment() is IrFile ||
-            type.properties.any { property -> property.backingField?.type?.let(::mayUseAggregate) == true } ||
-            type.isInner && storesAggregate(type.parentAsClass)
+        aggregateProperty(type) != null || type.properties.any { property ->
+            property.backingField?.type?.let(::containsDslType) == true
+        } || type.isInner && storesAggregate(type.parentAsClass)
     }
 
     /** Whether an object of [type] stores an Aggregate or a Field in a property, directly or through other objects. */
