@@ -77,7 +77,7 @@ def parser_for(name: str | None) -> Parser:
 
 
 def resolve_parents(word: str) -> str:
-    """Resolves a path with `..` after a symbolic link, but not in a value of --set. Mono and other tools would remove `..` and the link, and use another file."""
+    """Resolves a path with `..` after a symbolic link, but not in a value of --set. Mono and other tools would remove both, and use another file."""
     option, path = re.fullmatch("(--[a-z-]+=)?(.*)", word, re.DOTALL).groups("")  # type: ignore[union-attr]
     folder, name = os.path.split(path)
     return word if os.path.realpath(os.path.normpath(path)) == os.path.realpath(path) else option + os.path.join(os.path.realpath(folder), name)

@@ -123,7 +123,9 @@ internal class AlignmentTransformer(
     /** Visits an initialiser of a class. It can read the parameters of the primary constructor, so the Aggregate may be one of them. */
     private inline fun <R> withSourceOfConstructor(initializer: IrDeclaration, visit: () -> R): R {
         val outer = source
-        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: outer?.takeIf { it.parameter != null } ?: runningDevice(initializer)
+        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn)
+            ?: outer?.takeIf { it.parameter != null }
+            ?: runningDevice(initializer)
         return visit().also { source = outer }
     }
 
