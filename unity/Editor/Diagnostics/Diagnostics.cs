@@ -97,15 +97,20 @@ namespace Collektive.Unity.Editor
             for (var i = 0; i < pairs.Length; i++)
             {
                 ref var pair = ref pairs[i];
-                if (pair.Up.References > 0) Count(pair.Low, pair.High);
-                if (pair.Down.References > 0) Count(pair.High, pair.Low);
+                if (!pair.IsReferenced) continue;
+                ref var low = ref counts[pair.Low];
+                ref var high = ref counts[pair.High];
+                if (pair.Up.References > 0)
+                {
+                    low.Receivers++;
+                    high.Senders++;
+                }
+                if (pair.Down.References > 0)
+                {
+                    high.Receivers++;
+                    low.Senders++;
+                }
             }
-        }
-
-        private void Count(int from, int to)
-        {
-            counts[from].Receivers++;
-            counts[to].Senders++;
         }
 
         private void Ticked(SimulationManager manager) => Times.Add(manager.Times, manager.HostMicros.Rounds / 1000.0);
