@@ -48,7 +48,7 @@ class ProjectionTest {
             "smartCast smartCastProperty cast castProperty fromFunction fromGeneric fromLambda"
         for (program in programs.split(" ")) assertSeen(program, 0 to setOf(2), 1 to setOf(3))
         val calledInArm = "each iterated jdkLambda ownFunction callableReference functionValue lambdaFromOutside listParameter " +
-            "member lazily inMember inFunctionOfPair inFunctionOfNullable"
+            "member lazily inExtension inFunctionOfPair inFunctionOfNullable"
         for (program in calledInArm.split(" ")) assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
     }
 
@@ -205,7 +205,7 @@ class ProjectionTest {
                 return if (even) look() else look()
             }
             fun Frame.seen(even: Boolean): Set<Int> = if (even) ids(field) else field.neighbors.ids.set
-            fun Aggregate<Int>.inMember(): Set<Int> = Frame(neighboring(localId)).seen(even)
+            fun Aggregate<Int>.inExtension(): Set<Int> = Frame(neighboring(localId)).seen(even)
             fun seen(frame: Pair<Field<Int, Int>, Boolean>): Set<Int> = if (frame.second) ids(frame.first) else frame.first.neighbors.ids.set
             fun Aggregate<Int>.inFunctionOfPair(): Set<Int> = seen(neighboring(localId) to even)
             fun seen(field: Field<Int, Int>?, even: Boolean): Set<Int> = if (even) ids(field!!) else field?.neighbors?.ids?.set.orEmpty()

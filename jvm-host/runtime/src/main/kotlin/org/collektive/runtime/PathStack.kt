@@ -7,6 +7,7 @@ import org.collektive.alignment.RunningDevice
  * device would not.
  */
 internal class PathStack(private val tree: PathTree) {
+    /** Holds the device whose round runs on the thread. */
     val running: RunningDevice = RunningDevice.ofThread()
 
     // tokens[0 until depth] is the stack. nodes[0..resolved] are the paths of its first prefixes. Paths are looked up only when a

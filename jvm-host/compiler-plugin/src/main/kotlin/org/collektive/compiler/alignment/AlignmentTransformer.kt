@@ -93,7 +93,7 @@ internal class AlignmentTransformer(
     /** The outermost lambda with an Aggregate; `null` inside named aggregate functions. See [Tokens]. */
     private var entry: IrFunction? = null
 
-    /** An Aggregate that is the [parameter] itself, or is stored in the parameter's [property], or is the device that runs the code. */
+    /** An Aggregate that is the [parameter] itself, or is stored in the parameter's [property]. Without a parameter, it is the running device. */
     private class Source(val parameter: IrValueParameter?, val property: IrProperty? = null)
 
     /** An arm, a function body or code between `align` and `dealign`. Different neighbours may be aligned inside it. */
@@ -123,9 +123,7 @@ internal class AlignmentTransformer(
     /** Visits an initialiser of a class. It can read the parameters of the primary constructor, so the Aggregate may be one of them. */
     private inline fun <R> withSourceOfConstructor(initializer: IrDeclaration, visit: () -> R): R {
         val outer = source
-        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn)
-            ?: outer?.takeIf { it.parameter != null }
-            ?: runningDevice(initializer)
+        source = initializer.parentClassOrNull?.primaryConstructor?.let(::sourceIn) ?: sourceAround(initializer)
         return visit().also { source = outer }
     }
 
@@ -137,7 +135,7 @@ internal class AlignmentTransformer(
         val outerSource = source
         val outerRegion = region
         val outerEntry = entry
-        source = sourceIn(declaration) ?: outerSource?.takeIf { it.parameter != null } ?: runningDevice(declaration)
+        source = sourceIn(declaration) ?: sourceAround(declaration)
         val outerDepends = dependsOnPath
         val isEntry = outerSource?.parameter == null && source?.parameter != null &&
             declaration.origin == IrDeclarationOrigin.LOCAL_FUNCTION_FOR_LAMBDA
@@ -394,6 +392,9 @@ internal class AlignmentTransformer(
         dsl.aggregateProperty(type)?.let { return Source(self, it) }
         return if (type.isInner) type.parentAsClass.let { outer -> outer.thisReceiver?.let { storedIn(it, outer) } } else null
     }
+
+    /** The Aggregate of the function around [code], or the running device. Not all code in a function needs the running device. */
+    private fun sourceAround(code: IrDeclaration) = source?.takeIf { it.parameter != null } ?: runningDevice(code)
 
     /** The device that runs [code] if it uses an Aggregate or a Field, or `null`. Implementations of Aggregate are not programs. */
     private fun runningDevice(code: IrDeclaration): Source? {
