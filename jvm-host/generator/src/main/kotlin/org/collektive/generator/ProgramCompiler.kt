@@ -84,13 +84,14 @@ internal object ProgramCompiler {
         if (!compileJava(generated, classes, library, log)) return 1
         val code =
             compileKotlin("$library${File.pathSeparator}$classes", classes, sources + "$generated" + values.getValue("--kotlin"), log)
-        val marks = values.getValue("--mark") + listOf("Collektive-Version:$VERSION", "Collektive-Sources:$hash")
-        // A jar must not lose its programs if their files were deleted meanwhile, for example by a change of the branch.
-        if (code == 0 && sources.any { Path.of(it).isDirectory() } && sourceFiles(".kt").isEmpty()) {
+        if (code != 0) return code
+        // A jar must not lose its programs if their files were deleted during the compilation.
+        if (sources.any { Path.of(it).isDirectory() } && sourceFiles(".kt").isEmpty()) {
             throw GeneratorException("no Kotlin file (.kt) is in ${sources.joinToString()}, so ${jar.fileName} is not written")
         }
-        if (code == 0) pack(jar, marks, files(generated.resolve("META-INF"), "META-INF/") + files(classes, ""))
-        return code
+        val marks = values.getValue("--mark") + listOf("Collektive-Version:$VERSION", "Collektive-Sources:$hash")
+        pack(jar, marks, files(generated.resolve("META-INF"), "META-INF/") + files(classes, ""))
+        return 0
     }
 
     private fun compileJava(generated: Path, classes: Path, library: String, log: PrintStream): Boolean {
