@@ -57,8 +57,8 @@ class Store:
             raise ExperimentError(f"'{place}' belongs to a sweep, which may delete it: name another folder with --out")
         root = experiment.scenario.root
         for key in FIXED:
-            part = os.path.join(os.path.dirname(os.path.abspath(experiment.scenario.path)), str(root.get(key, "")))
-            if key in root and Path(os.path.realpath(os.path.normpath(part))) in Path(folder).parents:
+            part = os.path.abspath(os.path.join(os.path.dirname(experiment.scenario.path), str(root.get(key, ""))))
+            if key in root and Path(os.path.realpath(part)) in Path(folder).parents:
                 raise ExperimentError(f"the results would be inside '{part}', the scenario's '{key}': name another folder with --out")
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
             raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
