@@ -53,7 +53,7 @@ fun late(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
 }
 """
 DATA = {
-    "stations.csv": '\ufeffname,id,x,z\n"A, north",7,1,2\n\nB,3,-1.5,4e0\n',
+    "stations.csv": '\ufeffname,id,x,z\n"A, ""old"" north" ,7,1,2\n\nB,3,-1.5,4e0\n',
     "walk.csv": "time,id,x,z\n0,0,0,0\n1,1,0,6\n2,0,4,0\n3,0,4,8\n",
     "walk%20.gpx": """<?xml version="1.0"?>
 <gpx version="1.1" creator="test" xmlns="http://www.topografix.com/GPX/1/1">
@@ -75,6 +75,8 @@ DATA = {
     "bad/columns.csv": "x,y\n1,2\n",
     "bad/empty.csv": "x,z\n",
     "bad/quote.csv": 'name,x,z\n"A,1,2\n',
+    "bad/inside.csv": 'x,z\n3"5",2\n',
+    "bad/after.csv": 'x,z\n"3"5,2\n',
     "bad/null.csv": "x,z\n1,2\n3,4\0\0\0\n",
     "bad/ids.csv": "id,x,z\n1,0,0\n1,5,5\n",
     "bad/id.csv": "id,x,z\n-1,0,0\n",
@@ -156,7 +158,8 @@ REFUSED: list[tuple[str, Any, str]] = [
     *[("fields.deployment", {"kind": "File", "file": f"bad/{name}"}, f"'deployment.file': bad/{name}{message}") for name, message in (
         ("cells.csv", ":3: the number of cells is 1, but the first line has 2"), ("number.csv", ":4: 'z' is 'abc'; it must be a number"),
         ("columns.csv", ":1: the columns 'x' and 'z', or 'lon' and 'lat', are missing"), ("empty.csv", ":1: the file has no rows"),
-        ("quote.csv", ":2: a quote is not closed"), ("null.csv", ":3: the line contains a null character"),
+        ("quote.csv", ":2: a quote is not closed"), ("inside.csv", ":2: a quote is inside a cell"),
+        ("after.csv", ":2: a cell continues after its closing quote"), ("null.csv", ":3: the line contains a null character"),
         ("ids.csv", ":3: node 1 is also in line 2"), ("id.csv", ":2: 'id' is -1"),
         ("back.csv", ":3: the time must be after that of the previous point of node 0"), ("no-ids.csv", ":1: the column 'time' needs the column 'id'"),
         ("twice.csv", ":1: the column 'x' occurs twice"), ("large.csv", ":2: the position is too large"),

@@ -42,8 +42,8 @@ namespace Collektive.Headless
         /// <summary>Reads columns of numbers from a CSV file. Its first line contains the names of the columns. Blank lines are ignored.</summary>
         /// <param name="columns">Names of the columns to read.</param>
         /// <returns>An array per line: the values of the columns, NaN for missing columns, and last the number of the line.</returns>
-        /// <exception cref="ScenarioException">A column occurs twice, a line has a wrong number of cells or contains a null character, or a cell
-        /// is not a finite number.</exception>
+        /// <exception cref="ScenarioException">A column occurs twice, a line has a wrong number of cells, misplaced quotes or a null character, or a
+        /// cell is not a finite number.</exception>
         public List<double[]> ReadCsv(params string[] columns)
         {
             var rows = new List<double[]>();
@@ -91,15 +91,35 @@ namespace Collektive.Headless
             var cells = new List<string>();
             var cell = new StringBuilder();
             var isQuoted = false;
+            var wasQuoted = false;
+            var last = ',';
             foreach (var letter in line + ",")
             {
-                if (letter == '"') isQuoted = !isQuoted;
-                else if (letter != ',' || isQuoted) cell.Append(letter);
+                if (letter == '"' && isQuoted) (isQuoted, wasQuoted) = (false, true);
+                else if (letter == '"' && last == '"')
+                {
+                    // Two quotes within quotes are one quote of the text.
+                    cell.Append(letter);
+                    isQuoted = true;
+                }
+                else if (letter == '"')
+                {
+                    if (wasQuoted || cell.ToString().Trim().Length > 0)
+                        throw Error(number, "a quote is inside a cell: put the cell in quotes, and write each quote inside it twice");
+                    isQuoted = true;
+                }
+                else if (letter != ',' || isQuoted)
+                {
+                    if (wasQuoted && !isQuoted && !char.IsWhiteSpace(letter)) throw Error(number, "a cell continues after its closing quote");
+                    cell.Append(letter);
+                }
                 else
                 {
                     cells.Add(cell.ToString().Trim());
                     cell.Clear();
+                    wasQuoted = false;
                 }
+                last = letter;
             }
             if (isQuoted) throw Error(number, "a quote is not closed");
             return cells;
