@@ -130,6 +130,18 @@ class WholeRuns(Project):
                 with open(self.path("out", "metrics.csv")) as file:
                     self.assertEqual([row["second"] for row in csv.DictReader(file)], ["0"])
 
+    def test_a_manager_can_be_enabled_again_only_before_the_first_tick(self) -> None:
+        at_start = self.SCRIPT.replace("Update", "Start").replace("Tick == 4", "Tick == 0")
+        for script, code, error in [(self.SCRIPT, 1, "stopped after tick 4: a script disabled and enabled the Simulation Manager, "), (at_start, 0, "")]:
+            with self.subTest(code):
+                script %= "manager.enabled = false; manager.enabled = true;"
+                self.change("scene/Lamps.cs", "\n        protected override void Build(", script)
+                result = self.run_it()
+                self.change("scene/Lamps.cs", script, "\n        protected override void Build(")
+                self.assertEqual(result.returncode, code, result.stderr)
+                self.assertIn(error, result.stderr)
+                self.assertIn("brightest", self.manifest(self.path("out")).get("parameters", ["brightest"]))
+
     @pytest.mark.slow
     def test_ticks_can_be_up_to_an_hour_long(self) -> None:
         for schedule, seconds in [("Lockstep", 3600), ("Sequential", 60), ("Asynchronous", 0.34)]:

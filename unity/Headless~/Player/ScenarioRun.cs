@@ -28,6 +28,8 @@ namespace Collektive.Headless
         private readonly List<double> totalTimes = new List<double>();
         private readonly List<double> roundTimes = new List<double>();
         private TimeSpan firstTick;
+        // The simulation of the first tick.
+        private Simulation simulation;
         private Manifest manifest;
         private RunMetrics runMetrics;
         private MetricsTable metrics;
@@ -150,7 +152,11 @@ namespace Collektive.Headless
 
         private void Count(SimulationManager manager)
         {
-            if (++completedTicks == 1) firstTick = timeBefore + time.Elapsed;
+            if (++completedTicks == 1)
+            {
+                firstTick = timeBefore + time.Elapsed;
+                simulation = manager.Simulation;
+            }
             metrics.Add(manager.Times, manager.Network);
             runMetrics.Ticked(manager);
             stepTimes.Add(manager.Times.Step);
@@ -243,6 +249,9 @@ namespace Collektive.Headless
                         ended += Stopwatch.GetTimestamp() - began;
                     }
                     if (manager.Failure.Length > 0) throw Stopped(manager);
+                    if (completedTicks > 0 && !ReferenceEquals(manager.Simulation, simulation))
+                        throw new ScenarioException("stopped after tick " + completedTicks
+                            + ": a script disabled and enabled the Simulation Manager, which starts another simulation; do so before the first tick");
                     if (completedTicks > frame)
                         throw new ScenarioException("stopped at tick " + completedTicks
                             + ": a frame ran more than one tick; do not set Time.timeScale above 1 or call Step while the simulation is running");

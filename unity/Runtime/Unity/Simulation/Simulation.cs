@@ -127,6 +127,7 @@ namespace Collektive.Unity
         /// <summary>Called with each node and its parameters when they are sent to the JVM.</summary>
         internal Action<Node, List<NodeParameter>> NodeJoined
         {
+            get => registry.Joined;
             set => registry.Joined = value;
         }
 
