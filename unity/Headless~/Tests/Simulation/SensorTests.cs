@@ -348,6 +348,38 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void The_velocity_of_a_node_begins_at_zero_in_the_next_simulation()
+        {
+            var node = MakeNode(0).Node;
+            var sensor = node.gameObject.AddComponent<MeanVelocity>();
+            Play(1);
+            Manager.enabled = false;
+            node.transform.position = new Vector3(9, 0, 0);
+            Manager.enabled = true;
+            node.Sleep(0.05);
+            Play(2);
+            Assert.That(sensor.Value, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
+        public void Impulses_before_a_node_was_enabled_again_are_not_reported()
+        {
+            MakeBox(new Vector3(0, -0.5f, 0));
+            var ball = MakeBall(new Vector3(0, 0.49f, 0));
+            ball.sleepThreshold = 0;
+            var sensor = ball.gameObject.AddComponent<Contacts>();
+            Play(20);
+            var node = ball.GetComponent<Node>();
+            node.enabled = false;
+            Play(20);
+            node.enabled = true;
+            node.Sleep(0.05);
+            Play(2);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            Assert.That(sensor.Values[0].Impulse.y, Is.EqualTo(2 * 9.81f * 0.05f).Within(0.05f));
+        }
+
+        [Test]
         public void A_range_that_another_sensor_sets_applies_to_the_same_round()
         {
             MakeBox(new Vector3(0, 0, 4)).transform.localScale = new Vector3(1, 1, 2);

@@ -270,6 +270,7 @@ namespace Collektive.Unity
             ForgetAnswer();
             timer = null;
             asleepUntil = 0;
+            for (var i = 0; i < Sensors.Count; i++) Sensors[i].NodeJoined();
         }
 
         /// <summary>Keeps the program and the parameters that are sent to the JVM.</summary>

@@ -110,6 +110,11 @@ namespace Collektive.Unity
         {
         }
 
+        /// <summary>Called after the node of an attached sensor joined a simulation.</summary>
+        internal virtual void NodeJoined()
+        {
+        }
+
         /// <summary>Called after the part was removed from the node's list.</summary>
         internal virtual void Detached()
         {

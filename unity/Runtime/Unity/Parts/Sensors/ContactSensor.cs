@@ -42,6 +42,8 @@ namespace Collektive.Unity
             BeginRound();
         }
 
+        internal sealed override void NodeJoined() => BeginRound();
+
         /// <summary>Writes the contacts, the nearest to the node's centre first. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Contact> contacts);
 

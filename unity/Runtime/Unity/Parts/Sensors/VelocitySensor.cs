@@ -13,7 +13,6 @@ namespace Collektive.Unity
         private Vector3 lastPosition;
         private double time = -1;
         private Vector3 meanVelocity;
-        private ulong joinTick;
 
         /// <inheritdoc/>
         protected sealed override void Sense(ref TData data) =>
@@ -21,11 +20,10 @@ namespace Collektive.Unity
 
         internal sealed override void Attached() => time = -1;
 
+        internal sealed override void NodeJoined() => time = -1;
+
         internal sealed override void Prepare(TickContext tick)
         {
-            // A node that was disabled begins again.
-            if (joinTick != Node.JoinTick) time = -1;
-            joinTick = Node.JoinTick;
             // Scripts may add the body after this component.
             if (time < 0) body = FindBody();
             var now = tick.Time;
