@@ -380,6 +380,23 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_sensor_that_moves_to_another_node_in_a_tick_measures_around_that_node()
+        {
+            MakeBox(new Vector3(100, 0, 0));
+            var first = MakeNode(0).Node;
+            var second = MakeNode(0, new Vector3(100, 0, 1)).Node;
+            var sensor = new GameObject("Sensor");
+            sensor.transform.SetParent(first.transform);
+            var obstacles = sensor.AddComponent<Obstacles>();
+            var setter = first.gameObject.AddComponent<Setter>();
+            Play(2);
+            Assert.That(obstacles.Values, Is.Empty);
+            setter.Sensing = () => sensor.transform.SetParent(second.transform);
+            Play(1);
+            Assert.That(obstacles.Values.Count, Is.EqualTo(1));
+        }
+
+        [Test]
         public void A_range_that_another_sensor_sets_applies_to_the_same_round()
         {
             MakeBox(new Vector3(0, 0, 4)).transform.localScale = new Vector3(1, 1, 2);

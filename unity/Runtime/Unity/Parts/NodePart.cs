@@ -145,6 +145,8 @@ namespace Collektive.Unity
             if (!IsAttached) return;
             ListOf(Node).Remove(this);
             IsAttached = false;
+            // The queries of this tick's batch have the position of this node.
+            BatchedAt = 0;
             Detached();
         }
     }
