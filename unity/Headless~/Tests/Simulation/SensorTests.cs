@@ -296,6 +296,25 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_zone_that_was_disabled_enabled_and_left_between_two_rounds_is_left()
+        {
+            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
+            zone.isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            var sensor = ball.gameObject.AddComponent<Zones>();
+            Play(2);
+            ball.GetComponent<Node>().Sleep(0.15);
+            zone.enabled = false;
+            Play(1);
+            zone.enabled = true;
+            Play(1);
+            ball.transform.position = new Vector3(5, 0, 0);
+            Play(3);
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "left" }));
+        }
+
+        [Test]
         public void Zones_report_entering_staying_and_leaving()
         {
             var zone = MakeBox(new Vector3(5, 0, 0)).GetComponent<Collider>();

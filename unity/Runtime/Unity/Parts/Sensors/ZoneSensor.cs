@@ -84,7 +84,10 @@ namespace Collektive.Unity
                 index = visits.Count;
             }
             if (index == visits.Count) visits.Add(new Visit { Zone = other, IsNew = true });
-            visits.Items[index].Entries++;
+            ref var visit = ref visits.Items[index];
+            visit.Entries++;
+            // A zone that was disabled and enabled is entered again without having been left.
+            if (visit.Entries > 1) visit.Entries = Math.Min(visit.Entries, CountColliders());
         }
 
         /// <summary>Handles a zone that the node leaves.</summary>
