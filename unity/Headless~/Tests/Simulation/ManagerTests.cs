@@ -389,6 +389,22 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Tick, Is.EqualTo(2));
         }
 
+        [TestCase(false, 2)]
+        [TestCase(true, 0)]
+        public void A_manager_that_is_enabled_again_after_its_end_is_not_paused(bool isPaused, int ticks)
+        {
+            MakeNode(0);
+            Manager.StopCondition = manager => !isPaused;
+            Play(1);
+            Assert.That(Manager.Finished, Is.Not.EqualTo(isPaused));
+            Manager.StopCondition = null;
+            if (isPaused) Manager.Paused = true;
+            Manager.enabled = false;
+            Manager.enabled = true;
+            Play(2);
+            Assert.That(Manager.Tick, Is.EqualTo(ticks));
+        }
+
         [Test]
         public void Play_mode_can_be_entered_and_left_fifty_times()
         {

@@ -220,6 +220,8 @@ namespace Collektive.Unity
                 return;
             }
             Current = this;
+            // The end of the previous simulation paused the manager.
+            if (Finished) paused = false;
             Finished = false;
             accumulated = 0;
             modeBefore = Physics.simulationMode;
