@@ -209,6 +209,22 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void A_program_that_a_script_selects_during_the_run_has_no_nodes()
+        {
+            Configure("scaled");
+            var parameters = new ParameterValues(Manager);
+            Manager.Simulation.NodeJoined = parameters.Add;
+            MakeNode(1);
+            Play(1);
+            Manager.Settings.program = "double";
+            Manager.Simulation.SetParameter("scaled", "factor", "7");
+            var later = MakeNode(1);
+            Play(1);
+            Assert.That(later.Answer, Is.EqualTo(7));
+            Assert.That(parameters.ToJson().ToString(Formatting.None), Is.EqualTo("{\"scaled\":{\"factor\":[\"3\",\"7\"]}}"));
+        }
+
+        [Test]
         public void A_live_run_reports_invalid_commands()
         {
             MakeNode(1);

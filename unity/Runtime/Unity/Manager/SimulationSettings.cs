@@ -130,7 +130,7 @@ namespace Collektive.Unity
         internal IReadOnlyList<string> Metrics { get; set; } = new string[0];
 
         /// <summary>Returns the name of the program that a node runs.</summary>
-        internal string ProgramOf(Node node) => node.UsedProgram.Length > 0 ? node.UsedProgram : ProgramName;
+        internal string ProgramOf(Node node) => node.UsedProgram.Length > 0 ? node.UsedProgram : node.Simulation?.Program ?? ProgramName;
 
         /// <summary>Returns the program with the given name in the libraries, or null.</summary>
         internal AggregateProgram FindProgram(string name)

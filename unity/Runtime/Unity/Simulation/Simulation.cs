@@ -67,6 +67,9 @@ namespace Collektive.Unity
         /// <summary>The schedule of all nodes.</summary>
         internal Schedule Schedule { get; private set; }
 
+        /// <summary>Name of the program of the nodes that do not select one; null before the simulation opens.</summary>
+        internal string Program { get; private set; }
+
         /// <summary>Random numbers for the scene.</summary>
         internal RandomStream Random { get; }
 
@@ -185,6 +188,7 @@ namespace Collektive.Unity
                     if (Settings.seed != Seed) throw new BridgeException(BridgeError.Argument, "seed is " + Settings.seed
                         + ", but the Simulation Manager was enabled with seed " + Seed + ": set the seed while the manager is disabled");
                     Schedule = Settings.schedule;
+                    Program = Settings.ProgramName;
                     retention = Settings.network.retention;
                     session = SessionStart.Begin(Settings, Manager);
                 }
