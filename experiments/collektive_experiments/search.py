@@ -12,6 +12,8 @@ from .sweep import check_keys, convergence_times
 TRIALS = 50
 DIRECTIONS = ("minimize", "maximize")
 KEYS = ("metric", "direction", "trials", "parameters")
+MAX_INT = 2 ** 53
+"""The largest whole number in a range. Optuna stores the values of ranges as floats, which would round larger ones."""
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,8 @@ def _values(located: Located, key: str, given: Any) -> Any:
     low, high, step, log = given["from"], given["to"], given.get("step"), given.get("log", False)
     if low >= high or (log and (low <= 0 or step is not None)) or (step is not None and step <= 0):
         raise located.error(f"'tune.parameters.{key}': 'from' must be below 'to', 'step' above 0, and 'log' needs 'from' above 0 and no 'step'", *place)
+    if is_int(low) and is_int(high) and max(-low, high) > MAX_INT:
+        raise located.error(f"'tune.parameters.{key}': whole numbers in a range must be from -2^53 to 2^53; use a list for other values", *place)
     return given
 
 
