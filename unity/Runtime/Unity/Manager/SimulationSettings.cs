@@ -6,7 +6,10 @@ using UnityEngine;
 
 namespace Collektive.Unity
 {
-    /// <summary>The settings of a simulation. Changes take effect at the next start.</summary>
+    /// <summary>
+    /// The settings of a simulation. Changes of <see cref="deltaTime"/>, <see cref="physicsStep"/>, <see cref="stopAfter"/> and
+    /// <see cref="stepLimitMs"/> take effect in the next tick, those of <see cref="timing"/> for nodes that join later, and all others at the next start.
+    /// </summary>
     [Serializable]
     public sealed class SimulationSettings
     {
