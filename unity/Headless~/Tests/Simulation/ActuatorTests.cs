@@ -172,6 +172,37 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.transform.position.x - start, Is.EqualTo(end).Within(1e-4f));
         }
 
+        [TestCase(0.07f, 0)]
+        [TestCase(0.125f, 0)]
+        [TestCase(0.1f, 0.09f)]
+        public void A_kinematic_body_has_its_speed_with_any_timing_of_rounds(float period, float jitter)
+        {
+            Configure("double", settings =>
+            {
+                settings.schedule = Schedule.Asynchronous;
+                settings.timing = new RoundTiming { period = period, phase = 0, jitter = jitter };
+            });
+            var node = MakeNode(500).Node;
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            Play(10);
+            var start = node.transform.position.x;
+            Play(100);
+            Assert.That(node.transform.position.x - start, Is.EqualTo(10).Within(0.01f));
+        }
+
+        [Test]
+        public void A_kinematic_body_stops_at_its_target_while_its_node_sleeps()
+        {
+            var node = MakeNode(1).Node;
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 3;
+            Play(1);
+            node.Sleep(5);
+            Play(20);
+            Assert.That(node.transform.position.x, Is.EqualTo(2).Within(1e-4f));
+        }
+
         [Test]
         public void A_target_at_any_distance_gives_a_direction()
         {

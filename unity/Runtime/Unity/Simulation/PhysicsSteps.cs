@@ -15,20 +15,27 @@ namespace Collektive.Unity
             internal ulong Answer;
             internal Rigidbody Body;
             internal Vector3 OffsetPerTick;
-            internal int Ticks;
+            internal float Ticks;
 
             /// <summary>Whether the body is still to be moved. The next answer of the node replaces the movement.</summary>
             internal bool IsValid => Body != null && Body.isKinematic && Part.IsAttached && Part.Node.AnswerTick == Answer;
         }
 
         /// <summary>
-        /// Moves a kinematic body by an equal part of the offset in each physics step of the next ticks, as many ticks as the interval of the node's answers
-        /// has. The movement ends early at the node's next answer, or when the part is disabled.
+        /// Moves a kinematic body by an equal part of the offset in each physics step of the next ticks, until it has moved by the whole offset. The movement
+        /// ends early at the node's next answer, or when the part is disabled.
         /// </summary>
-        internal void Move(NodePart part, Rigidbody body, Vector3 offset)
+        /// <param name="offset">Metres from the body's position to its target.</param>
+        /// <param name="velocity">Metres per second in the direction of the offset.</param>
+        internal void Move(NodePart part, Rigidbody body, Vector3 offset, Vector3 velocity)
         {
-            var ticks = Math.Max(1, (int)Math.Round(part.Node.AnswerInterval / part.Node.Simulation.DeltaTime));
-            moves.Add() = new Movement { Part = part, Answer = part.Node.AnswerTick, Body = body, OffsetPerTick = offset / ticks, Ticks = ticks };
+            var perTick = part.Node.Simulation.DeltaTime * velocity;
+            var length = perTick.magnitude;
+            if (!(length > 0)) return;
+            moves.Add() = new Movement
+            {
+                Part = part, Answer = part.Node.AnswerTick, Body = body, OffsetPerTick = perTick, Ticks = offset.magnitude / length,
+            };
         }
 
         /// <summary>Runs the steps, unless a physics message ends the simulation.</summary>
@@ -56,7 +63,7 @@ namespace Collektive.Unity
             for (var i = 0; i < moves.Count; i++)
             {
                 ref var move = ref moves.Items[i];
-                if (move.IsValid) move.Body.MovePosition(move.Body.position + move.OffsetPerTick / steps);
+                if (move.IsValid) move.Body.MovePosition(move.Body.position + Mathf.Min(1, move.Ticks) * move.OffsetPerTick / steps);
             }
         }
     }

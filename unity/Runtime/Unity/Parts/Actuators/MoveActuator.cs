@@ -46,7 +46,7 @@ namespace Collektive.Unity
             CheckNotNegative("maximum speed", maxSpeed);
             CheckNotNegative("reach time", reachTime);
             if (body == null) MoveTowards(target);
-            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, Node.AnswerInterval * Velocity(target - Position));
+            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, target - Position, Velocity(target - Position));
             else Drive(target - Position);
         }
 
