@@ -15,7 +15,7 @@ import pytest
 from conftest import Project
 from optuna.storages import RDBStorage
 
-from collektive_experiments import ExperimentError, read
+from collektive_experiments import ExperimentError, load, read
 from collektive_experiments import search as searching
 from collektive_experiments import tune as tuning
 from collektive_experiments.search import check_search, read_search
@@ -54,6 +54,8 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
                   and end["scenario"]["network"]["loss"] == float(row["network.loss"])]
         assert len(values) == 2
         assert float(row["agreeing"]) == pytest.approx(sum(values) / 2)
+    with pytest.raises(ExperimentError, match="has the trials of a search"):
+        load(str(project.folder / "out"))
 
 
 @pytest.mark.slow
