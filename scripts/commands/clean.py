@@ -22,8 +22,8 @@ def run(_: argparse.Namespace) -> int:
     if BUILD.exists():
         # If this command is interrupted, the next build repeats each step whose outputs may be incomplete.
         maven.STARTED.touch()
-        for mark in (graph.STAMP, GRAPH / ".ninja_log"):
-            mark.unlink(missing_ok=True)
+        for mark in (graph.STAMP.name, ".ninja_log"):
+            (GRAPH / mark).unlink(missing_ok=True)
     for folder in [BUILD / "stamp", *folders]:
         if folder.exists():
             shutil.rmtree(folder, onerror=_raise_unless_changed)

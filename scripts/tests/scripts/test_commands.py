@@ -128,12 +128,11 @@ def test_clean_does_not_follow_links(checkout: Checkout, tmp_path: Path) -> None
 def test_a_build_after_an_interrupted_clean_starts_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "cmake").mkdir()
     (tmp_path / "a/target").mkdir(parents=True)
-    for mark in (stamp := tmp_path / "cmake/arguments", tmp_path / "cmake/.ninja_log", tmp_path / "a/target/main.key"):
+    for mark in (tmp_path / "cmake" / graph.STAMP.name, tmp_path / "cmake/.ninja_log", tmp_path / "a/target/main.key"):
         mark.touch()
     monkeypatch.setattr(clean, "BUILD", tmp_path)
     monkeypatch.setattr(clean, "JVM", tmp_path)
     monkeypatch.setattr(clean, "GRAPH", tmp_path / "cmake")
-    monkeypatch.setattr(graph, "STAMP", stamp)
     monkeypatch.setattr(maven, "STARTED", tmp_path / "maven-started")
     monkeypatch.setattr(lock, "exclusive", lambda: None)
     (tmp_path / "stamp").mkdir()
