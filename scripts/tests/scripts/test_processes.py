@@ -123,18 +123,22 @@ def test_a_command_cleans_up_after_a_signal(checkout: Checkout, number: signal.S
 def test_a_signal_that_arrives_twice_does_not_interrupt_the_cleanup(checkout: Checkout) -> None:
     main = """def main():
     try:
-        (root / 'begun').touch()
-        time.sleep(600)
+        wait_for('begun')
     finally:
-        time.sleep(0.5)
+        wait_for('cleaning')
         (root / 'end').touch()
+def wait_for(name):
+    (root / name).touch()
+    while not (root / f'{name}.done').exists():
+        time.sleep(0.01)
 """
     process = checkout.start("import time\n" + main + run_in_group("main()"))
-    while not (checkout.root / "begun").exists():
-        time.sleep(0.01)
-    for _ in range(2):
+    for name in ["begun", "cleaning"]:
+        while not (checkout.root / name).exists():
+            time.sleep(0.01)
         process.send_signal(signal.SIGTERM)
-        time.sleep(0.1)
+    time.sleep(0.1)
+    (checkout.root / "cleaning.done").touch()
     assert process.wait(20) == 128 + signal.SIGTERM
     assert (checkout.root / "end").exists()
 
