@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using System.IO;
 using System.Text;
@@ -30,7 +31,7 @@ namespace Collektive.Headless
             if (Folder.Length == 0) throw new ScenarioException("'" + name + "' needs the scenario's key 'data', the folder that contains the file");
             var path = System.IO.Path.GetFullPath(System.IO.Path.Combine(Folder, name));
             // Files outside of the folder are rejected, because repetitions and sweeps do not have them.
-            if (!path.StartsWith(Folder + "/", System.StringComparison.Ordinal) || !RegularFile.Exists(path))
+            if (!path.StartsWith(Folder + "/", StringComparison.Ordinal) || !RegularFile.Exists(path))
                 throw new ScenarioException("'" + name + "' is not a file in the folder 'data', " + Folder);
             return new DataFile(name, path);
         }
@@ -42,8 +43,8 @@ namespace Collektive.Headless
         /// <summary>Reads columns of numbers from a CSV file. Its first line contains the names of the columns. Blank lines are ignored.</summary>
         /// <param name="columns">Names of the columns to read.</param>
         /// <returns>An array per line: the values of the columns, NaN for missing columns, and last the number of the line.</returns>
-        /// <exception cref="ScenarioException">A column occurs twice, a line has a wrong number of cells, misplaced quotes or a null character, or a
-        /// cell is not a finite number.</exception>
+        /// <exception cref="ScenarioException">A column occurs twice or has the wrong case, a line has a wrong number of cells, misplaced quotes or a null
+        /// character, or a cell is not a finite number.</exception>
         public List<double[]> ReadCsv(params string[] columns)
         {
             var rows = new List<double[]>();
@@ -60,7 +61,13 @@ namespace Collektive.Headless
                 {
                     header = cells;
                     foreach (var name in columns)
+                    {
                         if (header.IndexOf(name) != header.LastIndexOf(name)) throw Error(number, "the column '" + name + "' occurs twice");
+                        // Without ids, for instance, values would apply to all nodes.
+                        var similar = header.Find(other => string.Equals(other, name, StringComparison.OrdinalIgnoreCase));
+                        if (similar != null && !header.Contains(name))
+                            throw Error(number, "the column '" + similar + "' differs from '" + name + "' only in its case: rename it");
+                    }
                     continue;
                 }
                 if (cells.Count != header.Count)
