@@ -92,19 +92,22 @@ def main(words: list[str]) -> int:
         report(Failure(f"unknown command '{words[0]}'"))
         parser_for(None).print_help(sys.stderr)
         return 2
+    code = 1
     try:
-        for text in [_current_folder(), *words]:
-            if re.search("[\udc80-\udcff]", text):
-                raise Failure(f"{text!r} is not UTF-8, which the player and the JVM need: rename the file or folder")
+        folder = _current_folder()
         # Some commands pass `sys.argv` to another process.
         sys.argv[1:] = words = [resolve_parents(word) for word in words]
         arguments = parser_for(words[0]).parse_args(words)
+        code = getattr(arguments, "error_code", code)
+        for text in [folder, *words]:
+            if re.search("[\udc80-\udcff]", text):
+                raise Failure(f"{text!r} is not UTF-8, which the player and the JVM need: rename the file or folder")
         from build.processes import run_in_group
         return run_in_group(lambda: run_command(arguments))
     except Failure as failure:
-        return report(failure)
+        return report(failure, code)
     except OSError as error:
-        return report(Failure(f"cannot start a process: {error.strerror}"))
+        return report(Failure(f"cannot start a process: {error.strerror}"), code)
 
 
 def _current_folder() -> str:

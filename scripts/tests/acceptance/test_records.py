@@ -2,12 +2,13 @@
 import os
 import shutil
 import struct
+import subprocess
 import zlib
 
 import pytest
 from command import Project, collektive, last_error
 
-from build.places import ROOT
+from build.places import COLLEKTIVE, ROOT
 
 
 def with_another_jar(record):
@@ -124,7 +125,13 @@ class Records(Project):
 
     def test_a_file_that_is_not_a_record_is_rejected(self) -> None:
         for arguments in [("replay", self.path("nowhere")), ("replay", os.path.join(ROOT, "README.md")), ("diff", self.a), ("replay",),
-                          ("replay", self.a, "--programs", "/dev/zero")]:
+                          ("replay", self.a, "--programs", "/dev/zero"), ("diff", self.a, "\udcff")]:
             result = collektive(*arguments)
             self.assertEqual(result.returncode, 2, arguments)
             self.assertTrue(last_error(result).startswith("collektive: "), arguments)
+
+    def test_a_jvm_that_does_not_start_is_not_a_difference(self) -> None:
+        for arguments in [("replay", self.a), ("diff", self.a, self.a)]:
+            result = subprocess.run(["bash", "-c", 'ulimit -v 2000000; exec "$@"', "bash", COLLEKTIVE, *arguments], capture_output=True, text=True)
+            self.assertEqual(result.returncode, 2, arguments)
+            self.assertTrue(last_error(result).startswith("collektive: "), result.stderr)

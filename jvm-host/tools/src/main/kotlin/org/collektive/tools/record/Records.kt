@@ -17,6 +17,9 @@ private const val EQUAL = 0
 private const val DIFFERENT = 1
 private const val ERROR = 2
 
+/** The exit code of the process for [DIFFERENT]. A JVM that does not start exits with 1. */
+private const val EXIT_DIFFERENT = 3
+
 /** The options of `replay` that have a value. */
 private val OPTIONS = setOf("--programs", "--own", "--runtime", "--runtime-jars", "--out")
 
@@ -27,13 +30,14 @@ private val OPTIONS = setOf("--programs", "--own", "--runtime", "--runtime-jars"
  * `--own` is a folder that contains one file per jar that the user has run, named by its SHA-256. `replay` runs the jars of the record only
  * if the user has run them, or with `--trust`. `diff` never runs them.
  *
- * The exit code is 0 without differences, 1 with differences, and 2 if a record or jar cannot be used, or a record only partly.
+ * The exit code is 0 without differences, 3 with differences, and 2 if a record or jar cannot be used, or a record only partly.
  */
 public fun main(arguments: Array<String>) {
     val results = System.out
     // Keeps the output of programs out of the results.
     System.setOut(System.err)
-    exitProcess(records(arguments.asList(), results, System.err))
+    val code = records(arguments.asList(), results, System.err)
+    exitProcess(if (code == DIFFERENT) EXIT_DIFFERENT else code)
 }
 
 internal fun records(arguments: List<String>, results: PrintStream, messages: PrintStream): Int {
