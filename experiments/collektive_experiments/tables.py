@@ -207,7 +207,11 @@ class _Columns:
     def series(self, run: Run) -> Iterator[dict[str, Any]]:
         """Yields the rows of metrics.csv, with the second, metrics, counts and times."""
         table = self._metrics(run)
-        names = next(table)[1:-len(COUNTS + TIMES)]
+        header = next(table, [])
+        names = header[1:-len(COUNTS + TIMES)]
+        # Runs of earlier versions have other columns, and their values would be in the wrong columns of the table.
+        if header != ["second", *names, *COUNTS, *TIMES]:
+            raise ExperimentError(f"metrics.csv of '{run.name}' was written by another version: name another folder with --out")
         self.rows[run.name] = 0
         for cells in table:
             metrics = dict(zip(names, cells[1:]))

@@ -537,3 +537,17 @@ def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project)
     (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *tables.TIMES]) + "\n")
     with pytest.raises(ExperimentError, match=f"the manifest of '{run.name}' was changed: repeat the run with --resume"):
         tables.write(experiment, store, False)
+
+
+@pytest.mark.parametrize("header", [
+    "", ",".join(["second", "m", *tables.COUNTS, *tables.TIMES[1:]]), ",".join(["second", *tables.COUNTS, "retried", *tables.TIMES])])
+def test_metrics_of_another_version_are_rejected(header: str, project: Project) -> None:
+    experiment = read(project.experiment(vary={"seed": [1]}))
+    (run,) = experiment.runs()
+    folder = project.folder / "runs" / run.name
+    folder.mkdir(parents=True)
+    (folder / "manifest.json").write_text('{"end": {"m": 9}, "converged": {}, "versions": {}}')
+    (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}))
+    (folder / "metrics.csv").write_text(f"{header}\n0,9" + ",1" * header.count(",") + "\n" if header else "")
+    with pytest.raises(ExperimentError, match=f"metrics.csv of '{run.name}' was written by another version"):
+        tables.write(experiment, Store(str(project.folder)), False)
