@@ -56,7 +56,7 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
         earlier, unfinished = _existing(folder, RESULTS), _existing(folder, UNFINISHED)
         if earlier and not overwrite:
             raise Failure(f"'{folder}' has results of a run: {', '.join(earlier)}; name another folder with --out, or add --overwrite")
-        if (earlier or unfinished) and not _is_of_run(folder):
+        if (earlier or unfinished) and not is_of_run(folder):
             raise Failure(f"'{folder}' has {', '.join(earlier + unfinished)}, but no manifest of a run: name another folder with --out, or move these files")
         for name in unfinished:
             (folder / name).unlink()
@@ -114,7 +114,7 @@ def _has_no_tick(manifest: Path) -> bool:
         return False
 
 
-def _is_of_run(folder: Path) -> bool:
+def is_of_run(folder: Path) -> bool:
     """Returns whether a run wrote the folder's manifest. The file may also be unrelated to runs."""
     manifest = folder / "manifest.json"
     try:

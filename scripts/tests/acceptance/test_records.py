@@ -70,10 +70,10 @@ class Records(Project):
         os.symlink(self.a, self.path("symlink.clkrec"))
         shutil.copy(self.a, self.path("kept.clkrec"))
         os.link(self.path("kept.clkrec"), self.path("name.clkrec"))
-        scenario = self.path("project", "lamps.json")
+        scenario, b = self.path("project", "lamps.json"), self.record("b")
         for out, message in ((self.a, "is the record that is read"), (self.path("link.clkrec"), "is the record that is read"),
                              (self.path("symlink.clkrec"), "is the record that is read"), (self.path("name.clkrec"), "is a hard link"),
-                             (scenario, "exists and was not written by --out")):
+                             (scenario, "exists and was not written by --out"), (b, "is the record of a run")):
             result = collektive("replay", self.a, "--out", out)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(message, last_error(result))
