@@ -178,6 +178,29 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Values, Is.Empty);
         }
 
+        [TestCase(1)]
+        [TestCase(-1)]
+        public void The_impulse_of_a_mesh_with_two_opposite_walls_points_away_from_the_pressed_wall(int side)
+        {
+            Physics.gravity = new Vector3(10 * side, 0, 0);
+            var channel = new Mesh();
+            // The walls are 2 mm from the ball. Physics reports both as contacts.
+            const float x = 0.502f;
+            channel.vertices = new[]
+            {
+                new Vector3(-x, -2, -2), new Vector3(-x, 2, -2), new Vector3(-x, -2, 2), new Vector3(-x, 2, 2),
+                new Vector3(x, -2, -2), new Vector3(x, 2, -2), new Vector3(x, -2, 2), new Vector3(x, 2, 2),
+            };
+            channel.triangles = new[] { 0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7 };
+            new GameObject("Channel").AddComponent<MeshCollider>().sharedMesh = channel;
+            var ball = MakeBall(Vector3.zero);
+            ball.sleepThreshold = 0;
+            var sensor = ball.gameObject.AddComponent<Contacts>();
+            Play(20);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            Assert.That(sensor.Values[0].Impulse.x, Is.EqualTo(-side * 2 * 10 * 0.05f).Within(0.02f));
+        }
+
         [Test]
         public void A_short_collision_between_two_rounds_is_reported_once()
         {

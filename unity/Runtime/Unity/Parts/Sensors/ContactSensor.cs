@@ -66,10 +66,15 @@ namespace Collektive.Unity
             if (count == 0) return;
             var first = collision.GetContact(0);
             var point = Vector3.zero;
-            for (var i = 0; i < count; i++) point += collision.GetContact(i).point;
-            var impulse = collision.impulse;
-            // Unity reports the impulse with the same sign to both sides of a collision.
-            if (Vector3.Dot(impulse, first.normal) < 0) impulse = -impulse;
+            var impulse = Vector3.zero;
+            for (var i = 0; i < count; i++)
+            {
+                var contact = collision.GetContact(i);
+                point += contact.point;
+                // Unity reports impulses with the same sign to both sides of a collision. The sign of their sum is not enough, because the normals of a mesh
+                // can be opposed.
+                impulse += Vector3.Dot(contact.impulse, contact.normal) < 0 ? -contact.impulse : contact.impulse;
+            }
             var index = 0;
             while (index < contacts.Count && !contacts.Items[index].IsOf(first.thisCollider, collision.collider)) index++;
             if (index == contacts.Count)
