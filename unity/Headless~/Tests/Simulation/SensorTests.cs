@@ -372,6 +372,25 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "entered", "in" }));
         }
 
+        [TestCase(-1)]
+        [TestCase(1)]
+        public void A_node_whose_colliders_leave_and_enter_a_zone_in_the_same_step_is_still_in_the_zone(int side)
+        {
+            MakeBox(Vector3.zero).GetComponent<Collider>().isTrigger = true;
+            var body = MakeBall(2 * side * Vector3.right);
+            body.isKinematic = true;
+            body.GetComponent<SphereCollider>().center = 2 * Vector3.left;
+            body.gameObject.AddComponent<SphereCollider>().center = 2 * Vector3.right;
+            var sensor = body.gameObject.AddComponent<Zones>();
+            Play(3);
+            body.transform.position = -body.transform.position;
+            Play(3);
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "in", "in", "in", "in" }));
+            body.transform.position = 10 * Vector3.right;
+            Play(2);
+            Assert.That(sensor.Events[sensor.Events.Count - 1], Is.EqualTo("left"));
+        }
+
         [Test]
         public void The_velocity_of_a_node_begins_at_zero_when_the_node_is_enabled_again()
         {

@@ -9,6 +9,9 @@ namespace Collektive.Unity
     {
         private readonly GrowingArray<Movement> moves = new GrowingArray<Movement>();
 
+        /// <summary>The number of the current or last step; 0 before the first one.</summary>
+        internal ulong Current { get; private set; }
+
         private struct Movement
         {
             internal NodePart Part;
@@ -46,6 +49,7 @@ namespace Collektive.Unity
             for (var i = 0; i < steps && simulation.IsOpen; i++)
             {
                 if (moves.Count > 0) MoveBodies(steps);
+                Current++;
                 Physics.Simulate(step);
             }
             var remaining = 0;

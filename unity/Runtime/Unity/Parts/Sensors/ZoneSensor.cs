@@ -28,6 +28,8 @@ namespace Collektive.Unity
             internal Collider Zone;
             // A node with several colliders enters a zone several times.
             internal int Entries;
+            // The physics step in which the last of the node's colliders left the zone; 0 outside of a simulation.
+            internal ulong LeftIn;
             internal bool IsNew;
         }
 
@@ -37,6 +39,9 @@ namespace Collektive.Unity
             get => layers;
             set => layers = value;
         }
+
+        /// <summary>The current physics step; 0 outside of a simulation.</summary>
+        private ulong Step => Node is null || Node.Simulation is null ? 0 : Node.Simulation.Context.Steps.Current;
 
         /// <inheritdoc/>
         protected override void OnDisable()
@@ -77,7 +82,7 @@ namespace Collektive.Unity
             if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
             var index = Find(other);
             // A zone that was left since the last round is entered again.
-            if (index < visits.Count && visits.Items[index].Entries == 0)
+            if (index < visits.Count && visits.Items[index].Entries == 0 && !IsInStep(visits.Items[index].LeftIn))
             {
                 Array.Copy(visits.Items, index + 1, visits.Items, index, visits.Count - index - 1);
                 visits.Truncate(visits.Count - 1);
@@ -94,8 +99,14 @@ namespace Collektive.Unity
         protected virtual void OnTriggerExit(Collider other)
         {
             var index = Find(other);
-            if (index < visits.Count && visits.Items[index].Entries > 0) visits.Items[index].Entries--;
+            if (index < visits.Count && visits.Items[index].Entries > 0 && --visits.Items[index].Entries == 0) visits.Items[index].LeftIn = Step;
         }
+
+        /// <summary>
+        /// Returns whether a physics step is the current one. A node is still in a zone if one of its colliders left it and another one entered it in the same
+        /// step, in either order.
+        /// </summary>
+        private bool IsInStep(ulong step) => step > 0 && step == Step;
 
         /// <summary>Sorts the new zones, which are at the end of the list, because Unity does not specify the order of trigger messages.</summary>
         private void SortNew()
