@@ -474,6 +474,26 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_reach_or_layers_that_another_sensor_sets_apply_to_the_same_round()
+        {
+            MakeBox(new Vector3(0, 0, 4));
+            var node = MakeNode(0).Node;
+            var setter = node.gameObject.AddComponent<Setter>();
+            var obstacles = node.gameObject.AddComponent<Obstacles>();
+            var rays = node.gameObject.AddComponent<Rays>();
+            (rays.Rays, rays.Range) = (1, 10);
+            Play(2);
+            Assert.That(obstacles.Values, Is.Empty);
+            setter.Sensing = () => obstacles.Reach = 10;
+            Play(1);
+            Assert.That(obstacles.Values.Count, Is.EqualTo(1));
+            setter.Sensing = () => obstacles.Layers = rays.Layers = 1 << 8;
+            Play(1);
+            Assert.That(obstacles.Values, Is.Empty);
+            Assert.That(Distances(rays), Is.EqualTo("10"));
+        }
+
+        [Test]
         public void A_disabled_zone_is_left_and_triggers_of_nodes_are_not_zones()
         {
             var zone = MakeBox(Vector3.zero).GetComponent<Collider>();

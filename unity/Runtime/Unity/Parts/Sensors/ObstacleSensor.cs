@@ -20,8 +20,10 @@ namespace Collektive.Unity
         [Tooltip("Layers of the measured colliders.")]
         private LayerMask layers = Physics.DefaultRaycastLayers;
 
-        // The index of this sensor's query in the batch.
+        // The index of this sensor's query in the batch, and the settings of the query.
         private int query;
+        private float batchedReach;
+        private LayerMask batchedLayers;
         private Obstacle[] found;
         private int foundCount;
 
@@ -49,12 +51,15 @@ namespace Collektive.Unity
         {
             CheckNotNegative("reach", reach);
             var queries = tick.Queries;
-            if (!queries.Sensors.Has(this) || !TryTakeHits(queries, out foundCount)) foundCount = Overlap(queries);
+            // The batch is not used if another sensor changed the settings after the batch began.
+            var isBatched = queries.Sensors.Has(this) && batchedReach == reach && batchedLayers == layers;
+            if (!isBatched || !TryTakeHits(queries, out foundCount)) foundCount = Overlap(queries);
             found = queries.Obstacles;
         }
 
         internal sealed override void Enqueue(TickContext tick)
         {
+            (batchedReach, batchedLayers) = (reach, layers);
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
             query = tick.Queries.Spheres.Add(new OverlapSphereCommand(Node.Position, FiniteReach, parameters));
         }

@@ -36,9 +36,10 @@ namespace Collektive.Unity
         private Vector3[] worldDirections = Array.Empty<Vector3>();
         private float angleOfDirections;
 
-        // The index of this sensor's first ray in the batch, and the length of its rays.
+        // The index of this sensor's first ray in the batch, and the length and layers of its rays.
         private int query;
         private float batchedRange;
+        private LayerMask batchedLayers;
 
         /// <summary>Number of rays, 1 or more.</summary>
         public int Rays
@@ -84,7 +85,7 @@ namespace Collektive.Unity
             CheckNotNegative("range", range);
             var queries = tick.Queries;
             // The batch is not used if another sensor changed the fan after the batch began.
-            var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections && batchedRange == range;
+            var isBatched = queries.Sensors.Has(this) && !MustUpdateDirections && batchedRange == range && batchedLayers == layers;
             if (!isBatched) UpdateDirections();
             var centre = Node.Position;
             for (var i = 0; i < worldDirections.Length; i++)
@@ -106,7 +107,7 @@ namespace Collektive.Unity
             UpdateDirections();
             var fans = tick.Queries.Rays;
             query = fans.Count;
-            batchedRange = range;
+            (batchedRange, batchedLayers) = (range, layers);
             var parameters = new QueryParameters(layers, false, QueryTriggerInteraction.Ignore);
             // A command requires a unit vector, but rotation changes the length slightly.
             for (var i = 0; i < worldDirections.Length; i++) fans.Add(new RaycastCommand(Node.Position, worldDirections[i].normalized, parameters, range));
