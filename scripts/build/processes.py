@@ -17,6 +17,7 @@ _interrupted_at = -math.inf
 _SAME_SIGNAL = 1
 # A constant from linux/prctl.h. With this option, orphaned descendants become children of this process.
 _SET_CHILD_SUBREAPER = 36
+_FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def run_in_group(main: Callable[[], int]) -> int:
@@ -28,6 +29,8 @@ def run_in_group(main: Callable[[], int]) -> int:
     sys.stderr.flush()
     _adopt_orphans()
     watched, lifeline = os.pipe()
+    # Until it can forward signals, one of them would end this process, but not the group.
+    unblocked = signal.pthread_sigmask(signal.SIG_BLOCK, _FORWARDED)
     group = os.fork()
     if group == 0:
         os.setpgid(0, 0)
@@ -39,6 +42,7 @@ def run_in_group(main: Callable[[], int]) -> int:
         # Otherwise, a background group that reads from a terminal, or writes to it after `stty tostop`, would stop until it receives SIGCONT.
         for number in (signal.SIGTTIN, signal.SIGTTOU):
             signal.signal(number, signal.SIG_IGN)
+        signal.pthread_sigmask(signal.SIG_SETMASK, unblocked)
         sys.exit(main())
     with contextlib.suppress(OSError):  # the child may already have set its group, or may have ended
         os.setpgid(group, group)
@@ -59,8 +63,9 @@ def run_in_group(main: Callable[[], int]) -> int:
         received.append(number)
         _end_group(group, signal.SIGINT if number == signal.SIGINT else signal.SIGTERM)
 
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in _FORWARDED:
         signal.signal(number, forward)
+    signal.pthread_sigmask(signal.SIG_SETMASK, unblocked)
     code = os.waitstatus_to_exitcode(os.waitpid(group, 0)[1])
     # The first process may end before its children. This process then waits for them, because the init process of a container may not reap them.
     while _has_members(group):
@@ -118,7 +123,7 @@ def _watch(watched: int, lifeline: int, group: int) -> None:
     """Ends the group when the watched process has ended, even after SIGKILL."""
     # `timeout -s KILL` kills the whole group of the watched process, which must not include this process.
     os.setpgid(0, 0)
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    for number in _FORWARDED:
         signal.signal(number, signal.SIG_IGN)
     os.close(lifeline)
     # Closes the inherited output, because the caller may wait until all of its writers have closed it.

@@ -17,13 +17,18 @@ def run_in_group(body: str) -> str:
     return f"sys.exit(processes.run_in_group(lambda: {body}))"
 
 
-def child_of(checkout: Checkout) -> int:
-    """Waits until the child runs, and returns its process id."""
+def wait_for(condition: Callable[[], object]) -> None:
+    """Waits until a condition is true. Fails after a minute."""
     end = time.monotonic() + 60
-    file = checkout.root / "pid"
-    while not (file.exists() and file.read_text()):
+    while not condition():
         assert time.monotonic() < end
         time.sleep(0.02)
+
+
+def child_of(checkout: Checkout) -> int:
+    """Waits until the child runs, and returns its process id."""
+    file = checkout.root / "pid"
+    wait_for(lambda: file.exists() and file.read_text())
     return int(file.read_text())
 
 
@@ -120,6 +125,22 @@ def test_a_command_cleans_up_after_a_signal(checkout: Checkout, number: signal.S
     assert (checkout.root / "end").exists()
 
 
+def test_a_signal_at_the_start_ends_all_processes(checkout: Checkout) -> None:
+    fork = """import os, time
+fork = os.fork
+def fork_and_end():
+    pid = fork()
+    if pid > 0 and not (root / 'pid').exists():
+        (root / 'pid').write_text(str(pid))
+        os.kill(os.getpid(), signal.SIGTERM)
+    return pid
+os.fork = fork_and_end
+"""
+    process = checkout.start(fork + run_in_group("time.sleep(600)"))
+    assert process.wait(20) == 128 + signal.SIGTERM
+    assert ends(child_of(checkout))
+
+
 def test_a_signal_that_arrives_twice_does_not_interrupt_the_cleanup(checkout: Checkout) -> None:
     main = """def main():
     try:
@@ -134,8 +155,7 @@ def wait_for(name):
 """
     process = checkout.start("import time\n" + main + run_in_group("main()"))
     for name in ["begun", "cleaning"]:
-        while not (checkout.root / name).exists():
-            time.sleep(0.01)
+        wait_for((checkout.root / name).exists)
         process.send_signal(signal.SIGTERM)
     time.sleep(0.1)
     (checkout.root / "cleaning.done").touch()
