@@ -136,11 +136,13 @@ class WholeRuns(Project):
             with self.subTest(code):
                 script %= "manager.enabled = false; manager.enabled = true;"
                 self.change("scene/Lamps.cs", "\n        protected override void Build(", script)
-                result = self.run_it()
+                result = self.run_it("--set", "metrics.bytes=total(message_bytes)")
                 self.change("scene/Lamps.cs", script, "\n        protected override void Build(")
                 self.assertEqual(result.returncode, code, result.stderr)
                 self.assertIn(error, result.stderr)
-                self.assertIn("brightest", self.manifest(self.path("out")).get("parameters", ["brightest"]))
+        manifest = self.manifest(self.path("out"))
+        self.assertIn("brightest", manifest["parameters"])
+        self.assertGreater(manifest["end"]["bytes"], 0)
 
     @pytest.mark.slow
     def test_ticks_can_be_up_to_an_hour_long(self) -> None:

@@ -238,9 +238,7 @@ namespace Collektive.Headless
                     var before = completedTicks;
                     // Compares with the scenario's number of ticks, so that the repetition of an interrupted run measures at the same ticks.
                     runMetrics.Prepare(manager, rows.IsDue(completedTicks + 1) || frame == (options.IsCheck ? ticks : scenario.Ticks));
-                    limit.Begin(completedTicks + 1);
-                    Loop.Frame(scenario.Settings.deltaTime);
-                    limit.End();
+                    RunFrame();
                     if (before == 0 && completedTicks > 0)
                     {
                         var began = Stopwatch.GetTimestamp();
@@ -249,9 +247,7 @@ namespace Collektive.Headless
                         ended += Stopwatch.GetTimestamp() - began;
                     }
                     if (manager.Failure.Length > 0) throw Stopped(manager);
-                    if (completedTicks > 0 && !ReferenceEquals(manager.Simulation, simulation))
-                        throw new ScenarioException("stopped after tick " + completedTicks
-                            + ": a script disabled and enabled the Simulation Manager, which starts another simulation; do so before the first tick");
+                    RequireFirstSimulation(manager);
                     if (completedTicks > frame)
                         throw new ScenarioException("stopped at tick " + completedTicks
                             + ": a frame ran more than one tick; do not set Time.timeScale above 1 or call Step while the simulation is running");
@@ -351,14 +347,27 @@ namespace Collektive.Headless
                 var live = new LiveRun(scenario, scene, runMetrics, metrics, manager, new LiveChannel(options.Channel));
                 live.Play(() =>
                 {
-                    limit.Begin(completedTicks + 1);
-                    Loop.Frame(scenario.Settings.deltaTime);
-                    limit.End();
+                    RunFrame();
+                    RequireFirstSimulation(manager);
                 }, () => interrupt.Requested || Loop.QuitRequested);
             }
             if (manager.Failure.Length > 0) throw Stopped(manager);
             manifest.Outcome = Manifest.Complete;
             return 0;
+        }
+
+        private void RunFrame()
+        {
+            limit.Begin(completedTicks + 1);
+            Loop.Frame(scenario.Settings.deltaTime);
+            limit.End();
+        }
+
+        private void RequireFirstSimulation(SimulationManager manager)
+        {
+            if (completedTicks > 0 && !ReferenceEquals(manager.Simulation, simulation))
+                throw new ScenarioException("stopped after tick " + completedTicks
+                    + ": a script disabled and enabled the Simulation Manager, which starts another simulation; do so before the first tick");
         }
 
         private ScenarioException Stopped(SimulationManager manager)

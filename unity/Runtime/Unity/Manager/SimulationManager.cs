@@ -212,7 +212,9 @@ namespace Collektive.Unity
 
         private void OnEnable()
         {
-            simulation = new Simulation(PlayerArguments.Apply(settings), globals, this) { NodeJoined = simulation?.NodeJoined };
+            var former = simulation;
+            simulation = new Simulation(PlayerArguments.Apply(settings), globals, this);
+            if (former != null) simulation.TakeRequests(former);
             if (Current != null && Current != this)
             {
                 Debug.LogError("'" + name + "' is a second Simulation Manager; '" + Current.name + "' already runs the simulation. Remove one of them", this);

@@ -170,6 +170,13 @@ namespace Collektive.Unity
         /// <summary>Id of the node that answers describe, or -1.</summary>
         internal int Inspected { get; set; } = -1;
 
+        /// <summary>Makes the requests of the former simulation of the same manager.</summary>
+        internal void TakeRequests(Simulation former)
+        {
+            NodeJoined = former.NodeJoined;
+            (MeasuresMessages, Measures, Inspected) = (former.MeasuresMessages, former.Measures, former.Inspected);
+        }
+
         /// <summary>Number of nodes with a round in the last tick.</summary>
         internal int DueCount => due.Count;
 
