@@ -192,15 +192,34 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void A_kinematic_body_stops_at_its_target_while_its_node_sleeps()
+        public void A_kinematic_body_moves_to_its_target_and_stays_there_while_its_node_sleeps()
         {
             var node = MakeNode(1).Node;
-            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            var body = node.gameObject.AddComponent<Rigidbody>();
+            body.isKinematic = true;
             node.gameObject.AddComponent<Move>().MaxSpeed = 3;
             Play(1);
             node.Sleep(5);
+            Play(3);
+            body.position = new Vector3(2, 0, 3);
+            Manager.Settings.deltaTime = 0.025f;
             Play(20);
-            Assert.That(node.transform.position.x, Is.EqualTo(2).Within(1e-4f));
+            Assert.That(node.transform.position.z, Is.EqualTo(1.5f).Within(1e-4f));
+            Play(30);
+            Assert.That(node.transform.position, Is.EqualTo(new Vector3(2, 0, 0)));
+            body.position = Vector3.zero;
+            Play(5);
+            Assert.That(node.transform.position, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
+        public void A_kinematic_body_moves_towards_a_target_at_any_distance()
+        {
+            var node = MakeNode(1e20f).Node;
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            Play(20);
+            Assert.That(node.transform.position.x, Is.EqualTo(2).Within(0.01f));
         }
 
         [Test]

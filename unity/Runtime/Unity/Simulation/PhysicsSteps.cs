@@ -7,6 +7,9 @@ namespace Collektive.Unity
     /// <summary>Advances physics by one tick, in steps of equal length that do not exceed the physics step in the settings.</summary>
     internal sealed class PhysicsSteps
     {
+        /// <summary>The simulated seconds of a movement to a target at an infinite distance.</summary>
+        private const float MaxSeconds = 1e6f;
+
         private readonly GrowingArray<Movement> moves = new GrowingArray<Movement>();
 
         /// <summary>The number of the current or last step; 0 before the first one.</summary>
@@ -17,28 +20,25 @@ namespace Collektive.Unity
             internal NodePart Part;
             internal ulong Answer;
             internal Rigidbody Body;
-            internal Vector3 OffsetPerTick;
-            internal float Ticks;
+            internal Vector3 Target;
+            internal float Speed;
 
             /// <summary>Whether the body is still to be moved. The next answer of the node replaces the movement.</summary>
-            internal bool IsValid => Body != null && Body.isKinematic && Part.IsAttached && Part.Node.AnswerTick == Answer;
+            internal bool IsValid => Part.IsAttached && Part.Node.AnswerTick == Answer && Body != null && Body.isKinematic;
         }
 
         /// <summary>
-        /// Moves a kinematic body by an equal part of the offset in each physics step of the next ticks, until it has moved by the whole offset. The movement
-        /// ends early at the node's next answer, or when the part is disabled.
+        /// Moves a kinematic body in each physics step until it is at its target. The movement ends early at the node's next answer, or when the part is
+        /// disabled.
         /// </summary>
-        /// <param name="offset">Metres from the body's position to its target.</param>
+        /// <param name="offset">Metres from the body's position to its target. The length may be infinite.</param>
         /// <param name="velocity">Metres per second in the direction of the offset.</param>
         internal void Move(NodePart part, Rigidbody body, Vector3 offset, Vector3 velocity)
         {
-            var perTick = part.Node.Simulation.DeltaTime * velocity;
-            var length = perTick.magnitude;
-            if (!(length > 0)) return;
-            moves.Add() = new Movement
-            {
-                Part = part, Answer = part.Node.AnswerTick, Body = body, OffsetPerTick = perTick, Ticks = offset.magnitude / length,
-            };
+            var speed = velocity.magnitude;
+            if (!(speed > 0)) return;
+            var target = body.position + Mathf.Min(offset.magnitude / speed, MaxSeconds) * velocity;
+            moves.Add() = new Movement { Part = part, Answer = part.Node.AnswerTick, Body = body, Target = target, Speed = speed };
         }
 
         /// <summary>Runs the steps, unless a physics message ends the simulation.</summary>
@@ -48,27 +48,27 @@ namespace Collektive.Unity
             var step = simulation.DeltaTime / steps;
             for (var i = 0; i < steps && simulation.IsOpen; i++)
             {
-                if (moves.Count > 0) MoveBodies(steps);
+                if (moves.Count > 0) MoveBodies(step);
                 Current++;
                 Physics.Simulate(step);
             }
-            var remaining = 0;
-            for (var i = 0; i < moves.Count; i++)
-            {
-                if (--moves.Items[i].Ticks > 0 && moves.Items[i].IsValid) moves.Items[remaining++] = moves.Items[i];
-            }
-            moves.Truncate(remaining);
         }
 
-        private void MoveBodies(int steps)
+        private void MoveBodies(float seconds)
         {
             // Physics messages of the previous step may have moved, changed or destroyed the bodies.
             Physics.SyncTransforms();
+            var remaining = 0;
             for (var i = 0; i < moves.Count; i++)
             {
-                ref var move = ref moves.Items[i];
-                if (move.IsValid) move.Body.MovePosition(move.Body.position + Mathf.Min(1, move.Ticks) * move.OffsetPerTick / steps);
+                var move = moves.Items[i];
+                if (!move.IsValid) continue;
+                var position = move.Body.position;
+                if (position.Equals(move.Target)) continue;
+                move.Body.MovePosition(Vector3.MoveTowards(position, move.Target, seconds * move.Speed));
+                moves.Items[remaining++] = move;
             }
+            moves.Truncate(remaining);
         }
     }
 }
