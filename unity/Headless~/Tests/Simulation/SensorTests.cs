@@ -337,6 +337,25 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "left" }));
         }
 
+        [TestCase(false, "")]
+        [TestCase(true, "entered")]
+        public void A_node_that_was_disabled_enters_the_zones_that_it_is_in_when_it_joins_again(bool isInside, string expected)
+        {
+            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
+            zone.isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            var sensor = ball.gameObject.AddComponent<Zones>();
+            Play(3);
+            sensor.Events.Clear();
+            ball.GetComponent<Node>().enabled = false;
+            if (!isInside) ball.transform.position = new Vector3(5, 0, 0);
+            Play(2);
+            ball.GetComponent<Node>().enabled = true;
+            Play(1);
+            Assert.That(string.Join(",", sensor.Events), Is.EqualTo(expected));
+        }
+
         [Test]
         public void Zones_report_entering_staying_and_leaving()
         {

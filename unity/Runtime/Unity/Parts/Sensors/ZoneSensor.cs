@@ -73,6 +73,16 @@ namespace Collektive.Unity
             Write(ref data, new Span<Zone>(zones, 0, count));
         }
 
+        internal sealed override void NodeJoined()
+        {
+            var remaining = 0;
+            for (var i = 0; i < visits.Count; i++)
+            {
+                if (visits.Items[i].Entries > 0) visits.Items[remaining++] = new Visit { Zone = visits.Items[i].Zone, Entries = visits.Items[i].Entries, IsNew = true };
+            }
+            visits.Truncate(remaining);
+        }
+
         /// <summary>Writes the zones, sorted by the tick in which the node entered them and then by distance. The span is valid during the call only.</summary>
         protected abstract void Write(ref TData data, Span<Zone> zones);
 
@@ -81,8 +91,8 @@ namespace Collektive.Unity
         {
             if (!other.isTrigger || (layers & 1 << other.gameObject.layer) == 0 || other.GetComponentInParent<Node>() != null) return;
             var index = Find(other);
-            // A zone that was left since the last round is entered again.
-            if (index < visits.Count && visits.Items[index].Entries == 0 && !IsInStep(visits.Items[index].LeftIn))
+            // A zone that was left since the last round is entered again, unless another collider of the node left it in this physics step.
+            if (index < visits.Count && visits.Items[index].Entries == 0 && !IsCurrent(visits.Items[index].LeftIn))
             {
                 Array.Copy(visits.Items, index + 1, visits.Items, index, visits.Count - index - 1);
                 visits.Truncate(visits.Count - 1);
@@ -102,11 +112,7 @@ namespace Collektive.Unity
             if (index < visits.Count && visits.Items[index].Entries > 0 && --visits.Items[index].Entries == 0) visits.Items[index].LeftIn = Step;
         }
 
-        /// <summary>
-        /// Returns whether a physics step is the current one. A node is still in a zone if one of its colliders left it and another one entered it in the same
-        /// step, in either order.
-        /// </summary>
-        private bool IsInStep(ulong step) => step > 0 && step == Step;
+        private bool IsCurrent(ulong step) => step > 0 && step == Step;
 
         /// <summary>Sorts the new zones, which are at the end of the list, because Unity does not specify the order of trigger messages.</summary>
         private void SortNew()
