@@ -66,7 +66,9 @@ namespace Collektive.Unity
             if (count == 0) return;
             var first = collision.GetContact(0);
             var point = Vector3.zero;
+            var normal = first.normal;
             var impulse = Vector3.zero;
+            var greatest = 0f;
             for (var i = 0; i < count; i++)
             {
                 var contact = collision.GetContact(i);
@@ -74,6 +76,9 @@ namespace Collektive.Unity
                 // Unity reports impulses with the same sign to both sides of a collision. The sign of their sum is not enough, because the normals of a mesh
                 // can be opposed.
                 impulse += Vector3.Dot(contact.impulse, contact.normal) < 0 ? -contact.impulse : contact.impulse;
+                if (contact.impulse.sqrMagnitude <= greatest) continue;
+                greatest = contact.impulse.sqrMagnitude;
+                normal = contact.normal;
             }
             var index = 0;
             while (index < contacts.Count && !contacts.Items[index].IsOf(first.thisCollider, collision.collider)) index++;
@@ -84,7 +89,7 @@ namespace Collektive.Unity
             }
             ended.Items[index] = false;
             impulse += contacts.Items[index].Impulse;
-            contacts.Items[index] = new Contact(first.thisCollider, collision.collider, point / count, first.normal, impulse);
+            contacts.Items[index] = new Contact(first.thisCollider, collision.collider, point / count, normal, impulse);
         }
 
         private void RemoveStale()
