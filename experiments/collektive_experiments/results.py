@@ -81,7 +81,7 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     """Reads the tables in a sweep's folder. `labels` replaces the labels of the experiment file."""
     settings = Store(folder).settings()
     if os.path.exists(os.path.join(folder, "study.db")) and not os.path.exists(os.path.join(folder, "runs.parquet")):
-        raise ExperimentError(f"'{folder}' has the trials of a search, in trials.csv, and no tables of a sweep")
+        raise ExperimentError(f"'{folder}' is the folder of a search, not of a sweep")
     read = {name: _read(folder, name) for name in ("runs", "series")}
     if os.path.exists(os.path.join(folder, "nodes.parquet")):
         read["nodes"] = _read(folder, "nodes")

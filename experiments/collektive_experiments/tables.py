@@ -211,7 +211,7 @@ class _Columns:
         names = header[1:-len(COUNTS + TIMES)]
         # Runs of earlier versions have other columns, and their values would be in the wrong columns of the table.
         if header != ["second", *names, *COUNTS, *TIMES]:
-            raise ExperimentError(f"metrics.csv of '{run.name}' was written by another version: name another folder with --out")
+            raise ExperimentError(f"metrics.csv of '{run.name}' is damaged or of another version: name another folder with --out")
         self.rows[run.name] = 0
         for cells in table:
             metrics = dict(zip(names, cells[1:]))

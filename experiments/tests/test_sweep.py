@@ -549,5 +549,5 @@ def test_metrics_of_another_version_are_rejected(header: str, project: Project) 
     (folder / "manifest.json").write_text('{"end": {"m": 9}, "converged": {}, "versions": {}}')
     (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}))
     (folder / "metrics.csv").write_text(f"{header}\n0,9" + ",1" * header.count(",") + "\n" if header else "")
-    with pytest.raises(ExperimentError, match=f"metrics.csv of '{run.name}' was written by another version"):
+    with pytest.raises(ExperimentError, match=f"metrics.csv of '{run.name}' is damaged or of another version"):
         tables.write(experiment, Store(str(project.folder)), False)

@@ -54,7 +54,7 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
                   and end["scenario"]["network"]["loss"] == float(row["network.loss"])]
         assert len(values) == 2
         assert float(row["agreeing"]) == pytest.approx(sum(values) / 2)
-    with pytest.raises(ExperimentError, match="has the trials of a search"):
+    with pytest.raises(ExperimentError, match="is the folder of a search"):
         load(str(project.folder / "out"))
 
 
