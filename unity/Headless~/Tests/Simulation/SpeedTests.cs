@@ -49,7 +49,8 @@ namespace Collektive.Headless.Tests.Simulation
         ///
         /// 10,000 nodes move on a plane at 2 m/s. Each has about 12 others within 2 m. They either circle around the centre of the plane or move independently.
         /// In the latter case, every fourth link is added, removed or changed in each tick. On a shared server, a tick took 2.4 to 3.3 and 3.8 to 4.4 loops.
-        /// On a newer processor, whose second-level cache of 1 MB holds all points, it took 4.5 to 5.5 and 7.1 to 7.9: the tick was faster, but the loop even more.
+        /// On a newer processor, whose second-level cache of 1 MB contains all points, it took 4.5 to 5.5 and 7.1 to 7.9 loops, because the loop is faster
+        /// there.
         /// The test runs only on Mono, because CoreCLR runs the plain loop five times as fast as Mono, but the tick no faster.
         /// </summary>
         [Category("Mono")]
