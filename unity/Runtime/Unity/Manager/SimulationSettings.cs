@@ -8,8 +8,8 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// The settings of a simulation. Changes of <see cref="deltaTime"/>, <see cref="physicsStep"/>, <see cref="stopAfter"/> and
-    /// <see cref="stepLimitMs"/> take effect in the next tick, those of <see cref="timing"/> for nodes that join later, those of <see cref="jars"/> and <see cref="libraries"/> also when
-    /// the programs are reloaded, and all others at the next start.
+    /// <see cref="stepLimitMs"/> take effect in the next tick, those of <see cref="timing"/> for nodes that join later, those of <see cref="jars"/> and
+    /// <see cref="libraries"/> also when the programs are reloaded, and all others at the next start.
     /// </summary>
     [Serializable]
     public sealed class SimulationSettings

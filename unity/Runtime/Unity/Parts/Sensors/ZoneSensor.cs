@@ -78,7 +78,8 @@ namespace Collektive.Unity
             var remaining = 0;
             for (var i = 0; i < visits.Count; i++)
             {
-                if (visits.Items[i].Entries > 0) visits.Items[remaining++] = new Visit { Zone = visits.Items[i].Zone, Entries = visits.Items[i].Entries, IsNew = true };
+                var visit = visits.Items[i];
+                if (visit.Entries > 0) visits.Items[remaining++] = new Visit { Zone = visit.Zone, Entries = visit.Entries, IsNew = true };
             }
             visits.Truncate(remaining);
         }
