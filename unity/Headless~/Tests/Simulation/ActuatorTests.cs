@@ -207,9 +207,27 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.transform.position.z, Is.EqualTo(1.5f).Within(1e-4f));
             Play(30);
             Assert.That(node.transform.position, Is.EqualTo(new Vector3(2, 0, 0)));
-            body.position = Vector3.zero;
-            Play(5);
-            Assert.That(node.transform.position, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
+        public void The_last_of_several_move_actuators_moves_a_kinematic_body()
+        {
+            Configure("double", settings =>
+            {
+                settings.schedule = Schedule.Asynchronous;
+                settings.timing = new RoundTiming { period = 0.5f, phase = 0 };
+            });
+            var node = MakeNode(500).Node;
+            node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            node.gameObject.AddComponent<Move>().MaxSpeed = 2;
+            var last = node.gameObject.AddComponent<MoveTo>();
+            last.Target = new Vector3(0, 0, 0.1f);
+            last.ReachTime = 0;
+            Play(10);
+            Assert.That(node.transform.position, Is.EqualTo(last.Target));
+            last.Target = node.transform.position;
+            Play(10);
+            Assert.That(node.transform.position, Is.EqualTo(last.Target));
         }
 
         [Test]
@@ -391,6 +409,13 @@ namespace Collektive.Headless.Tests.Simulation
             node.transform.SetParent(carrier.transform, true);
             node.gameObject.AddComponent<Move>();
             return (carrier, node, node.gameObject.AddComponent<SensorTests.Velocity>());
+        }
+
+        public sealed class MoveTo : MoveActuator<ActuatorData>
+        {
+            internal Vector3 Target { get; set; }
+
+            protected override Vector3 Read(ActuatorData data) => Target;
         }
 
         public sealed class Move : MoveActuator<ActuatorData>

@@ -28,16 +28,15 @@ namespace Collektive.Unity
         }
 
         /// <summary>
-        /// Moves a kinematic body in each physics step until it is at its target. The movement ends early at the node's next answer, or when the part is
-        /// disabled.
+        /// Moves a kinematic body to a target in each physics step, until the node's next answer or until the part is disabled. Of several movements of one
+        /// body, the last one counts.
         /// </summary>
         /// <param name="offset">Metres from the body's position to its target. The length may be infinite.</param>
         /// <param name="velocity">Metres per second in the direction of the offset.</param>
         internal void Move(NodePart part, Rigidbody body, Vector3 offset, Vector3 velocity)
         {
             var speed = velocity.magnitude;
-            if (!(speed > 0)) return;
-            var target = body.position + Mathf.Min(offset.magnitude / speed, MaxSeconds) * velocity;
+            var target = speed > 0 ? body.position + Mathf.Min(offset.magnitude / speed, MaxSeconds) * velocity : body.position;
             moves.Add() = new Movement { Part = part, Answer = part.Node.AnswerTick, Body = body, Target = target, Speed = speed };
         }
 
@@ -63,9 +62,7 @@ namespace Collektive.Unity
             {
                 var move = moves.Items[i];
                 if (!move.IsValid) continue;
-                var position = move.Body.position;
-                if (position.Equals(move.Target)) continue;
-                move.Body.MovePosition(Vector3.MoveTowards(position, move.Target, seconds * move.Speed));
+                move.Body.MovePosition(Vector3.MoveTowards(move.Body.position, move.Target, seconds * move.Speed));
                 moves.Items[remaining++] = move;
             }
             moves.Truncate(remaining);

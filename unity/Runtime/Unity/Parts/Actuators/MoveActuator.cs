@@ -4,8 +4,8 @@ namespace Collektive.Unity
 {
     /// <summary>
     /// Moves the node towards a target in the program's answer, at no more than a maximum speed. For a node with a Rigidbody, it sets the velocity, but
-    /// leaves the vertical motion to gravity if the body uses gravity. It moves a kinematic body in each physics step, until the node's next answer or the
-    /// target. For a node without a body, it sets the position. A subclass selects the field of the schema's data that contains the target.
+    /// leaves the vertical motion to gravity if the body uses gravity. It moves a kinematic body in each physics step, until the node's next answer. For
+    /// a node without a body, it sets the position. A subclass selects the field of the schema's data that contains the target.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     public abstract class MoveActuator<TData> : Actuator<TData>
