@@ -33,4 +33,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _is_demo(manifest: Path) -> bool:
     """Returns whether a manifest is from a demo. Another scenario named demo.json has the same default folder."""
-    return manifest.is_file() and json.dumps(str(SCENARIO.parent), ensure_ascii=False).encode() in manifest.read_bytes()
+    try:
+        found = json.loads(manifest.read_bytes())
+    except (OSError, ValueError):
+        return False
+    return isinstance(found, dict) and (found.get("folder"), found.get("file")) == (str(SCENARIO.parent), SCENARIO.name)

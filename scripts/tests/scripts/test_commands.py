@@ -1,6 +1,7 @@
 """Tests how commands report steps that fail or are interrupted."""
 import argparse
 import contextlib
+import json
 import os
 import re
 import shutil
@@ -84,12 +85,14 @@ def test_a_failed_report_is_the_exit_code_of_profile(tmp_path: Path, monkeypatch
     assert profile.run(argparse.Namespace(scenario="", out=str(tmp_path), overwrite=False)) == 3
 
 
-@pytest.mark.parametrize(("folder", "is_replaced"), [(demo.SCENARIO.parent, True), (Path("/home/me"), False)])
-def test_a_demo_does_not_replace_the_run_of_another_scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder: Path, is_replaced: bool) -> None:
+@pytest.mark.parametrize(("manifest", "is_replaced"), [
+    ({"file": demo.SCENARIO.name, "folder": str(demo.SCENARIO.parent)}, True), ({"file": "demo.json", "folder": str(demo.SCENARIO.parent)}, False),
+    ({"file": "demo.json", "folder": "/home/me", "scenario": {"scripts": str(demo.SCENARIO.parent)}}, False), ([], False)])
+def test_a_demo_does_not_replace_the_run_of_another_scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, manifest: object, is_replaced: bool) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(demo, "run_scenario", lambda _, overwrite, **__: overwrite)
     Path("out/demo-seed1").mkdir(parents=True)
-    Path("out/demo-seed1/manifest.json").write_text(f'{{"outcome": "complete", "file": "demo.json", "folder": "{folder}"}}')
+    Path("out/demo-seed1/manifest.json").write_text(json.dumps(manifest))
     assert demo.run(argparse.Namespace(nodes=None, seconds=None, seed="1", out=None, overwrite=False)) == is_replaced
 
 
