@@ -240,6 +240,26 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.transform.position.x, Is.EqualTo(2).Within(0.01f));
         }
 
+        [TestCase(false)]
+        [TestCase(true)]
+        public void A_node_that_leaves_and_joins_a_carrier_moves_alone_and_then_with_it(bool kinematic)
+        {
+            var (carrier, node, sensor) = MakeCarriedNode(kinematic);
+            node.gameObject.SetActive(true);
+            Play(5);
+            node.transform.SetParent(null, true);
+            if (!kinematic) carrier.linearVelocity = Vector3.forward;
+            var start = node.transform.position.x;
+            var place = carrier.position.x;
+            Play(10);
+            Assert.That(node.transform.position.x - start, Is.GreaterThan(0.1f));
+            Assert.That(carrier.position.x, Is.EqualTo(place).Within(1e-4f));
+            Assert.That(sensor.Value.z, Is.EqualTo(0));
+            node.transform.SetParent(carrier.transform, true);
+            Play(10);
+            Assert.That(carrier.position.x - place, Is.GreaterThan(0.1f));
+        }
+
         [Test]
         public void A_target_at_any_distance_gives_a_direction()
         {

@@ -33,7 +33,11 @@ namespace Collektive.Unity
         protected virtual void OnDisable() => Detach();
 
         /// <summary>Joins another node if the new parents belong to it.</summary>
-        protected virtual void OnTransformParentChanged() => UpdateNode();
+        protected virtual void OnTransformParentChanged()
+        {
+            UpdateNode();
+            if (IsAttached) Reparented();
+        }
 
         /// <summary>Joins the nearest node if the part belongs to another one.</summary>
         internal void UpdateNode()
@@ -107,6 +111,11 @@ namespace Collektive.Unity
 
         /// <summary>Called after the part was added to the node's list.</summary>
         internal virtual void Attached()
+        {
+        }
+
+        /// <summary>Called after a direct or indirect parent of an attached part has changed.</summary>
+        internal virtual void Reparented()
         {
         }
 

@@ -55,6 +55,8 @@ namespace Collektive.Unity
 
         internal sealed override void Attached() => isChecked = false;
 
+        internal sealed override void Reparented() => isChecked = false;
+
         internal sealed override void Prepare(TickContext tick)
         {
             if (isChecked) return;

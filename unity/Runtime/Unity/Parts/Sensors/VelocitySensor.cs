@@ -20,6 +20,8 @@ namespace Collektive.Unity
 
         internal sealed override void Attached() => time = -1;
 
+        internal sealed override void Reparented() => body = FindBody();
+
         internal sealed override void NodeJoined() => time = -1;
 
         internal sealed override void Prepare(TickContext tick)
