@@ -315,7 +315,7 @@ namespace Collektive.Headless
                 if (token == null) continue;
                 var value = file.Convert(token, setting.Type, "jvm." + setting.Key);
                 var isFolder = setting.Key == nameof(JvmSettings.home) && ((string)value).Length > 0;
-                setting.Set(settings, isFolder ? System.IO.Path.Combine(folder, (string)value) : value);
+                setting.Set(settings, isFolder ? Combine(file, token, "jvm." + setting.Key, folder, (string)value) : value);
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
             if (!trusted) RejectUnsafeSettings(file, root, settings);
@@ -348,10 +348,16 @@ namespace Collektive.Headless
         private static string FullPath(string path) =>
             System.IO.Path.GetFullPath(path.StartsWith("//", StringComparison.Ordinal) ? "/" + path.TrimStart('/') : path);
 
+        private static string Combine(JsonFile file, JToken place, string key, string folder, string named)
+        {
+            if (named.IndexOf('\0') >= 0) throw file.Error(place, "'" + key + "' contains a null character");
+            return System.IO.Path.Combine(folder, named);
+        }
+
         private static string ExistingPath(JsonFile file, JObject root, string key, string folder, bool? directory)
         {
             var named = file.Required<string>(root, key);
-            var path = FullPath(System.IO.Path.Combine(folder, named));
+            var path = FullPath(Combine(file, root[key], key, folder, named));
             var isDirectory = Directory.Exists(path);
             var isFile = RegularFile.Exists(path);
             if (directory == null ? isDirectory || isFile : directory.Value ? isDirectory : isFile) return path;

@@ -347,6 +347,19 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(message, Is.StringContaining("scenario.json:" + line + ": not valid JSON: '" + number + "' is not a JSON number"));
         }
 
+        [TestCase("scripts", "'scripts'")]
+        [TestCase("schema", "'schema'")]
+        [TestCase("programs", "'programs'")]
+        [TestCase("data", "'data'")]
+        [TestCase("home", "'jvm.home'")]
+        public void A_path_with_an_escaped_null_character_is_rejected(string key, string name)
+        {
+            var root = Minimal();
+            if (key == "home") root["jvm"] = new JObject(new JProperty("home", "\0"));
+            else root[key] = "\0";
+            Assert.That(Assert.Throws<ScenarioException>(() => Read(root)).Message, Is.StringContaining(name + " contains a null character"));
+        }
+
         [Test]
         public void A_null_character_is_not_JSON()
         {
