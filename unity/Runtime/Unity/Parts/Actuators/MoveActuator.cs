@@ -45,9 +45,14 @@ namespace Collektive.Unity
             var target = Finite(Read(data));
             CheckNotNegative("maximum speed", maxSpeed);
             CheckNotNegative("reach time", reachTime);
-            if (body == null) MoveTowards(target);
-            else if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, target - Position, Velocity(target - Position));
-            else Drive(target - Position);
+            if (body == null)
+            {
+                MoveTowards(target);
+                return;
+            }
+            var offset = target - Position;
+            if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, offset, Velocity(offset));
+            else Drive(offset);
         }
 
         /// <summary>Returns the target in the program's answer, in metres.</summary>
