@@ -153,12 +153,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(true, 0.05f)]
         public void A_kinematic_body_moves_in_all_ticks_between_its_answers_until_the_part_is_disabled(bool disabled, float end)
         {
-            Configure("double", settings =>
-            {
-                settings.schedule = Schedule.Asynchronous;
-                settings.timing.period = 0.5f;
-                settings.timing.phase = 0;
-            });
+            Configure("double", ScheduleTests.Asynchronous(0.5f));
             var node = MakeNode(500).Node;
             node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
             var move = node.gameObject.AddComponent<Move>();
@@ -177,11 +172,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(0.1f, 0.09f)]
         public void A_kinematic_body_has_its_speed_with_any_timing_of_rounds(float period, float jitter)
         {
-            Configure("double", settings =>
-            {
-                settings.schedule = Schedule.Asynchronous;
-                settings.timing = new RoundTiming { period = period, phase = 0, jitter = jitter };
-            });
+            Configure("double", ScheduleTests.Asynchronous(period, jitter));
             var node = MakeNode(500).Node;
             node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
             node.gameObject.AddComponent<Move>().MaxSpeed = 2;
@@ -212,11 +203,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void The_last_of_several_move_actuators_moves_a_kinematic_body()
         {
-            Configure("double", settings =>
-            {
-                settings.schedule = Schedule.Asynchronous;
-                settings.timing = new RoundTiming { period = 0.5f, phase = 0 };
-            });
+            Configure("double", ScheduleTests.Asynchronous(0.5f));
             var node = MakeNode(500).Node;
             node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
             node.gameObject.AddComponent<Move>().MaxSpeed = 2;

@@ -472,10 +472,10 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(node.Node.AnswerTick, Is.EqualTo(tick));
         }
 
-        private static Action<SimulationSettings> Asynchronous(float period) => settings =>
+        internal static Action<SimulationSettings> Asynchronous(float period, float jitter = 0) => settings =>
         {
             settings.schedule = Schedule.Asynchronous;
-            settings.timing = new RoundTiming { period = period, phase = 0 };
+            settings.timing = new RoundTiming { period = period, phase = 0, jitter = jitter };
         };
 
         private static ProbeNode MakeTimedNode(RoundTiming timing)

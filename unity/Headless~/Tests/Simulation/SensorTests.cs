@@ -199,6 +199,7 @@ namespace Collektive.Headless.Tests.Simulation
             Play(20);
             Assert.That(sensor.Values.Count, Is.EqualTo(1));
             Assert.That(sensor.Values[0].Impulse.x, Is.EqualTo(-side * 2 * 10 * 0.05f).Within(0.02f));
+            Assert.That(sensor.Values[0].Normal.x, Is.EqualTo(-side).Within(1e-3f));
         }
 
         [Test]
@@ -287,10 +288,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void A_node_whose_collider_is_disabled_has_left_all_zones()
         {
-            MakeBox(Vector3.zero).GetComponent<Collider>().isTrigger = true;
-            var ball = MakeBall(Vector3.zero);
-            ball.isKinematic = true;
-            var sensor = ball.gameObject.AddComponent<Zones>();
+            var (_, ball, sensor) = MakeBallInZone();
             Play(3);
             ball.GetComponent<Collider>().enabled = false;
             Play(2);
@@ -303,11 +301,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void A_zone_that_was_disabled_and_enabled_between_two_rounds_can_be_left()
         {
-            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
-            zone.isTrigger = true;
-            var ball = MakeBall(Vector3.zero);
-            ball.isKinematic = true;
-            var sensor = ball.gameObject.AddComponent<Zones>();
+            var (zone, ball, sensor) = MakeBallInZone();
             Play(2);
             zone.enabled = false;
             Physics.Simulate(0.01f);
@@ -321,11 +315,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void A_zone_that_was_disabled_enabled_and_left_between_two_rounds_is_left()
         {
-            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
-            zone.isTrigger = true;
-            var ball = MakeBall(Vector3.zero);
-            ball.isKinematic = true;
-            var sensor = ball.gameObject.AddComponent<Zones>();
+            var (zone, ball, sensor) = MakeBallInZone();
             Play(2);
             ball.GetComponent<Node>().Sleep(0.15);
             zone.enabled = false;
@@ -341,11 +331,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase(true, "entered")]
         public void A_node_that_was_disabled_enters_the_zones_that_it_is_in_when_it_joins_again(bool isInside, string expected)
         {
-            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
-            zone.isTrigger = true;
-            var ball = MakeBall(Vector3.zero);
-            ball.isKinematic = true;
-            var sensor = ball.gameObject.AddComponent<Zones>();
+            var (zone, ball, sensor) = MakeBallInZone();
             Play(3);
             sensor.Events.Clear();
             ball.GetComponent<Node>().enabled = false;
@@ -378,10 +364,7 @@ namespace Collektive.Headless.Tests.Simulation
         [Test]
         public void A_zone_that_was_left_and_entered_between_two_rounds_is_entered()
         {
-            MakeBox(Vector3.zero).GetComponent<Collider>().isTrigger = true;
-            var ball = MakeBall(Vector3.zero);
-            ball.isKinematic = true;
-            var sensor = ball.gameObject.AddComponent<Zones>();
+            var (_, ball, sensor) = MakeBallInZone();
             Play(2);
             ball.GetComponent<Node>().Sleep(0.1);
             ball.transform.position = new Vector3(5, 0, 0);
@@ -777,6 +760,15 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         /// <summary>Creates a node of 2 kg with a radius of half a metre.</summary>
+        private static (Collider Zone, Rigidbody Ball, Zones Sensor) MakeBallInZone()
+        {
+            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
+            zone.isTrigger = true;
+            var ball = MakeBall(Vector3.zero);
+            ball.isKinematic = true;
+            return (zone, ball, ball.gameObject.AddComponent<Zones>());
+        }
+
         private static Rigidbody MakeBall(Vector3 place)
         {
             var node = MakeNode(0, place).Node;
