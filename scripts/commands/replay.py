@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
             raise Failure(f"replay: --out '{arguments.out}' is the record that is read: name another file")
         place = Path(os.path.realpath(arguments.out))
         if place.name == "run.clkrec" and outputs.is_of_run(place.parent):
-            raise Failure(f"replay: --out '{arguments.out}' is the place of the record of the run in that folder: name another file")
+            raise Failure(f"replay: --out '{arguments.out}' is reserved for the record of the run in that folder: name another file")
         outputs.require_replaceable(arguments.out, b"CLKREC", "--out")
     for programs in arguments.programs:
         # Reading a pipe or a device might never end.

@@ -73,7 +73,7 @@ class Records(Project):
         scenario, b = self.path("project", "lamps.json"), self.record("b")
         for out, message in ((self.a, "is the record that is read"), (self.path("link.clkrec"), "is the record that is read"),
                              (self.path("symlink.clkrec"), "is the record that is read"), (self.path("name.clkrec"), "is a hard link"),
-                             (scenario, "exists and was not written by --out"), (b, "is the place of the record")):
+                             (scenario, "exists and was not written by --out"), (b, "is reserved for the record")):
             result = collektive("replay", self.a, "--out", out)
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn(message, last_error(result))
