@@ -35,6 +35,7 @@ val generateSchemas by tasks.registering(JavaExec::class) {
     classpath = generator
     args("--flatc", flatc, "--include", types, "--jvm", generated.get().asFile)
     schemas.forEach { args("--schema", it) }
+    doFirst { generated.get().asFile.deleteRecursively() }
 }
 
 // Inline functions of the library cannot be compiled for an older JVM.

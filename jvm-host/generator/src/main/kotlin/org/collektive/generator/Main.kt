@@ -56,9 +56,10 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
     val files = reader.files.map { if (it == complete) file else it }
     val copies = SanitizedSchemas(files, include.resolve(CORE_TYPES), work, mapOf(file to addition))
     val sanitized = Flatc(arguments.flatc.toAbsolutePath(), listOf(copies.core, copies.of(file).parent))
+    val csharpFolder = arguments.csharp?.let(::OutputFolder)?.apply { checkNamespace("${path(schema.name)}.cs") }
+    val jvmFolder = arguments.jvm?.let(::OutputFolder)?.apply { checkNamespace("${path(schema.name)}.kt") }
 
-    arguments.csharp?.let { folder ->
-        val output = OutputFolder(folder)
+    csharpFolder?.let { output ->
         val csharp = CSharp(schema)
         files.forEach { sanitized.csharp(copies.of(it), work.resolve("csharp")) }
         output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.adapt(text) else null }
@@ -66,8 +67,7 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
         for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
         output.writeSchema("${path(schema.name)}.cs", Templates.render("Schema.cs", csharp.schema()))
     }
-    arguments.jvm?.let { folder ->
-        val output = OutputFolder(folder)
+    jvmFolder?.let { output ->
         val kotlin = Kotlin(schema)
         files.forEach { sanitized.java(copies.of(it), work.resolve("java")) }
         // Programs only write the actuator data.

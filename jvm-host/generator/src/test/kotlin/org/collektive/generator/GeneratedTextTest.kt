@@ -220,6 +220,31 @@ internal class GeneratedTextTest {
         assertTrue(files().containsAll(beforeC))
     }
 
+    @Test
+    fun `two schemas of one namespace cannot share a folder, except after a renaming`() {
+        val work = Fixture.newFolder()
+        fun generate(name: String, namespace: String, text: String) {
+            val types = "namespace $namespace; struct SensorData { $text } struct ActuatorData { x: float; }"
+            Fixture.generate(Files.writeString(work.resolve("$name.fbs"), types), work.resolve("out"))
+        }
+        generate("first", "a.b", "x: float;")
+        generate("first", "a", "x: float;")
+        val before = texts(work.resolve("out"))
+        for (name in listOf("csharp/a/FirstSchema.cs", "jvm/a/FirstSchema.kt")) {
+            val error = assertFailsWith<GeneratorException> { generate("second", "a", "y: float;") }
+            val file = work.resolve("out/$name")
+            assertEquals(
+                "${file.parent}: its namespace already belongs to the schema of ${file.fileName}: choose another namespace or folder, " +
+                    "or delete ${file.fileName} if its schema was renamed",
+                error.message,
+            )
+            assertEquals(before - "csharp/a/FirstSchema.cs", texts(work.resolve("out")) - "csharp/a/FirstSchema.cs")
+            Files.delete(file)
+        }
+        generate("second", "a", "y: float;")
+        assertContains(texts(work.resolve("out")).keys, "jvm/a/SecondSchema.kt")
+    }
+
     private fun texts(folder: Path): Map<String, String> = Fixture.files(folder).associate {
         folder.relativize(it).joinToString("/") to Files.readAllBytes(it).toString(Charsets.ISO_8859_1)
     }.toSortedMap()
