@@ -1,3 +1,4 @@
+using System;
 using Collektive.Bridge;
 using Collektive.Unity;
 using NUnit.Framework;
@@ -35,16 +36,52 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
-        public void SetVelocity_warns_once_about_a_kinematic_body()
+        public void Velocities_and_forces_warn_once_about_a_kinematic_body()
         {
             var node = MakeNode(3).Node;
-            var actuator = node.gameObject.AddComponent<Fly>();
+            var parts = new Actuator[] { node.gameObject.AddComponent<Fly>(), node.gameObject.AddComponent<Push>() };
             node.GetComponent<Rigidbody>().isKinematic = true;
             Play(5);
-            Assert.That(Log.FindAll(line => line.Contains("kinematic")), Is.EqualTo(new[]
+            Assert.That(Log.FindAll(line => line.Contains("kinematic")), Is.EqualTo(Array.ConvertAll(parts, part => part.GetType().Name + " on '" + part.name
+                + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a Move actuator")));
+        }
+
+        [Test]
+        public void The_time_asleep_does_not_move_or_push_a_node()
+        {
+            var mover = MakeNode(500).Node;
+            mover.gameObject.AddComponent<Move>().MaxSpeed = 4;
+            var ball = MakeNode(5).Node;
+            ball.gameObject.AddComponent<Push>().Mode = ForceMode.Acceleration;
+            var body = ball.GetComponent<Rigidbody>();
+            body.useGravity = false;
+            Play(1);
+            mover.Sleep(1);
+            ball.Sleep(1);
+            Play(20);
+            Assert.That(mover.transform.position.x, Is.EqualTo(0.2f).Within(1e-6f));
+            Assert.That(body.linearVelocity.x, Is.EqualTo(0.5f).Within(1e-6f));
+            Play(1);
+            Assert.That(mover.AnswerInterval, Is.EqualTo(0.05f).Within(1e-6f));
+            Assert.That(mover.transform.position.x, Is.EqualTo(0.4f).Within(1e-6f));
+            Assert.That(body.linearVelocity.x, Is.EqualTo(1).Within(1e-6f));
+        }
+
+        [Test]
+        public void A_body_with_asynchronous_rounds_does_not_pass_its_target()
+        {
+            Configure("double", ScheduleTests.Asynchronous(0.5f));
+            var node = MakeNode(1).Node;
+            var body = node.gameObject.AddComponent<Rigidbody>();
+            body.useGravity = false;
+            node.gameObject.AddComponent<Move>().ReachTime = 0.1f;
+            for (var tick = 0; tick < 40; tick++)
             {
-                "Fly on '" + actuator.name + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a Move actuator",
-            }));
+                if (tick == 20) node.Sleep(0.2);
+                Play(1);
+                Assert.That(node.transform.position.x, Is.LessThan(2.0001f), "tick " + tick);
+            }
+            Assert.That(node.transform.position.x, Is.EqualTo(2).Within(1e-3f));
         }
 
         [Test]

@@ -66,6 +66,9 @@ namespace Collektive.Unity
         private AnswerCopy answerCopy;
         private RoundTimer timer;
         private double asleepUntil;
+        // Simulated time of the last round plus the duration of sleep since then; negative before the first round.
+        private double roundTime;
+        private float roundInterval;
 
         /// <summary>The id in the running simulation; -1 while the node is not in one.</summary>
         public int Id { get; private set; } = -1;
@@ -143,8 +146,8 @@ namespace Collektive.Unity
         public double AnswerTime { get; private set; } = -1;
 
         /// <summary>
-        /// Simulated seconds between the last two answers; after the first answer, the manager's delta time. It is meant for actuators whose effect depends
-        /// on the elapsed time.
+        /// Simulated seconds from the previous round, even if it failed, to the round of the last answer, without the seconds in which the node slept; in the
+        /// first round, the manager's delta time. It is meant for actuators whose effect depends on the elapsed time.
         /// </summary>
         public float AnswerInterval { get; private set; }
 
@@ -255,9 +258,28 @@ namespace Collektive.Unity
         internal bool IsDue { get; private set; }
 
         /// <summary>
-        /// Decides whether the node has a round in the tick that begins at <paramref name="now"/>, and advances the node's timer. Called once per tick.
+        /// Decides whether the node has a round in the tick that begins at <paramref name="time"/>, and advances the node's timer. Called once per tick.
         /// </summary>
-        internal bool TakeDue(double now) => IsDue = asleepUntil <= now && (timer == null || timer.TakeDue(now));
+        /// <param name="time">Simulated time in seconds.</param>
+        /// <param name="now">Simulated time up to which rounds are due, in seconds.</param>
+        internal bool TakeDue(double time, double now, float deltaTime)
+        {
+            var isAsleep = asleepUntil > now;
+            IsDue = !isAsleep && (timer == null || timer.TakeDue(now));
+            if (IsDue)
+            {
+                roundInterval = roundTime < 0 ? deltaTime : (float)(time - roundTime);
+                roundTime = time;
+            }
+            else if (isAsleep && roundTime >= 0)
+            {
+                roundTime += SimulatedSeconds.Exact(deltaTime);
+            }
+            return IsDue;
+        }
+
+        /// <summary>The expected seconds from a round of the node to the next one.</summary>
+        internal float RoundPeriod => timer == null ? Simulation.DeltaTime : timer.Period;
 
         internal void OnJoined(Simulation simulation, int newId)
         {
@@ -270,18 +292,19 @@ namespace Collektive.Unity
             ForgetAnswer();
             timer = null;
             asleepUntil = 0;
+            roundTime = -1;
             for (var i = 0; i < Sensors.Count; i++) Sensors[i].NodeJoined();
         }
 
         /// <summary>Keeps the program and the parameters that are sent to the JVM.</summary>
         internal void KeepProgram() => (joinedProgram, joinedParameters) = (Program, new List<NodeParameter>(parameters));
 
-        internal void SetAnswer(ActuatorBuffer buffer, int index, ulong tick, double time, float deltaTime)
+        internal void SetAnswer(ActuatorBuffer buffer, int index, ulong tick, double time)
         {
             answers = buffer;
             answerIndex = index;
             AnswerTick = tick;
-            AnswerInterval = AnswerTime < 0 ? deltaTime : (float)(time - AnswerTime);
+            AnswerInterval = roundInterval;
             AnswerTime = time;
         }
 

@@ -7,6 +7,8 @@ namespace Collektive.Unity
     /// <summary>Base of all actuators; user actuators derive from <see cref="Actuator{TData}"/>.</summary>
     public abstract class Actuator : NodePart
     {
+        private bool hasReportedKinematic;
+
         /// <summary>
         /// Returns a vector of the program's answer. Throws an exception if it is not finite, because physics cannot recover from such values.
         /// </summary>
@@ -15,6 +17,17 @@ namespace Collektive.Unity
             if (float.IsFinite(answer.x) && float.IsFinite(answer.y) && float.IsFinite(answer.z)) return answer;
             throw new InvalidOperationException(
                 "the program answered (" + answer.x + ", " + answer.y + ", " + answer.z + "), which is not finite: correct the program");
+        }
+
+        /// <summary>Returns whether a body is kinematic, and warns once that this actuator has no effect on such a body.</summary>
+        internal bool WarnIfKinematic(Rigidbody body)
+        {
+            if (!body.isKinematic) return false;
+            if (hasReportedKinematic) return true;
+            hasReportedKinematic = true;
+            Debug.LogWarning(GetType().Name + " on '" + name
+                + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a Move actuator", this);
+            return true;
         }
 
         internal sealed override ref PartList ListOf(Node node) => ref node.Actuators;

@@ -483,7 +483,7 @@ namespace Collektive.Unity
             {
                 var node = present[i];
                 node.KeepAnswer(session.Tick);
-                if (node.TakeDue(now)) due.Add((node, node.Id));
+                if (node.TakeDue(session.Time, now, DeltaTime)) due.Add((node, node.Id));
             }
             Context.SightLines.Begin();
             Context.Queries.Begin();
@@ -590,7 +590,7 @@ namespace Collektive.Unity
                 var node = due.Items[place].Node;
                 // An earlier actuator may have removed the node, or removed and added it again.
                 if (!node.IsInTick) continue;
-                node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time, DeltaTime);
+                node.SetAnswer(answer.Actuators, i, TickInProgress, session.Time);
                 node.Actuators.Run(this, node, i);
             }
         }

@@ -3,8 +3,8 @@ using UnityEngine;
 namespace Collektive.Unity
 {
     /// <summary>
-    /// Applies a force from the program's answer to the node's body. A force or an acceleration is multiplied by the simulated time since the node's
-    /// previous answer, and applied as one impulse before physics advances. An impulse or a velocity change is applied unchanged.
+    /// Applies a force from the program's answer to the node's body. A force or an acceleration is multiplied by
+    /// <see cref="Node.AnswerInterval"/>, and applied as one impulse before physics advances. An impulse or a velocity change is applied unchanged.
     /// </summary>
     /// <typeparam name="TData">As for <see cref="Actuator{TData}"/>.</typeparam>
     [RequireComponent(typeof(Rigidbody))]
@@ -34,6 +34,7 @@ namespace Collektive.Unity
         protected sealed override void Act(TData data)
         {
             var push = Finite(Read(data));
+            if (WarnIfKinematic(body)) return;
             // Unity would apply a force in one physics step only, but a tick may have several.
             if (mode == ForceMode.Force) body.AddForce(Node.AnswerInterval * push, ForceMode.Impulse);
             else if (mode == ForceMode.Acceleration) body.AddForce(Node.AnswerInterval * push, ForceMode.VelocityChange);

@@ -51,7 +51,7 @@ namespace Collektive.Unity
                 return;
             }
             var offset = target - Position;
-            if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, offset, Velocity(offset));
+            if (body.isKinematic) Node.Simulation.Context.Steps.Move(this, body, offset, Velocity(offset, Node.AnswerInterval));
             else Drive(offset);
         }
 
@@ -82,24 +82,27 @@ namespace Collektive.Unity
         private void MoveTowards(Vector3 target)
         {
             var position = Node.Body.position;
-            Node.Body.position = position + Node.AnswerInterval * Velocity(target - position);
+            var interval = Node.AnswerInterval;
+            Node.Body.position = position + interval * Velocity(target - position, interval);
         }
 
         private void Drive(Vector3 offset)
         {
             var fall = body.linearVelocity.y;
             if (body.useGravity) offset.y = 0;
-            var velocity = Velocity(offset);
+            // The body keeps the velocity until the next round.
+            var velocity = Velocity(offset, Mathf.Max(Node.AnswerInterval, Node.RoundPeriod));
             if (body.useGravity) velocity.y = fall;
             body.linearVelocity = velocity;
         }
 
-        private Vector3 Velocity(Vector3 offset)
+        /// <summary>Returns the velocity with which the node does not pass its target in <paramref name="seconds"/>.</summary>
+        private Vector3 Velocity(Vector3 offset, float seconds)
         {
             var length = offset.magnitude;
             // The square of the length overflowed, so only the direction matters.
             if (float.IsInfinity(length)) return maxSpeed * (1e-20f * offset).normalized;
-            return length > 0 ? Mathf.Min(1 / Mathf.Max(reachTime, Node.AnswerInterval), maxSpeed / length) * offset : offset;
+            return length > 0 ? Mathf.Min(1 / Mathf.Max(reachTime, seconds), maxSpeed / length) * offset : offset;
         }
     }
 }

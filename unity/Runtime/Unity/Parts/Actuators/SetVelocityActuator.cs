@@ -12,7 +12,6 @@ namespace Collektive.Unity
         private bool keepVertical;
 
         private Rigidbody body;
-        private bool hasReportedKinematic;
 
         /// <summary>Whether the body keeps its vertical velocity, so that it can fall.</summary>
         public bool KeepVertical
@@ -32,23 +31,10 @@ namespace Collektive.Unity
         protected sealed override void Act(TData data)
         {
             var velocity = Finite(Read(data));
-            if (body.isKinematic)
-            {
-                WarnAboutKinematic();
-                return;
-            }
+            // Setting the velocity of a kinematic body would make Unity log an error at each answer.
+            if (WarnIfKinematic(body)) return;
             if (keepVertical) velocity.y = body.linearVelocity.y;
             body.linearVelocity = velocity;
-        }
-
-        /// <summary>Warns once about a kinematic body. Setting its velocity would make Unity log an error at each answer.</summary>
-        private void WarnAboutKinematic()
-        {
-            if (hasReportedKinematic) return;
-            hasReportedKinematic = true;
-            Debug.LogWarning(GetType().Name + " on '" + name
-                + "' has no effect while its Rigidbody is kinematic: disable Is Kinematic, or move the node with a "
-                + "Move actuator", this);
         }
 
         /// <summary>Returns the velocity in the program's answer, in metres per second.</summary>
