@@ -78,6 +78,8 @@ def parser_for(name: str | None) -> Parser:
 
 def resolve_parents(word: str) -> str:
     """Resolves a path with `..` after a symbolic link, but not in a value of --set. Mono and other tools would remove both, and use another file."""
+    if ".." not in word:
+        return word
     option, path = re.fullmatch("(--[a-z-]+=)?(.*)", word, re.DOTALL).groups("")  # type: ignore[union-attr]
     folder, name = os.path.split(path)
     return word if os.path.realpath(os.path.normpath(path)) == os.path.realpath(path) else option + os.path.join(os.path.realpath(folder), name)
@@ -94,12 +96,11 @@ def main(words: list[str]) -> int:
         return 2
     code = 1
     try:
-        folder = _current_folder()
         # Some commands pass `sys.argv` to another process.
         sys.argv[1:] = words = [resolve_parents(word) for word in words]
         arguments = parser_for(words[0]).parse_args(words)
         code = getattr(arguments, "error_code", code)
-        for text in [folder, *words]:
+        for text in [_current_folder(), *words]:
             if re.search("[\udc80-\udcff]", text):
                 raise Failure(f"{text!r} is not UTF-8, which the player and the JVM need: rename the file or folder")
         from build.processes import run_in_group
