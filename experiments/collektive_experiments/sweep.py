@@ -123,7 +123,12 @@ def begin(experiment: Experiment, store: Store, resume: bool, trust: bool) -> li
     prepare(experiment.scenario, store.bundle, trust, experiment.runtimes)
     check_keys(experiment, store, trust)
     store.write_settings()
-    todo = [run for run in experiment.runs() if not store.is_complete(run)]
+    todo: list[Run] = []
+    for run in experiment.runs():
+        if store.is_complete(run):
+            tables.check_columns(store, run)
+        else:
+            todo.append(run)
     if len(todo) < experiment.count:
         print(f"collektive: {experiment.count - len(todo)} of {experiment.count} runs are already complete", file=sys.stderr)
     # Runs that gave different results are repeated again, because one execution of them could hide that.

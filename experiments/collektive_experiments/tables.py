@@ -126,6 +126,11 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     return _count_rows(experiment, store, columns.rows)
 
 
+def check_columns(store: Store, run: Run) -> None:
+    """Raises `ExperimentError` if the metrics.csv of a complete run has the columns of another version."""
+    _metric_names(run, next(_lines(store, run), []))
+
+
 def read_parquet(folder: str, name: str, **options: Any) -> pa.Table:
     """Reads a table of a sweep with the given options of PyArrow."""
     # PyArrow would replace `~` in a relative path by the home folder, and remove `..` with a symbolic link before it.
@@ -206,12 +211,8 @@ class _Columns:
 
     def series(self, run: Run) -> Iterator[dict[str, Any]]:
         """Yields the rows of metrics.csv, with the second, metrics, counts and times."""
-        table = self._metrics(run)
-        header = next(table, [])
-        names = header[1:-len(COUNTS + TIMES)]
-        # Runs of earlier versions have other columns, and their values would be in the wrong columns of the table.
-        if header != ["second", *names, *COUNTS, *TIMES]:
-            raise ExperimentError(f"metrics.csv of '{run.name}' is damaged or of another version: name another folder with --out")
+        table = _lines(self._store, run)
+        names = _metric_names(run, next(table, []))
         self.rows[run.name] = 0
         for cells in table:
             metrics = dict(zip(names, cells[1:]))
@@ -272,10 +273,20 @@ class _Columns:
             return {}
         return manifest
 
-    def _metrics(self, run: Run) -> Iterator[list[str]]:
-        """Yields the lines of metrics.csv."""
-        with open(os.path.join(self._store.runs, run.name, "metrics.csv"), newline="", encoding="utf-8") as file:
-            yield from csv.reader(file)
+
+def _lines(store: Store, run: Run) -> Iterator[list[str]]:
+    """Yields the lines of metrics.csv."""
+    with open(os.path.join(store.runs, run.name, "metrics.csv"), newline="", encoding="utf-8") as file:
+        yield from csv.reader(file)
+
+
+def _metric_names(run: Run, header: list[str]) -> list[str]:
+    """Returns the names of the metrics in the header of metrics.csv."""
+    names = header[1:-len(COUNTS + TIMES)]
+    # Runs of earlier versions have other columns, and their values would be in the wrong columns of the table.
+    if header != ["second", *names, *COUNTS, *TIMES]:
+        raise ExperimentError(f"metrics.csv of '{run.name}' is damaged or of another version: name another folder with --out")
+    return names
 
 
 def _type_of(values: list[Any]) -> pa.DataType:

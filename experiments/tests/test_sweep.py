@@ -1,5 +1,6 @@
 """Tests whole sweeps, including crashes, full disks and invalid input."""
 import fcntl
+import hashlib
 import json
 import math
 import os
@@ -19,7 +20,7 @@ import pyarrow.parquet as pq
 import pytest
 from conftest import COLLEKTIVE, EIGHT, GRADIENTS, ROOT, Project, processes
 
-from collektive_experiments import ExperimentError, compare, files, load, read, tables
+from collektive_experiments import ExperimentError, compare, files, load, read, sweep, tables
 from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store
@@ -541,13 +542,18 @@ def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project)
 
 @pytest.mark.parametrize("header", [
     "", ",".join(["second", "m", *tables.COUNTS, *tables.TIMES[1:]]), ",".join(["second", *tables.COUNTS, "retried", *tables.TIMES])])
-def test_metrics_of_another_version_are_rejected(header: str, project: Project) -> None:
-    experiment = read(project.experiment(vary={"seed": [1]}))
-    (run,) = experiment.runs()
+def test_metrics_of_another_version_are_rejected_before_other_runs(header: str, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    for place, name in ((sweep, "prepare"), (sweep, "check_keys"), (Store, "open"), (Store, "write_settings")):
+        monkeypatch.setattr(place, name, lambda *_: None)
+    experiment = read(project.experiment(vary={"seed": [1, 2]}))
+    run = next(iter(experiment.runs()))
     folder = project.folder / "runs" / run.name
     folder.mkdir(parents=True)
     (folder / "manifest.json").write_text('{"end": {"m": 9}, "converged": {}, "versions": {}}')
-    (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}))
     (folder / "metrics.csv").write_text(f"{header}\n0,9" + ",1" * header.count(",") + "\n" if header else "")
-    with pytest.raises(ExperimentError, match=f"metrics.csv of '{run.name}' is damaged or of another version"):
-        tables.write(experiment, Store(str(project.folder)), False)
+    hashes = {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in ("manifest.json", "metrics.csv")}
+    (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": hashes}))
+    store = Store(str(project.folder))
+    for read_run in (lambda: sweep.begin(experiment, store, True, False), lambda: tables.write(experiment, store, False)):
+        with pytest.raises(ExperimentError, match=f"metrics.csv of '{run.name}' is damaged or of another version"):
+            read_run()
