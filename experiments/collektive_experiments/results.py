@@ -130,7 +130,8 @@ def require_distinct(data: pd.DataFrame, keys: list[str]) -> None:
 
 def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     """
-    Compares the end values of a metric, or any other number in the table of runs, between each pair of values of a key.
+    Compares the end values of a metric, or any other number in the table of runs, between each pair of values of a key. Like in figures, a name that a
+    metric shares with another column means the metric.
 
     Returns a row for each pair of values `a` and `b`, and for each combination of the other keys. Runs with equal seeds are paired. A run that has not
     converged counts with its `censored` time. A row has these columns:
@@ -141,6 +142,7 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     - `n_a` and `n_b`, the numbers of runs with a value, and `pairs`, the number of their pairs.
     With only one pair, or without pairs if one of the values has only one run, the statistics are NaN.
     """
+    metric = results.column(metric)
     rows = []
     # Other keys of a `zip` with `by` have the same value in all runs with a value of `by`.
     others = [key for key in results.configuration

@@ -218,6 +218,13 @@ def test_values_are_compared_although_other_keys_vary_with_them() -> None:
     assert "gain" not in table
 
 
+def test_a_metric_with_the_name_of_another_column_is_compared_instead_of_this_column() -> None:
+    some = results(2)
+    named = replace(some, runs=some.runs.rename(columns={"error": "metric.nodes"}).assign(nodes=49),
+                    series=pd.DataFrame(columns=["second", "metric.nodes", "links"]))
+    pd.testing.assert_frame_equal(compare(named, "nodes", "program"), compare(some, "error", "program"))
+
+
 def test_rounding_errors_are_not_effects() -> None:
     a, b = np.array([0.3, 0.6, 1e300]), np.array([0.1 + 0.2, 0.2 + 0.4, 1e300])
     assert (b > a).sum() == 2
