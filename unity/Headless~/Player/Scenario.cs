@@ -319,6 +319,8 @@ namespace Collektive.Headless
             }
             foreach (var problem in settings.FindProblems()) throw file.Error(root[problem.Key] ?? root, "'jvm." + problem.Key + "': " + problem.Message);
             if (!trusted) RejectUnsafeSettings(file, root, settings);
+            if (settings.home.Length > 0 && settings.location != JvmLocation.Folder)
+                throw file.Error(root[nameof(settings.home)], "'jvm.home' needs the 'jvm.location' Folder: the location " + settings.location + " ignores it");
             return settings;
         }
 

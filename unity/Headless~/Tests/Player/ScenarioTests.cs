@@ -335,6 +335,17 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(ReadWith(flag, true).Jvm.flags, Has.Member(flag));
         }
 
+        [TestCase("Automatic", false)]
+        [TestCase("JavaHome", false)]
+        [TestCase("Folder", true)]
+        public void A_folder_of_the_JVM_needs_the_location_that_reads_it(string location, bool isRead)
+        {
+            var root = Minimal();
+            root["jvm"] = new JObject(new JProperty("home", "/jdk"), new JProperty("location", location));
+            if (isRead) Assert.That(Read(root, true).Jvm.home, Is.EqualTo("/jdk"));
+            else Assert.That(Assert.Throws<ScenarioException>(() => Read(root, true)).Message, Is.StringContaining("'jvm.home' needs the 'jvm.location' Folder"));
+        }
+
         [TestCase("010")]
         [TestCase("-010")]
         [TestCase("0x10")]

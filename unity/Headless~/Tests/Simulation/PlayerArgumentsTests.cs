@@ -34,6 +34,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase("-collektive-jars a.jar", "-collektive-jars is not an option")]
         [TestCase("-collektive-jvm.flags -Xint", "-collektive-jvm.flags is not an option")]
         [TestCase("-collektive-jvm.placement Elsewhere", "it must be one of InProcess, OwnProcess")]
+        [TestCase("-collektive-jvm.home /jdk", "-collektive-jvm.home needs -collektive-jvm.location Folder")]
         [TestCase("-collektive-seed", "-collektive-seed needs a value")]
         [TestCase("-collektive-seed -1", "-collektive-seed is '-1': it must be a whole number from 0 to 18446744073709551615")]
         [TestCase("-collektive-seed 1e3", "-collektive-seed is '1e3'")]

@@ -41,7 +41,9 @@ namespace Collektive.Unity
                 if (field != null) field.SetValue(settings, value);
                 else setting.Set(JvmOf(settings), value);
             }
-            return null;
+            const string home = Prefix + JvmPrefix + nameof(JvmSettings.home);
+            if (Array.IndexOf(words, home) < 0 || JvmOf(settings).location == JvmLocation.Folder) return null;
+            return home + " needs " + Prefix + JvmPrefix + nameof(JvmSettings.location) + " " + JvmLocation.Folder;
         }
 
         private static JvmSettings JvmOf(SimulationSettings settings)
