@@ -70,6 +70,7 @@ class _Process:
                 stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()],
                 # Nodes of a cluster may have different settings, with which scripts and programs would have different results.
                 env={**os.environ, "LC_ALL": "C.UTF-8", "TZ": "UTC", "MONO_ENV_OPTIONS": ""})
+        self._pids = {self._process.pid}
         self._ready = "" if settings is None else self._send({"start": True, "set": start})
 
     def keeps_state(self) -> bool | Outcome:
@@ -87,6 +88,11 @@ class _Process:
 
     def kill(self) -> None:
         """Kills the process and its children. Any thread may call this method."""
+        for path in glob.glob("/proc/[0-9]*/stat"):
+            with contextlib.suppress(OSError), open(path, "rb") as file:
+                pid, (_, parent, *_) = path.split("/")[2], file.read().rpartition(b")")[2].split()
+                if int(parent) == self._process.pid:
+                    self._pids.add(int(pid))
         try:
             os.killpg(self._process.pid, signal.SIGKILL)
         except ProcessLookupError:
@@ -96,9 +102,10 @@ class _Process:
         """Ends the process and waits for its exit."""
         self._channel.close()
         self.kill()
-        # The JVM would remove this socket in an exit handler. An earlier process of another user may have left one of this name.
-        with contextlib.suppress(OSError):
-            os.unlink(f"/tmp/.java_pid{self._process.pid}")
+        # The JVM, which may run in a child, would remove this socket in an exit handler. An earlier process of another user may have left one of this name.
+        for pid in self._pids:
+            with contextlib.suppress(OSError):
+                os.unlink(f"/tmp/.java_pid{pid}")
         self._process.wait()
 
     def _send(self, request: dict[str, Any]) -> str:
