@@ -343,7 +343,7 @@ namespace Collektive.Headless.Tests.Player
             var root = Minimal();
             root["jvm"] = new JObject(new JProperty("home", "/jdk"), new JProperty("location", location));
             if (isRead) Assert.That(Read(root, true).Jvm.home, Is.EqualTo("/jdk"));
-            else Assert.That(Assert.Throws<ScenarioException>(() => Read(root, true)).Message, Is.StringContaining("'jvm.home' needs the 'jvm.location' Folder"));
+            else Assert.That(Assert.Throws<ScenarioException>(() => Read(root, true)).Message, Is.StringContaining("needs the 'jvm.location' Folder"));
         }
 
         [TestCase("010")]
