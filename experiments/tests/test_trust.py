@@ -17,6 +17,7 @@ from conftest import COLLEKTIVE, EIGHT, Project, processes
 from collektive_experiments import ExperimentError, files, read, tables
 from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
+from collektive_experiments.programs import can_leave_state
 from collektive_experiments.store import Store
 from collektive_experiments.worker import Outcome, Worker
 
@@ -105,6 +106,15 @@ def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project) -> 
     result = project.sweep("--jobs", "1", **TWO)
     assert result.returncode == 0, result.stderr
     assert len(set(project.digests().values())) == 1
+
+
+@pytest.mark.parametrize(("collection", "can_leave"), [("HashSet<Lamp>()", True), pytest.param("LinkedHashSet<Lamp>()", False, marks=pytest.mark.slow)])
+def test_a_process_is_not_reused_for_programs_that_depend_on_hashes_of_enums(project: Project, tmp_path: Path, collection: str, can_leave: bool) -> None:
+    change_program(project, f"val first = Lamp.entries.toCollection({collection}).first().ordinal")
+    program = project.folder / "project/programs/Brightest.kt"
+    program.write_text(program.read_text().replace("share(mine)", "share(mine + first)") + "internal enum class Lamp { RED, GREEN, BLUE }\n")
+    assert project.sweep(vary={"seed": [1]}).returncode == 0
+    assert can_leave_state(shutil.copy(project.folder / "out/bundle/programs.jar", tmp_path / "programs.jar")) == can_leave
 
 
 def test_runs_do_not_depend_on_locale_and_time_zone(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
