@@ -15,5 +15,6 @@ def environment(runtime: str) -> Mapping[str, str]:
     """Returns the environment variables for a program that loads the shim."""
     paths = [str(SHIM), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
     # By default, Mono inlines methods of up to 20 bytes. With 60, acting takes a fifth less time.
-    return {"MONO_INLINELIMIT": "60", **os.environ, "LD_LIBRARY_PATH": ":".join(paths), "COLLEKTIVE_RUNTIME": runtime,
-            "PATH": f"{ROOT / 'tools/coreclr'}:{os.environ.get('PATH', os.defpath)}"}
+    # After a crash, Mono would write a file mono_crash.* to the current folder.
+    return {"MONO_INLINELIMIT": "60", "MONO_CRASH_NOFILE": "1", **os.environ, "LD_LIBRARY_PATH": ":".join(paths),
+            "COLLEKTIVE_RUNTIME": runtime, "PATH": f"{ROOT / 'tools/coreclr'}:{os.environ.get('PATH', os.defpath)}"}

@@ -220,9 +220,11 @@ class WholeRuns(Project):
                     'val mine = sensors.brightness()\n'
                     '    val field = Class.forName("sun.misc.Unsafe").getDeclaredField("theUnsafe").apply { isAccessible = true }\n'
                     '    if (sensors.brightness() == 3f) (field.get(null) as sun.misc.Unsafe).putAddress(0, 0)')
+        before = set(os.listdir(self.folder)) | {"out"}
         result = self.run_it()
         self.assertNotEqual(result.returncode, 0)
         self.assertNotEqual(self.manifest(self.path("out"))["outcome"], "complete")
+        self.assertEqual(set(os.listdir(self.folder)), before)
 
     @pytest.mark.slow
     def test_endless_recursion_in_a_script_is_reported(self) -> None:
