@@ -16,8 +16,8 @@ RESULTS = ("manifest.json", "metrics.csv", "nodes.csv", "replay.html", "run.clkr
 RUNNING, COMPLETE, WITHOUT_PICTURES = "running", "complete", "the pictures are missing"
 # The player's exit code after it has printed a file error.
 FILE_ERROR = 74
-# The exit codes of a player that a signal interrupted or killed.
-SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM, 128 + signal.SIGKILL)
+# The exit codes of a player that a signal interrupted.
+SIGNALLED = (128 + signal.SIGINT, 128 + signal.SIGTERM)
 UNFINISHED = (*(f"{name}.part" for name in RESULTS), "replay.tmp")
 # The folder that stores the earlier results until a new run has begun.
 BACKUP = "earlier.part"
@@ -153,6 +153,8 @@ def require(folder: Path, outcome: str, code: int) -> None:
         found = None
     if code == FILE_ERROR and found not in (COMPLETE, WITHOUT_PICTURES):
         raise Failure("", 1)
+    if found in (None, RUNNING) and code == 128 + signal.SIGKILL:
+        raise Failure("the player was killed during the run. A usual cause is that the memory is full", code)
     if found == RUNNING and code not in SIGNALLED:
         raise Failure(f"the player exited with code {code} during the run. Usual causes: infinite recursion in a script, a script that ends the process, "
                       "a JVM crash", max(code, 1))

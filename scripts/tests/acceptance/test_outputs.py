@@ -102,12 +102,13 @@ class Outputs(Project):
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.assertEqual(self.run_it().returncode, 0)
         process = subprocess.Popen([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out"), "--overwrite",
-                                    "--seconds", "1000000"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                    "--seconds", "1000000"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         self.wait_until(lambda: os.path.exists(self.path("out", "metrics.csv")) and len(self.rows()) >= 20)
         for pid in processes("Collektive.Player.exe", self.path("out")):
             os.kill(pid, signal.SIGKILL)
-        process.wait()
+        messages = process.communicate()[1]
         self.assertEqual(process.returncode, 137)
+        self.assertIn("the player was killed during the run", messages.splitlines()[-1])
         self.assertEqual(self.outcome(), "running")
         self.assertNotIn("replay.html", self.contents())
         repeated = collektive("repeat", self.path("out", "manifest.json"), "--out", self.path("again"))
