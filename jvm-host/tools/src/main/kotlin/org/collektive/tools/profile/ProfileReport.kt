@@ -79,8 +79,8 @@ internal class ProfileReport {
     }
 
     private fun StringBuilder.phase(name: String, times: List<Duration>) {
-        val sorted = times.map { it.toNanos() / NANOS_PER_MILLI }.sorted()
-        line("  %-22s %7.3f ms %7.3f ms", name, sorted.median(), sorted[(sorted.size * 99 / 100).coerceAtMost(sorted.lastIndex)])
+        val millis = times.map { it.toNanos() / NANOS_PER_MILLI }
+        line("  %-22s %7.3f ms %7.3f ms", name, millis.median(), millis.percentile(99))
     }
 
     private fun StringBuilder.writePrograms() {
@@ -92,14 +92,14 @@ internal class ProfileReport {
             (owner?.methods ?: others).add(frames.first().place(), 1, frames.first().lineNumber)
         }
         for ((name, program) in programs) {
-            val rounds = program.rounds.map { it.toNanos() / NANOS_PER_MICRO }.sorted()
+            val rounds = program.rounds.map { it.toNanos() / NANOS_PER_MICRO }
             line("\nprogram %s (%s)", name, program.function)
             line(
                 "  %d rounds sampled (one in %d): %.1f us median, %.1f us p99, %.1f exports per round",
                 rounds.size,
                 RoundSampling.INTERVAL,
                 rounds.median(),
-                rounds[(rounds.size * 99 / 100).coerceAtMost(rounds.lastIndex)],
+                rounds.percentile(99),
                 program.exports.toDouble() / rounds.size,
             )
             writeTop(program.methods, "of %d samples")
@@ -169,7 +169,10 @@ internal class ProfileReport {
 
         private fun RecordedFrame.place() = "${method.type.name}.${method.name}"
 
-        private fun List<Double>.median(): Double = if (isEmpty()) 0.0 else sorted()[size / 2]
+        private fun List<Double>.median(): Double = percentile(50)
+
+        /** Returns a percentile by the nearest-rank method, as in manifests. */
+        private fun List<Double>.percentile(percent: Int): Double = if (isEmpty()) 0.0 else sorted()[(size * percent + 99) / 100 - 1]
 
         /** Converts the class name "[J" to "long[]". */
         private fun String.readable(): String {

@@ -3,6 +3,7 @@ package org.collektive.tools.profile
 import jdk.jfr.Event
 import jdk.jfr.Name
 import jdk.jfr.Recording
+import jdk.jfr.Timespan
 import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.io.TempDir
 import java.io.IOException
@@ -54,6 +55,45 @@ internal class ProfileReportTest {
         val (called, calling) = ProfileReport().read(file).text().substringAfter("program a ").split("program b ")
         assertFalse("% " in called, called)
         assertContains(calling, "Programs.called:")
+    }
+
+    @Test
+    fun `percentiles are those of manifests`(@TempDir folder: Path) {
+        val file = folder.resolve("ticks.jfr")
+        Recording().use {
+            it.start()
+            for (number in 1..100L) {
+                TickEvent().apply {
+                    tick = number
+                    rounds = Duration.ofMillis(number).toNanos()
+                }.commit()
+            }
+            it.stop()
+            it.dump(file)
+        }
+        assertContains(ProfileReport().read(file).text(), Regex("""rounds +50\.000 ms +99\.000 ms"""))
+    }
+
+    @Name("collektive.Tick")
+    private class TickEvent : Event() {
+        @JvmField var tick = 0L
+
+        @JvmField var nodes = 1
+
+        @JvmField var links = 0
+
+        @JvmField var bytesIn = 0L
+
+        @JvmField var bytesOut = 0L
+
+        @JvmField @Timespan
+        var rounds = 0L
+
+        @JvmField @Timespan
+        var write = 0L
+
+        @JvmField @Timespan
+        var wait = 0L
     }
 
     @Name("collektive.ProgramRound")
