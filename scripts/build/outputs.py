@@ -129,9 +129,15 @@ def _existing(folder: Path, names: tuple[str, ...]) -> list[str]:
 
 
 def require_replaceable(file: str, beginning: bytes, option: str) -> None:
-    """Raises `Failure` if a file exists that does not begin like the results that would replace it, or that has another name, which would change too."""
-    if not os.path.isfile(file):
+    """Raises `Failure` if a file exists that does not begin like the results that would replace it, or that has another name, which would change too.
+
+    Also raises `Failure` for a pipe, a device or a folder.
+    """
+    if not os.path.exists(file):
         return
+    if not os.path.isfile(file):
+        # A writer would wait for the reader of a pipe, and a recording would replace a device.
+        raise Failure(f"{option} '{file}' is not a regular file: name another file")
     if os.stat(file).st_nlink > 1:
         raise Failure(f"'{file}' is a hard link: {option} would also overwrite its other names; name another file, or remove it")
     with open(file, "rb") as existing:

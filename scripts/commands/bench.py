@@ -31,8 +31,6 @@ def run(arguments: argparse.Namespace) -> int:
     if "out" not in arguments:
         return int(arguments.measure(arguments))
     out = Path(os.path.realpath(arguments.out))
-    if out.exists() and not out.is_file():
-        raise Failure(f"bench: --out '{out}' is not a regular file: name another file")
     outputs.require_replaceable(str(out), b'{\n  "machine"', "--out")
     out.parent.mkdir(parents=True, exist_ok=True)
     # Earlier results are kept if the new ones cannot be written.

@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     schema: Path = arguments.schema
     if not schema.is_file():
-        raise Failure(f"generate: '{schema}' does not exist")
+        raise Failure(f"generate: '{schema}' {'is not a file: name a schema' if schema.exists() else 'does not exist'}")
     inputs.schema(schema)
     outputs = {"--csharp": arguments.csharp, "--jvm": arguments.jvm}
     if not any(outputs.values()):

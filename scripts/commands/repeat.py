@@ -21,7 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     manifest: Path = arguments.manifest
     if not manifest.is_file():
-        raise Failure(f"repeat: '{manifest}' does not exist")
+        raise Failure(f"repeat: '{manifest}' {'is not a file: name the manifest.json of a run' if manifest.exists() else 'does not exist'}")
     if b'"folder":' not in manifest.read_bytes():
         raise Failure(f"repeat: '{manifest}' is not the manifest of a run; to run a scenario file, use ./collektive run")
     out = arguments.out or f"{manifest.parent.resolve()}-repeated"

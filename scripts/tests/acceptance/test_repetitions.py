@@ -60,7 +60,8 @@ class Repetitions(Project):
         self.assertEqual(self.repeat("--folder", self.path("moved")).returncode, 0)
 
     def test_a_file_that_is_not_a_manifest_is_rejected(self) -> None:
-        for path, word in [(self.path("nowhere.json"), "does not exist"), (self.path("project", "lamps.json"), "is not the manifest of a run")]:
+        for path, word in [(self.path("nowhere.json"), "does not exist"), (self.path("project"), "is not a file: name the manifest.json"),
+                           (self.path("project", "lamps.json"), "is not the manifest of a run")]:
             result = collektive("repeat", path)
             self.assertEqual(result.returncode, 1)
             self.assertIn(word, last_error(result))

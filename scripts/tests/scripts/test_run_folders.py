@@ -132,6 +132,13 @@ def test_a_printed_file_error_is_the_only_message(folder: Path, manifest: str | 
     assert (str(failure.value), failure.value.code) == ("", 1)
 
 
+def test_pipes_and_folders_are_not_replaced(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for file in (tmp_path / "pipe", tmp_path):
+        with pytest.raises(Failure, match="is not a regular file: name another file"):
+            outputs.require_replaceable(str(file), b"CLKREC", "--out")
+
+
 def test_a_folder_that_was_replaced_during_the_run_is_an_error(tmp_path: Path) -> None:
     out = tmp_path / "out"
     with pytest.raises(Failure, match="was moved, deleted or replaced during the run"), outputs.open_folder(out, False):
