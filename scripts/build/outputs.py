@@ -91,7 +91,7 @@ def _end(folder: Path) -> None:
     if earlier.is_symlink() or not earlier.is_dir():
         return
     manifest = folder / "manifest.json"
-    if _has_no_tick(manifest):
+    if _failed_before_first_tick(manifest):
         # Deletes the manifest last, so that the next command continues if this one is killed.
         for name in reversed(_existing(folder, RESULTS)):
             (folder / name).unlink()
@@ -106,10 +106,11 @@ def _end(folder: Path) -> None:
     earlier.rmdir()
 
 
-def _has_no_tick(manifest: Path) -> bool:
-    """Returns whether a run ended before it completed its first tick."""
+def _failed_before_first_tick(manifest: Path) -> bool:
+    """Returns whether a run ended before it completed its first tick, unless a script ended it normally."""
     try:
-        return bool(json.loads(manifest.read_bytes())["ticks"] == 0)
+        run = json.loads(manifest.read_bytes())
+        return bool(run["ticks"] == 0 and run["outcome"] not in (COMPLETE, WITHOUT_PICTURES))
     except (OSError, ValueError, KeyError, TypeError):
         return False
 

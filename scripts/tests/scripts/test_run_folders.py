@@ -1,4 +1,5 @@
 """Tests that a run replaces earlier results only if it has begun."""
+import json
 import os
 from pathlib import Path
 
@@ -75,6 +76,14 @@ def test_results_are_restored_if_the_run_completes_no_tick(folder: Path) -> None
         (folder / "metrics.csv").write_text("second")
         (folder / "manifest.json").write_text('{"outcome": "failed: the JVM rejects its options", "ticks": 0}')
     assert contents(folder) == before
+
+
+@pytest.mark.parametrize("outcome", [outputs.COMPLETE, outputs.WITHOUT_PICTURES])
+def test_results_are_replaced_if_a_script_ends_the_run_before_its_first_tick(folder: Path, outcome: str) -> None:
+    manifest = json.dumps({"outcome": outcome, "ticks": 0})
+    with outputs.open_folder(folder, True):
+        (folder / "manifest.json").write_text(manifest)
+    assert contents(folder) == {"manifest.json": manifest, "notes.txt": "of the user"}
 
 
 def test_results_are_restored_by_the_command_after_a_killed_one(folder: Path) -> None:
