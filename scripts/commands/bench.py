@@ -6,7 +6,7 @@ import tempfile
 from pathlib import Path
 
 from build import bench_scene, graph, managed, outputs, processes
-from build.console import Failure, print_progress
+from build.console import print_progress
 from build.jdk import find_jdk
 from build.places import BENCH_JAR, BUILD, CSHARP, HOST_JAR, LIBRARY_JAR, SAMPLES_JAR
 
