@@ -69,7 +69,9 @@ def scripts(folder: Path) -> Part:
 
 
 def programs(path: Path) -> Part:
-    """Reads a jar, or a folder with Kotlin files. Raises `Failure` if it contains Java files, which would not be compiled."""
+    """Reads a jar, or a folder with Kotlin files. Raises `Failure` for one Kotlin file, and for Java files in the folder, which would not be compiled."""
+    if path.suffix == ".kt" and path.is_file():
+        raise Failure(f"'programs' is the file {path}: name its folder, or a jar")
     if not path.is_dir():
         return jar(path)
     for file in _below(path, (".java",)).values():

@@ -35,6 +35,12 @@ def test_folders_with_unusual_names_are_included(tmp_path: Path, folder: str) ->
     assert names(inputs.programs(tmp_path)) == [f"{folder}/a.kt"]
 
 
+def test_one_kotlin_file_is_not_a_jar(tmp_path: Path) -> None:
+    (tmp_path / "a.kt").touch()
+    with pytest.raises(Failure, match="name its folder, or a jar"):
+        inputs.programs(tmp_path / "a.kt")
+
+
 def test_java_among_programs_is_rejected(tmp_path: Path) -> None:
     write(tmp_path / "deep/A.java")
     with pytest.raises(Failure, match=r"deep/A\.java: only Kotlin is compiled"):
