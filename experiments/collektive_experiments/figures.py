@@ -240,7 +240,7 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
     options = _with_columns(results, options)
     data = results.series if options.x == TIME else results.complete
     require_distinct(data, results.configuration)
-    others = _other_keys(results, [key for key in (options.x, options.by) if key and key != TIME])
+    others = [key for key in results.other_keys([key for key in (options.x, options.by) if key and key != TIME]) if results.runs[key].nunique() > 1]
     combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
     if len(combinations) > MAX_PANELS:
         raise options.fail("by", f"leaves {len(combinations)} combinations of {', '.join(others)}, each with its own figure; the maximum is {MAX_PANELS}")
@@ -258,12 +258,6 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
 
 def _with_columns(results: Results, options: FigureOptions) -> FigureOptions:
     return replace(options, metrics=tuple(map(results.column, options.metrics)))
-
-
-def _other_keys(results: Results, shown: list[str]) -> list[str]:
-    """Returns the keys that a figure does not show, except those that the shown keys determine, such as keys of the same `zip`."""
-    runs, keys = results.runs, results.configuration
-    return [key for key in keys if key not in shown and (runs.groupby(shown)[key].nunique().max() if shown else runs[key].nunique()) > 1]
 
 
 def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, options: FigureOptions) -> str:
@@ -523,7 +517,7 @@ def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], s
     require_distinct(data, keys)
     colour = keys[0] if keys else None
     # Titles also contain keys with one value.
-    others = [key for key in keys[1:] if results.runs[key].nunique() == 1 or key in _other_keys(results, keys[:1])]
+    others = results.other_keys(keys[:1])
     parts = list(data.groupby(others, sort=False)) if others else [((), data)]
     remark = f" Only the first {MAX_PANELS} of {len(parts)} panels are shown." if len(parts) > MAX_PANELS else ""
     parts = parts[:MAX_PANELS]

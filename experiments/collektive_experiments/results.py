@@ -32,6 +32,8 @@ class Results:
     """The units of the metrics in the experiment file, by column. Empty if the file does not list metrics."""
     labels: dict[str, str] = field(default_factory=dict)
     """The texts that figures show instead of metrics, keys or values."""
+    zipped: list[str] = field(default_factory=list)
+    """The keys of the experiment's `zip`. Sweeps of earlier versions did not store them: for these, all keys that vary."""
 
     def __post_init__(self) -> None:
         """Checks combined tables. Labels that occur twice would mix values of different runs. Figures would omit runs without a value of a key."""
@@ -45,6 +47,12 @@ class Results:
     def configuration(self) -> list[str]:
         """The keys that vary, except the seed. Runs are repetitions of each other if they have equal values of these keys."""
         return [key for key in self.keys if key != "seed"]
+
+    def other_keys(self, shown: list[str]) -> list[str]:
+        """Returns the other keys of the configuration, except those that a shown key of the same `zip` determines."""
+        mates = [key for key in shown if key in self.zipped]
+        return [key for key in self.configuration if key not in shown and not (
+            mates and key in self.zipped and self.runs[key].nunique() > 1 and self.runs.groupby(mates)[key].nunique().max() == 1)]
 
     @property
     def metrics(self) -> list[str]:
@@ -86,7 +94,8 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     if os.path.exists(os.path.join(folder, "nodes.parquet")):
         read["nodes"] = _read(folder, "nodes")
     tables = {name: table for name, (table, _) in read.items()}
-    results = Results(tables["runs"], tables["series"], tables.get("nodes"), settings["keys"], {}, settings.get("labels", {}) if labels is None else labels)
+    results = Results(tables["runs"], tables["series"], tables.get("nodes"), settings["keys"], {}, settings.get("labels", {}) if labels is None else labels,
+                      settings.get("zip", settings["keys"]))
     needed = {"run", "status", "seed", *results.keys, *(CENSORED + name.removeprefix(CONVERGED) for name in results.convergence_times)}
     columns = list(results.runs.columns)
     # Figures would combine the runs with different values of a key that is missing in the settings.
@@ -144,9 +153,7 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     """
     metric = results.column(metric)
     rows = []
-    # Other keys of a `zip` with `by` have the same value in all runs with a value of `by`.
-    others = [key for key in results.configuration
-              if key != by and (results.runs[key].nunique() == 1 or results.runs.groupby(by)[key].nunique().max() > 1)]
+    others = results.other_keys([by])
     data = results.complete.assign(**{VALUE: results.values(metric)}).dropna(subset=VALUE)
     require_distinct(data, [*others, by])
     groups = data.groupby(others, sort=False, dropna=False) if others else [((), data)]

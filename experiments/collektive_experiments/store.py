@@ -71,6 +71,7 @@ class Store:
                 if name.endswith(PART) and files.is_marked(os.path.join(folder, name)):
                     files.remove(os.path.join(folder, name))
         settings = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
+                    "zip": [key for key, _ in experiment.together],
                  "measure": experiment.measure, "figures": experiment.located.root.get("figures", []), "labels": experiment.labels}
         if not os.listdir(self.runs):
             # The folder has no results yet, so the bundle can be created again.
@@ -95,7 +96,8 @@ class Store:
         if not os.path.exists(path):
             raise ExperimentError(f"'{self.folder}' is not a sweep folder: it has no sweep.json")
         settings = _object(path)
-        if settings is None or settings.get("version") != VERSION or not _is_list_of_texts(settings.get("keys")) or not all(
+        lists = () if settings is None else (settings.get("keys"), settings.get("zip", []))
+        if settings is None or settings.get("version") != VERSION or not all(map(_is_list_of_texts, lists)) or not all(
                 isinstance(texts, dict) and _is_list_of_texts([*texts.values()]) for texts in (settings.get("measure"), settings.get("labels", {}))):
             raise ExperimentError(f"'{path}' is damaged or of another version: repair it with ./collektive sweep EXPERIMENT.json --out {self.folder} --resume")
         return settings

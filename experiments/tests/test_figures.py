@@ -378,7 +378,12 @@ def test_keys_of_one_zip_share_a_panel(tmp_path: Path) -> None:
     for name in ("runs", "series"):
         table = pd.read_parquet(f"{folder}/{name}.parquet")
         table[(table["program"] == "path-vector") == (table["network.loss"] == 0)].to_parquet(f"{folder}/{name}.parquet")
+    # Sweeps of earlier versions did not write which keys are zipped.
     assert len(at_end(load(folder), "error")[0].axes) == 1
+    settings = json.loads((tmp_path / "out/sweep.json").read_text())
+    for zipped, panels in ((["program", "network.loss"], 1), ([], 2)):
+        (tmp_path / "out/sweep.json").write_text(json.dumps({**settings, "zip": zipped}))
+        assert len(at_end(load(folder), "error")[0].axes) == panels
 
 
 def test_effect_sizes_show_exact_values_of_keys(tmp_path: Path) -> None:
