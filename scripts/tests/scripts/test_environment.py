@@ -3,6 +3,7 @@ import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 from checkout import Checkout
@@ -42,6 +43,15 @@ def test_a_reader_that_closes_the_output_ends_the_command_silently(checkout: Che
     result = subprocess.run([checkout.root / "collektive", "--help"], stdout=writer, stderr=subprocess.PIPE, text=True)
     os.close(writer)
     assert (result.returncode, result.stderr) == (-signal.SIGPIPE, "")
+
+
+def test_commands_ignore_the_module_path_of_the_user(checkout: Checkout, tmp_path: Path) -> None:
+    for module in ("argparse", "collections", "sitecustomize"):
+        (tmp_path / f"{module}.py").write_text(f"open({str(tmp_path / 'executed')!r}, 'w')")
+    result = subprocess.run([checkout.root / "collektive", "--help"], cwd=tmp_path, capture_output=True, text=True,
+                            env={**os.environ, "PYTHONPATH": f".:{tmp_path}"})
+    assert (result.returncode, result.stderr) == (0, "")
+    assert not (tmp_path / "executed").exists()
 
 
 def test_without_a_search_path_python_knows_its_own_path(checkout: Checkout) -> None:

@@ -1,6 +1,8 @@
 """Tests that a fetched folder is filled once for each key, and filled again after an interruption or an error."""
 import hashlib
 import re
+import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -120,6 +122,25 @@ def test_a_jar_that_differs_from_its_checksum_is_removed(checkout: Checkout, mon
     assert checkout.run(repair).stdout == "True\n"
     assert sorted(path.name for path in repository.rglob("*.jar")) == ["local.jar", "whole.jar"]
     assert checkout.run(repair).stdout == "False\n"
+
+
+def test_maven_rejects_a_file_that_differs_from_its_checksum(tmp_path: Path) -> None:
+    """Resolves the parent of a POM, because this needs no plugin."""
+    shutil.copytree(ROOT / ".mvn", tmp_path / ".mvn")
+    parent = tmp_path / "repository/a/b/1/b-1.pom"
+    parent.parent.mkdir(parents=True)
+    head = "<project><modelVersion>4.0.0</modelVersion>"
+    parent.write_text(f"{head}<groupId>a</groupId><artifactId>b</artifactId><version>1</version><packaging>pom</packaging></project>")
+    (tmp_path / "pom.xml").write_text(f"{head}<parent><groupId>a</groupId><artifactId>b</artifactId><version>1</version><relativePath/></parent>"
+                                      "<artifactId>c</artifactId><packaging>pom</packaging><repositories><repository><id>r</id>"
+                                      f"<url>file://{tmp_path}/repository</url></repository></repositories></project>")
+    checksum = hashlib.sha1(parent.read_bytes(), usedforsecurity=False).hexdigest()
+    for stored, is_valid in (("0" * 40, False), (checksum, True)):
+        (parent.parent / "b-1.pom.sha1").write_text(stored)
+        command = ["mvn", "-B", "-U", f"-Dmaven.repo.local={tmp_path}/local", "-f", tmp_path / "pom.xml", "validate"]
+        result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+        assert (result.returncode == 0) == is_valid, result.stdout
+        assert ("Checksum validation failed" in result.stdout) != is_valid
 
 
 @pytest.mark.parametrize("requirements", sorted([*ROOT.glob("tools/*/requirements.txt"), *ROOT.glob("experiments/requirements*.txt")]))
