@@ -94,7 +94,7 @@ suite(page page LABELS all NEEDS build:runtime build:replay_page build:SampleRep
 suite(live page LABELS all NEEDS build:runtime build:replay_page setup:live UNLOCKED SCRIPT pages.py live RESULTS)
 suite(site site LABELS extra NEEDS build:runtime build:documentation setup:site-tools UNLOCKED PARALLEL SCRIPT pages.py site RESULTS)
 
-set(acceptance NEEDS setup:junit build:runtime build:sample_code build:jvm_modules build:replay_page ${runner} UNLOCKED TIMEOUT 1800
+set(acceptance NEEDS setup:junit build:runtime build:sample_code build:jvm_modules build:replay_page build:failing ${runner} UNLOCKED TIMEOUT 1800
   PYTEST "${SCRIPTS}/tests/acceptance")
 suite(acceptance-quick acceptance LABELS quick all ${acceptance} -m quick -n 2)
 suite(acceptance-alone acceptance LABELS all ${acceptance} -m "alone and not quick")

@@ -439,6 +439,27 @@ def test_pipes_instead_of_results_are_damaged_files(tmp_path: Path, capsys: pyte
     assert "is damaged" in capsys.readouterr().err
 
 
+def test_a_folder_is_on_the_disk_before_it_has_its_final_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    part = tmp_path / "run.part"
+    files.make_marked(str(part))
+    (part / "logs").mkdir()
+    (part / "logs/check.txt").touch()
+    files.write_part(str(part / files.RECORD), "{}")
+    expected = {str(path) for path in (part, *part.rglob("*"))}
+    events: list[str] = []
+    rename = os.rename
+
+    def replace(old: str, new: str) -> None:
+        events.append("renamed")
+        rename(old, new)
+
+    monkeypatch.setattr(os, "fsync", lambda descriptor: events.append(os.readlink(f"/proc/self/fd/{descriptor}")))
+    monkeypatch.setattr(os, "replace", replace)
+    files.publish(str(tmp_path / "run"))
+    assert set(events[:-2]) == expected
+    assert events[-2:] == ["renamed", str(tmp_path)]
+
+
 def test_an_interrupted_deletion_leaves_no_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     folder = tmp_path / "run"
     files.make_marked(str(folder))

@@ -6,12 +6,13 @@ import signal
 import subprocess
 import tempfile
 import unittest
+from pathlib import Path
 
 import pytest
 import replay
 from command import Project, collektive, last_error, processes
 
-from build.places import COLLEKTIVE
+from build.places import BUILD, COLLEKTIVE
 
 
 class Outputs(Project):
@@ -74,6 +75,19 @@ class Outputs(Project):
         self.change("lamps.json", '"replay": true, "record": true', '"replay": false')
         self.assertEqual(self.run_it("--overwrite").returncode, 0)
         self.assertEqual(list(self.contents()), ["manifest.json", "metrics.csv"])
+
+    def test_results_are_on_the_disk_before_the_manifest_that_calls_them_complete(self) -> None:
+        self.change("lamps.json", '"metrics": true', '"metrics": true, "nodes": { "fields": ["brightest"] }, "replay": true, "pictures": true, "record": true')
+        syncs, out = Path(self.path("syncs")), Path(os.path.realpath(self.path("out")))
+        syncs.touch()
+        result = subprocess.run([COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", str(out)], capture_output=True, text=True,
+                                env={**os.environ, "LD_PRELOAD": str(BUILD / "failing.so"), "FAILING_SYNCS": str(syncs)})
+        self.assertEqual(result.returncode, 0, result.stderr)
+        synced = [path for path in map(Path, syncs.read_text().splitlines()) if path == out or path.parent == out]
+        self.assertEqual(synced[-2:], [out / "manifest.json.part", out])
+        results = {path.name for path in out.iterdir()} - {"manifest.json"}
+        self.assertEqual(len(results), 7)
+        self.assertLessEqual(results, {path.name for path in synced[:-2]})
 
     def test_a_run_that_cannot_start_keeps_earlier_results(self) -> None:
         self.assertEqual(self.run_it().returncode, 0)

@@ -4,6 +4,8 @@
  *
  * The environment variable FAILING_CALLS names a file of 8 bytes, which counts these calls in all processes. The call with the number FAILING_AT fails with
  * EIO, or with EAGAIN if it is a fork. Calls on files count only below FAILING_BELOW, which is a list of absolute paths with ':' between them.
+ *
+ * If FAILING_SYNCS names a file, the path of each synced file or folder is appended to it.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -19,6 +21,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -74,6 +77,23 @@ static bool fails_of(int descriptor)
     return is_below(path) && fails(EIO);
 }
 
+static bool sync_fails(int descriptor)
+{
+    char link[32], path[PATH_MAX];
+    const char *log = getenv("FAILING_SYNCS");
+    /* These system calls are direct, because calls of libc may fail here and count. */
+    int file = log != NULL ? (int)syscall(SYS_openat, AT_FDCWD, log, O_WRONLY | O_APPEND | O_CLOEXEC) : -1;
+    snprintf(link, sizeof link, "/proc/self/fd/%d", descriptor);
+    ssize_t length = file >= 0 ? readlink(link, path, sizeof path - 1) : -1;
+    if (length > 0) {
+        path[length] = '\n';
+        syscall(SYS_write, file, path, (size_t)length + 1);
+    }
+    if (file >= 0)
+        close(file);
+    return fails_of(descriptor);
+}
+
 static bool fails_at(int folder, const char *name)
 {
     char link[32], path[2 * PATH_MAX];
@@ -102,7 +122,7 @@ FILE_CALL(ssize_t, pwrite, (int file, const void *data, size_t size, off_t at), 
 FILE_CALL(ssize_t, pwrite64, (int file, const void *data, size_t size, off64_t at), (file, data, size, at), fails_of(file))
 FILE_CALL(ssize_t, sendfile, (int to, int from, off_t *at, size_t size), (to, from, at, size), fails_of(to))
 FILE_CALL(ssize_t, sendfile64, (int to, int from, off64_t *at, size_t size), (to, from, at, size), fails_of(to))
-FILE_CALL(int, fsync, (int file), (file), fails_of(file))
+FILE_CALL(int, fsync, (int file), (file), sync_fails(file))
 FILE_CALL(int, fdatasync, (int file), (file), fails_of(file))
 FILE_CALL(int, ftruncate, (int file, off_t size), (file, size), fails_of(file))
 FILE_CALL(int, ftruncate64, (int file, off64_t size), (file, size), fails_of(file))
@@ -113,6 +133,19 @@ FILE_CALL(int, rmdir, (const char *path), (path), fails_at(AT_FDCWD, path))
 FILE_CALL(int, unlink, (const char *path), (path), fails_at(AT_FDCWD, path))
 FILE_CALL(int, unlinkat, (int folder, const char *path, int flags), (folder, path, flags), fails_at(folder, path))
 FILE_CALL(int, symlink, (const char *target, const char *path), (target, path), fails_at(AT_FDCWD, path))
+
+/* Mono looks up the functions of Mono.Unix.Native.Syscall in libc itself, which would bypass this library. */
+void *dlsym(void *handle, const char *name)
+{
+    static void *(*next)(void *, const char *);
+    if (next == NULL)
+        next = (__typeof__(next))dlvsym(RTLD_NEXT, "dlsym", "GLIBC_2.34");
+    if (handle != RTLD_NEXT && strcmp(name, "fsync") == 0)
+        return (void *)fsync;
+    if (handle != RTLD_NEXT && strcmp(name, "renameat") == 0)
+        return (void *)renameat;
+    return next(handle, name);
+}
 
 #define WRITES (O_WRONLY | O_RDWR | O_CREAT)
 #define OPEN_CALL(name, parameters, folder, before)                                                                                                    \

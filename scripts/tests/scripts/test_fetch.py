@@ -137,7 +137,7 @@ def test_maven_rejects_a_file_that_differs_from_its_checksum(tmp_path: Path) -> 
     checksum = hashlib.sha1(parent.read_bytes(), usedforsecurity=False).hexdigest()
     for stored, is_valid in (("0" * 40, False), (checksum, True)):
         (parent.parent / "b-1.pom.sha1").write_text(stored)
-        command = ["mvn", "-B", "-U", f"-Dmaven.repo.local={tmp_path}/local", "-f", tmp_path / "pom.xml", "validate"]
+        command = ["mvn", "-B", "-U", f"-Dmaven.repo.local={tmp_path}/local", "-f", str(tmp_path / "pom.xml"), "validate"]
         result = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
         assert (result.returncode == 0) == is_valid, result.stdout
         assert ("Checksum validation failed" in result.stdout) != is_valid
