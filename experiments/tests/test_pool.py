@@ -44,7 +44,7 @@ class FakeRun:
 
 
 class FakeStore:
-    bundle = ""
+    bundle = runs = ""
 
     def __init__(self, folder: str):
         self.logs = self.folder = folder
@@ -170,6 +170,24 @@ def test_a_resumed_sweep_stops_after_equal_failures_and_writes_its_tables(tmp_pa
     with pytest.raises(ExperimentError, match="its first 5 runs all failed in the same way"):
         sweep.sweep(cast(Experiment, experiment), cast(Store, FakeStore(str(tmp_path))), todo, FailingPool(), 1, False)
     assert written
+
+
+def test_two_percent_of_many_runs_are_repeated() -> None:
+    assert [len(list(sweep._spread(count))) for count in (1, 3, 150, 151, 1000)] == [1, 3, 3, 4, 20]
+
+
+@pytest.mark.parametrize("missing", [0, 1])
+def test_a_sweep_whose_tables_lack_a_run_is_an_error(missing: int, tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sweep.tables, "write", lambda *_: FakeExperiment.count - missing)
+
+    def finish() -> int:
+        return sweep.sweep(cast(Experiment, FakeExperiment()), cast(Store, FakeStore(str(tmp_path))), [], FailingPool(), 1, False)
+
+    if missing:
+        with pytest.raises(ExperimentError, match="the tables have 9 of 10 runs"):
+            finish()
+    else:
+        assert finish() == 0
 
 
 class IdleProcess:
