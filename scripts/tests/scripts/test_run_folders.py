@@ -148,6 +148,17 @@ def test_pipes_and_folders_are_not_replaced(tmp_path: Path) -> None:
             outputs.require_replaceable(str(file), b"CLKREC", "--out")
 
 
+@pytest.mark.parametrize(("manifest", "words"), [(None, "wrote no usable manifest"), ("", "wrote no usable manifest"), ("{}", "wrote no usable manifest"),
+                                                 ('{"outcome": "running"}', "the player exited with code 0 during the run"),
+                                                 ('{"outcome": "failed: no luck"}', "the run is not complete: failed: no luck"),
+                                                 ('{"outcome": "the pictures are missing"}', "the run is not complete: the pictures are missing")])
+def test_exit_code_0_needs_a_complete_manifest(tmp_path: Path, manifest: str | None, words: str) -> None:
+    if manifest is not None:
+        (tmp_path / "manifest.json").write_text(manifest)
+    with pytest.raises(Failure, match=words):
+        outputs.require(tmp_path, outputs.COMPLETE, 0)
+
+
 def test_a_folder_that_was_replaced_during_the_run_is_an_error(tmp_path: Path) -> None:
     out = tmp_path / "out"
     with pytest.raises(Failure, match="was moved, deleted or replaced during the run"), outputs.open_folder(out, False):
