@@ -7,7 +7,7 @@ namespace Collektive.Headless
     internal sealed class RowSchedule
     {
         /// <summary>Tolerance with which quotients of times are compared.</summary>
-        private const double Tolerance = 1e-6;
+        internal const double Tolerance = 1e-6;
 
         private readonly double ticksPerRow;
         private int rows = 1;

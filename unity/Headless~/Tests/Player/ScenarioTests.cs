@@ -254,6 +254,17 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void A_period_of_rounded_ticks_has_its_full_length()
+        {
+            var root = Minimal();
+            root["converged"] = new JObject(new JProperty("error", new JObject(new JProperty("to", 1), new JProperty("seconds", 10))));
+            var convergence = Read(root).Convergence;
+            convergence.Bind(new[] { "error" });
+            for (var row = 0; row <= 60; row++) convergence.Add(row * 30 * 0.0333333, new[] { row >= 50 ? 0.0 : 2 });
+            Assert.That((double?)convergence.Times()["error"], Is.EqualTo(49.99995));
+        }
+
+        [Test]
         public void A_time_of_convergence_is_rounded_as_in_the_table()
         {
             var root = Minimal();
