@@ -1,4 +1,6 @@
 """Tests the errors about the environment of a command, in a checkout without build outputs."""
+import argparse
+import errno
 import os
 import signal
 import subprocess
@@ -7,6 +9,9 @@ from pathlib import Path
 
 import pytest
 from checkout import Checkout
+
+import collektive
+from build.places import ROOT
 
 
 @pytest.mark.parametrize("separator", ":;")
@@ -28,6 +33,17 @@ def test_a_read_only_checkout_is_a_one_line_error_and_not_a_difference(checkout:
     assert result.returncode == code
     assert result.stderr.splitlines() == [f"collektive: '{checkout.root}/build': Read-only file system: the command must be able to write to its checkout; "
                                           "use a checkout that you own"]
+
+
+@pytest.mark.parametrize("number", [errno.EACCES, errno.EPERM])
+def test_a_checkout_of_another_user_is_a_one_line_error(number: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def fail(_: argparse.Namespace) -> int:
+        raise OSError(number, os.strerror(number), str(ROOT / "build/stamp"))
+
+    monkeypatch.setattr(collektive, "check_environment", lambda: None)
+    assert collektive.run_command(argparse.Namespace(run=fail, error_code=2)) == 2
+    assert capsys.readouterr().err == (f"collektive: '{ROOT}/build/stamp': {os.strerror(number)}: the command must be able to write to its checkout; "
+                                       "use a checkout that you own\n")
 
 
 def test_a_folder_that_is_not_a_jdk_is_reported_before_anything_is_fetched(checkout: Checkout) -> None:
