@@ -423,12 +423,12 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(count, Is.EqualTo(100));
         }
 
-        [TestCase("home", "\"jdk\"")]
-        [TestCase("debugPort", "5005")]
-        public void A_JVM_setting_that_opens_ports_or_selects_another_JVM_needs_trust(string key, string value)
+        [TestCase("home", "{\"location\": \"Folder\", \"home\": \"jdk\"}")]
+        [TestCase("debugPort", "{\"debugPort\": 5005}")]
+        public void A_JVM_setting_that_opens_ports_or_selects_another_JVM_needs_trust(string key, string settings)
         {
             var root = Minimal();
-            root["jvm"] = new JObject(new JProperty(key, JToken.Parse(value)));
+            root["jvm"] = JObject.Parse(settings);
             var message = Assert.Throws<ScenarioException>(() => Read(root)).Message;
             Assert.That(message, Is.StringContaining("'jvm." + key + "' is refused").And.StringContaining("--trust-jvm"));
             Assert.That(Read(root, true), Is.Not.Null);
