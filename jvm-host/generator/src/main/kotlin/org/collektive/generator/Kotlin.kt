@@ -47,7 +47,25 @@ internal class Kotlin(private val schema: UserSchema) {
         },
         "annotation" to if (type.fields.any { !it.required }) "@JvmOverloads constructor" else "",
         "fields" to type.fields.map { mapOf("member" to member(it), "type" to kotlin(type, it), "default" to default(type, it)) },
+        "anyLimited" to type.fields.any { limit(it) != null },
+        "limits" to type.fields.mapNotNull { limit(it) },
     )
+
+    /** The check of an unsigned field, or `null`. */
+    private fun limit(field: Field): String? {
+        val isVector = field.type is VectorType
+        val type = if (field.type is VectorType) field.type.element else field.type
+        val scalar = if (type is EnumType) type.underlying else type
+        if (scalar !is Scalar || scalar !in UNSIGNED) return null
+        val value = if (isVector || field.optional) "it" else member(field)
+        val number = if (scalar.kotlin == "Long") value else "$value.toLong()"
+        val check = "ResultRules.requireUnsigned($number, ${Byte.SIZE_BITS * scalar.bytes}, \"${field.name}\")"
+        return when {
+            isVector -> "${member(field)}${if (field.required) "" else "?"}.forEach { $check }"
+            field.optional -> "${member(field)}?.let { $check }"
+            else -> check
+        }
+    }
 
     private fun documentation(text: String) = SchemaText.withoutCommentEnds(text)
 
@@ -255,4 +273,9 @@ internal class Kotlin(private val schema: UserSchema) {
     private fun member(field: Field): String = lowerCamel(field.name).let { if (it in ReservedNames.kotlin) "`$it`" else it }
 
     private fun constant(type: TableType): String = "LAYOUT_${type.name.toString().replace('.', '_').uppercase()}"
+
+    private companion object {
+        /** The types whose Kotlin type has more values. */
+        val UNSIGNED = setOf(Scalar.UBYTE, Scalar.USHORT, Scalar.UINT)
+    }
 }

@@ -1,9 +1,10 @@
 package org.collektive.frames.data
 
 /**
- * Finds values that result classes accept but a frame cannot represent: malformed strings, and `null` in vectors from Java code.
+ * Finds values that a frame cannot represent: unsigned numbers out of range, malformed strings, and `null` in vectors from Java code.
  *
- * Generated code calls it. Each function returns the path of the field and the error, or `null`. A field that is `null` is absent.
+ * Generated code calls it: result classes call [requireUnsigned]. Each other function returns the path of the field and the error, or `null`. A
+ * field that is `null` is absent.
  */
 public object ResultRules {
     /** Maximum depth of nested tables. Detects an object that contains itself. */
@@ -11,6 +12,11 @@ public object ResultRules {
 
     /** The error about an object beyond [MAX_DEPTH]. */
     public const val TOO_DEEP: String = "is nested deeper than $MAX_DEPTH tables"
+
+    /** Throws an exception if [value] is not an unsigned number of [bits] bits, because a frame would contain another number. */
+    public fun requireUnsigned(value: Long, bits: Int, name: String) {
+        require(value ushr bits == 0L) { "$name is $value; it must be from 0 to ${(1L shl bits) - 1}" }
+    }
 
     /** Checks a string field. */
     public fun string(value: String?, name: String): String? =

@@ -167,6 +167,25 @@ internal class GeneratedCodeTest {
     }
 
     @Test
+    fun `an unsigned number out of range is refused`() {
+        assertOutOfRange("mode is 256; it must be from 0 to 255") { resultWith("mode" to 256) }
+        assertOutOfRange("maybe_mode is -1; it must be from 0 to 255") { resultWith("maybeMode" to -1) }
+        assertOutOfRange("modes is 256; it must be from 0 to 255") { resultWith("modes" to intArrayOf(0, 255, 256)) }
+        val schema = GeneratedSchemas.of(
+            "namespace test.unsigned; table SensorData { } struct ActuatorData { high: ushort; count: uint; }",
+            "test.unsigned.UserSchema",
+        )
+        val create = schema.actuatorType.getConstructor(Int::class.java, Long::class.java)
+        assertOutOfRange("high is 65536; it must be from 0 to 65535") { create.newInstance(65536, 0L) }
+        assertOutOfRange("count is -1; it must be from 0 to 4294967295") { create.newInstance(0, -1L) }
+        assertOutOfRange("count is 4294967296; it must be from 0 to 4294967295") { create.newInstance(0, 1L shl 32) }
+        assertWritten(schema, arrayOf(create.newInstance(65535, 4294967295L)))
+    }
+
+    private fun assertOutOfRange(message: String, create: () -> Any) =
+        assertEquals(message, assertFailsWith<InvocationTargetException> { create() }.targetException.message)
+
+    @Test
     fun `a result that contains itself is refused, and the deepest allowed one is written`() {
         val all = type("TreeValue").constructors.single { it.parameterCount == 4 && !it.isSynthetic }
         val children = ArrayList<Any>()
