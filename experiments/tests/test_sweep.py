@@ -150,6 +150,15 @@ def test_runs_and_tables_of_a_sweep_with_other_inputs_are_not_used(project: Proj
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("schedule", ["Lockstep", "Asynchronous"])
+def test_keys_without_an_effect_are_reported(schedule: str, project: Project) -> None:
+    result = project.sweep(vary={"timing.period": [0.1, 0.3], "threads": [1, 2], "seed": "1-2"}, set={"seconds": 1, "schedule": schedule, "network.loss": 0.3},
+                           zip={"fields.lamps": [3, 3, 5], "outputs.interval": [0.5, 1, 1]})
+    assert result.returncode == 0, result.stderr
+    lines = [line for line in result.stderr.splitlines() if "equal results" in line]
+    assert lines == (["collektive: runs that differ only in 'timing.period' have equal results"] if schedule == "Lockstep" else [])
+
+
 def test_csv_tables_do_not_become_outdated(project: Project) -> None:
     assert project.sweep("--csv", vary={"seed": [1]}).returncode == 0
     assert project.sweep("--resume", vary={"seed": [1, 2]}).returncode == 0
