@@ -5,6 +5,7 @@ import json
 import math
 import os
 import statistics
+import sys
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -76,11 +77,15 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
             else:
                 study.tell(trial.number, mean)
     _write(study, search, os.path.join(store.folder, "trials.csv"))
-    done = [trial for trial in _finished(study, search) if trial.value is not None]
+    finished_trials = _finished(study, search)
+    done = [trial for trial in finished_trials if trial.value is not None]
     if not done and code >= 128:
         return code
     if not done:
         raise ExperimentError(f"no trial has a value of '{search.metric}'; the messages are in '{store.runs}'")
+    if len(done) < len(finished_trials):
+        print(f"collektive: {len(finished_trials) - len(done)} of {len(finished_trials)} trials have no value of '{search.metric}', because it is not finite "
+              "or missing in one of their runs", file=sys.stderr)
     print(f"{len(done)} trials, best {search.metric} {text(study.best_value)} in trial {study.best_trial.number}:")
     for key, value in study.best_params.items():
         print(f"  {key} = {text(value)}")

@@ -58,6 +58,18 @@ def test_a_search_finds_the_best_trial_and_continues(project: Project) -> None:
         load(str(project.folder / "out"))
 
 
+def test_trials_without_a_value_are_counted(project: Project) -> None:
+    path = project.experiment(set={"seconds": 1, "metrics": {"few": "nullif(count(*), 4)"}},
+                              tune={"metric": "few", "trials": 4, "parameters": {"fields.lamps": [3, 4]}})
+    result = subprocess.run(project.command("tune", path, "--out", str(project.folder / "out")), capture_output=True, text=True, timeout=120)
+    assert result.returncode == 0, result.stderr
+    with open(project.folder / "out/trials.csv") as file:
+        missing = sum(row["few"] == "" for row in csv.DictReader(file))
+    assert 0 < missing < 4
+    assert f"collektive: {missing} of 4 trials have no value of 'few'" in result.stderr
+    assert f"{4 - missing} trials, best few 3 in trial" in result.stdout
+
+
 @pytest.mark.slow
 def test_trials_without_runs_are_not_continued_with_other_inputs(project: Project) -> None:
     assert tune(project, "--trials", "1").returncode == 0
