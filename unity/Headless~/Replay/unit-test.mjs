@@ -14,7 +14,7 @@ const { outputFiles: [{ text }] } = buildSync({
   },
   bundle: true, write: false, format: 'esm', nodePaths: [modules],
 });
-const { clock, drawable, fieldsOf, Group, isolated, Legend, LiveRecording, short, View } = await import(
+const { clock, digitsOf, drawable, fieldsOf, Group, isolated, Legend, LiveRecording, short, View } = await import(
   `data:text/javascript;base64,${Buffer.from(text).toString('base64')}`
 );
 
@@ -76,10 +76,20 @@ test('values between gaps are isolated, also with the times of another run', () 
 });
 
 test('texts of numbers and times are short and exact', () => {
-  assert.deepEqual([Number.MAX_VALUE, 2 ** 126, -1e-9, 123456789, 1.5e9, 0, 0.25].map(short),
+  assert.deepEqual([Number.MAX_VALUE, 2 ** 126, -1e-9, 123456789, 1.5e9, 0, 0.25].map((value) => short(value)),
     ['1.798e308', '8.507e37', '-1e-9', '123,456,789', '1,500,000,000', '0', '0.25']);
   assert.deepEqual([[0.25, 0.25], [0.75, 0.25], [12, 0.10000000149011612], [0.04, 0.019999999552965164], [2, 1], [1 / 3, 0.3333333432674408]]
     .map(([time, deltaTime]) => clock(time, deltaTime)), ['0.25', '0.75', '12.0', '0.04', '2.0', '0.333']);
+});
+
+test('texts of neighbouring ticks differ, and integer parts are not rounded', () => {
+  const texts = (first, step) => [0, 1, 2].map((index) => short(first + index * step, step));
+  assert.deepEqual(texts(12345, 0.2), ['12,345', '12,345.2', '12,345.4']);
+  assert.deepEqual(texts(12345, 0.25), ['12,345', '12,345.25', '12,345.5']);
+  assert.deepEqual(texts(0.99992, 0.00002), ['0.99992', '0.99994', '0.99996']);
+  assert.deepEqual(texts(-1.5e12, 1e7), ['-1.5e12', '-1.49999e12', '-1.49998e12']);
+  assert.deepEqual([123456.789, 12345.25, 1234.5678, 2.34567, 0].map((value) => short(value)), ['123,457', '12,345', '1,235', '2.346', '0']);
+  assert.deepEqual([[12345.6, 0.001], [12345.6, 1], [0, 1], [5, 0]].map(([value, step]) => digitsOf(value, step)), [9, 6, 4, 4]);
 });
 
 test('a chart has gaps where no axis can show the values', () => {

@@ -47,9 +47,10 @@ export class Charts {
       cursor: { drag: { x: false, y: false }, points: { show: false }, y: false, x: false },
       scales: { x: { time: false } },
       axes: [
-        { ...axis, size: 20, gap: 4, space: 50, values: (_, splits) => splits.map((value) => `${short(value)} s`) },
+        { ...axis, size: 20, gap: 4, space: 50, values: (_, splits, number, space, step) => splits.map((value) => `${short(value, step)} s`) },
         {
-          ...axis, size: (plot, words) => this.widen(plot, words ?? []), gap: 3, space: 22, values: (_, splits) => splits.map((value) => plain(field, value)),
+          ...axis, size: (plot, words) => this.widen(plot, words ?? []), gap: 3, space: 22,
+          values: (_, splits, number, space, step) => splits.map((value) => plain(field, value, step)),
         },
       ],
       series: [{}, ...lines.map((_, i) => ({ stroke: style(i ? '--accent' : '--strong'), width: 1.5, dash: i ? [5, 3] : [], points, paths }))],
@@ -89,8 +90,8 @@ export class Charts {
 }
 
 /** Formats a value without its unit, which is in the caption. */
-function plain(field, value) {
-  return field.kind === 'number' ? short(value) : textOf(field, value);
+function plain(field, value, step) {
+  return field.kind === 'number' ? short(value, step) : textOf(field, value);
 }
 
 function describe(field, { times, values }) {

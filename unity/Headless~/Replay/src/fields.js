@@ -65,12 +65,12 @@ export function nameOf({ name, unit }) {
   return name + (unit ? ` (${unit})` : '');
 }
 
-/** Formats a value with the category names and the unit of its field. */
-export function textOf({ kind, unit, words }, value) {
+/** Formats a value with the category names and the unit of its field. `step` is as for `short`. */
+export function textOf({ kind, unit, words }, value, step) {
   if (Number.isNaN(value)) return 'no value';
   if (kind === 'colour') return `#${value.toString(16).padStart(6, '0')}`;
   if (kind === 'category') return words[value] ?? String(value);
-  return short(value) + (unit ? ` ${unit}` : '');
+  return short(value, step) + (unit ? ` ${unit}` : '');
 }
 
 /** Formats a time in seconds with the decimal places of `deltaTime`, from one to three. */
@@ -98,12 +98,18 @@ export function isolated(values) {
   return found;
 }
 
-/** Formats a number with four digits, but integers with all digits. */
-export function short(value) {
+/** Formats a number with four digits or more: integers and integer parts have all digits, and values that differ by `step` have different texts. */
+export function short(value, step) {
   const size = Math.abs(value);
-  if (size >= 1e12 || (size > 0 && size < 1e-6)) return value.toExponential(3).replace(/\.?0*e\+?/, 'e');
-  if (Number.isInteger(value) && Math.abs(value) < 1e9) return value.toLocaleString('en');
-  return Number(value.toPrecision(4)).toLocaleString('en', { maximumSignificantDigits: 4 });
+  if (size >= 1e12 || (size > 0 && size < 1e-6)) return value.toExponential(digitsOf(value, step) - 1).replace(/\.?0*e\+?/, 'e');
+  if (Number.isInteger(value) && size < 1e9) return value.toLocaleString('en');
+  const digits = size < 1e9 ? Math.max(digitsOf(value, step), Math.floor(Math.log10(size)) + 1) : digitsOf(value, step);
+  return Number(value.toPrecision(digits)).toLocaleString('en', { maximumSignificantDigits: digits });
+}
+
+/** Returns the number of digits, from 4 to 15, that a text of a value needs to show a difference of `step`. */
+export function digitsOf(value, step) {
+  return step > 0 && value !== 0 ? Math.min(Math.max(Math.floor(Math.log10(Math.abs(value))) - Math.floor(Math.log10(step)) + 2, 4), 15) : 4;
 }
 
 function once(compute) {

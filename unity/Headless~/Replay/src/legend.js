@@ -1,7 +1,7 @@
 // The panel that explains and selects colours.
 import { colouring, css, gradientOf, NO_VALUE, palettesOf } from './colours.js';
 import { element, part } from './dom.js';
-import { extent, nameOf, short, textOf } from './fields.js';
+import { digitsOf, extent, nameOf, short, textOf } from './fields.js';
 
 const MAX_CATEGORIES = 8;
 const BARS = 24;
@@ -83,8 +83,9 @@ export class Legend {
 
   setRange(min, max) {
     [this.min, this.max] = [min, max];
-    element('range-min').value = Number(min.toPrecision(4));
-    element('range-max').value = Number(max.toPrecision(4));
+    const step = (max - min) / 100;
+    element('range-min').value = Number(min.toPrecision(digitsOf(min, step)));
+    element('range-max').value = Number(max.toPrecision(digitsOf(max, step)));
     this.colour();
   }
 
@@ -92,7 +93,8 @@ export class Legend {
     const palette = element('palette').value;
     if (this.field.kind === 'number') {
       element('gradient').style.background = gradientOf(palette);
-      this.ticks = [short(this.min), short((this.min + this.max) / 2), textOf(this.field, this.max)];
+      const step = (this.max - this.min) / 10;
+      this.ticks = [short(this.min, step), short((this.min + this.max) / 2, step), textOf(this.field, this.max, step)];
       element('ticks').replaceChildren(...this.ticks.map((text) => part('span', text)));
     }
     this.of = colouring({ ...this.field, order: this.wholeOf(this.field).order }, palette, this.min, this.max);
@@ -136,7 +138,7 @@ export class Legend {
       bar.style.background = css(this.of(this.min + ((i + 0.5) / BARS) * (this.max - this.min)));
     });
     const [from, to] = [0, 1].map((end) => this.min + ((counts.indexOf(most) + end) / BARS) * (this.max - this.min));
-    const words = `Histogram: at most ${most.toLocaleString('en')} nodes in a bar, from ${short(from)} to ${textOf(this.field, to)}`;
+    const words = `Histogram: at most ${most.toLocaleString('en')} nodes in a bar, from ${short(from, to - from)} to ${textOf(this.field, to, to - from)}`;
     element('histogram').setAttribute('aria-label', words);
     element('histogram').title = words;
   }
