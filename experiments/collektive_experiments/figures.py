@@ -237,6 +237,7 @@ def metrics_at_end(results: Results) -> list[str]:
 
 def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure, str]]:
     """Draws the requested figure for each metric and each combination of values of the keys that it does not show. Yields name, figure and caption."""
+    check(results, options)
     options = _with_columns(results, options)
     data = results.series if options.x == TIME else results.complete
     require_distinct(data, results.configuration)

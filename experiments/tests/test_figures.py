@@ -86,6 +86,16 @@ def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
     assert contents() == contents()
 
 
+@pytest.mark.parametrize(("options", "message"), [
+    ({"metric": "fault"}, "'metric' is 'fault', which does not exist"), ({"metric": "error", "by": "seed"}, "'by' is 'seed'"),
+    ({"metric": "error", "kind": "box", "x": "program", "log": "y"}, "'log' is 'y', but 'error' has the value -1")])
+def test_a_figure_in_python_is_checked_like_that_of_a_command(sweep: str, options: dict[str, Any], message: str) -> None:
+    results = load(sweep)
+    results.runs.loc[0, "error"] = -1
+    with pytest.raises(ExperimentError, match=message):
+        next(draw(results, read_options(options)))
+
+
 @pytest.mark.slow
 def test_limits_may_be_negative(out: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["plot", str(out), "--metric", "error", "--range", "-5:-1.5"]) == 0, capsys.readouterr().err
