@@ -14,11 +14,12 @@ from types import TracebackType
 from typing import Any
 
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv
 import pyarrow.parquet as pq
 
 from . import files
-from .experiment import Experiment, Run, identity, text
+from .experiment import Experiment, Run, text
 from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
 from .store import Store
@@ -107,24 +108,18 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     schemas = {"runs": runs, "series": series}
     if columns.nodes:
         schemas["nodes"] = pa.schema([("run", pa.string()), *columns.parameters, ("second", pa.float64()), ("node", pa.int64()), *columns.nodes.items()])
-    effects = _Effects(experiment)
     content = {CONTENT: hashlib.sha256(f"{schemas}{columns.files}".encode()).hexdigest()}
     with ExitStack() as stack:
         opened = {name: stack.enter_context(Table(os.path.join(store.folder, name), schema.with_metadata(content), with_csv))
                   for name, schema in schemas.items()}
         for run, record in columns.records():
             first = {"run": run.name, **columns.values(run)}
-            series_hash = 0
             if record["status"] == "complete":
                 for row in columns.series(run):
                     opened["series"].add({**first, **row})
-                    series_hash = hash((series_hash, *list(row.values())[:-len(TIMES)]))
                 for row in columns.node_rows(run) if columns.nodes else ():
                     opened["nodes"].add({**first, **row})
-            results = columns.results(run, record)
-            opened["runs"].add({**first, **results})
-            if record["status"] == "complete":
-                effects.add(run, (series_hash, record["files"].get("nodes.csv"), *(value for name, value in results.items() if _is_result(name))))
+            opened["runs"].add({**first, **columns.results(run, record)})
     # All tables must contain the same runs, even if writing one of them fails. After a kill between two steps, runs.parquet is missing.
     for name in ("runs", "nodes"):
         for ending in (".parquet", ".csv"):
@@ -132,7 +127,7 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     for table in reversed(opened.values()):
         table.publish()
     columns.warn()
-    effects.warn()
+    _warn_of_keys_without_effect(experiment, store, ["digest", *columns.metrics, *(CONVERGED + name for name in columns.converged)])
     return _count_rows(experiment, store, columns.rows)
 
 
@@ -154,37 +149,20 @@ def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> i
                and (record := store.record(run)) is not None and not store.changed_files(run, record) for run in experiment.runs())
 
 
-def _is_result(column: str) -> bool:
-    """Returns whether the values of a column are equal in a repetition of the run on another machine."""
-    return not column.startswith("version.") and column not in [name for name, _ in RUN_TIMES]
-
-
-class _Effects:
-    """Determines which varied keys have no effect on the results."""
-
-    def __init__(self, experiment: Experiment):
-        # Keys of `zip` can have an effect only together.
-        groups = [*([key] for key, _ in experiment.product), [key for key, _ in experiment.together]]
-        self._groups = [keys for keys in groups if not all(key.split(".")[0] in WITHOUT_EFFECT for key in keys)]
-        self._first: list[dict[int, tuple[str, int]]] = [{} for _ in self._groups]
-        self._has_effect: list[bool | None] = [None for _ in self._groups]
-
-    def add(self, run: Run, results: tuple[Any, ...]) -> None:
-        """Compares the results of a complete run with those of the first run that differs only in the values of the same keys."""
-        for index, keys in enumerate(self._groups):
-            if self._has_effect[index]:
-                continue
-            others, values = (identity({key: value for key, value in run.values.items() if (key in keys) == is_in}) for is_in in (False, True))
-            first, first_results = self._first[index].setdefault(hash(others), (values, hash(results)))
-            if first != values:
-                self._has_effect[index] = first_results != hash(results)
-
-    def warn(self) -> None:
-        """Prints a warning about each key without an effect, such as `timing.period` if the schedule is not asynchronous."""
-        for keys, has_effect in zip(self._groups, self._has_effect, strict=True):
-            if has_effect is False:
-                names = " and ".join(f"'{key}'" for key in keys)
-                print(f"collektive: runs that differ only in {names} have equal results", file=sys.stderr)
+def _warn_of_keys_without_effect(experiment: Experiment, store: Store, results: list[str]) -> None:
+    """Prints a warning about each varied key without an effect on the results, such as `timing.period` if the schedule is not asynchronous."""
+    runs = read_parquet(store.folder, "runs", columns=["status", *experiment.keys, *results])
+    runs = runs.filter(pc.equal(runs["status"], "complete"))
+    # Keys of `zip` can have an effect only together.
+    for keys in (*([key] for key, _ in experiment.product), [key for key, _ in experiment.together]):
+        if all(key.split(".")[0] in WITHOUT_EFFECT for key in keys):
+            continue
+        others = [key for key in experiment.keys if key not in keys]
+        counts = runs.group_by(others).aggregate([([], "count_all"), *((name, "count_distinct", pc.CountOptions("all")) for name in results)])
+        compared = counts.filter(pc.greater(counts["count_all"], 1))
+        if len(compared) and all(pc.max(compared[f"{name}_count_distinct"]).as_py() == 1 for name in results):
+            names = " and ".join(f"'{key}'" for key in keys)
+            print(f"collektive: runs that differ only in {names} have equal results", file=sys.stderr)
 
 
 class _Columns:

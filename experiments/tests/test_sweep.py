@@ -149,8 +149,7 @@ def test_runs_and_tables_of_a_sweep_with_other_inputs_are_not_used(project: Proj
         load(str(project.folder / "out"))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("schedule", ["Lockstep", "Asynchronous"])
+@pytest.mark.parametrize("schedule", ["Lockstep", pytest.param("Asynchronous", marks=pytest.mark.slow)])
 def test_keys_without_an_effect_are_reported(schedule: str, project: Project) -> None:
     result = project.sweep(vary={"timing.period": [0.1, 0.3], "threads": [1, 2], "seed": "1-2"}, set={"seconds": 1, "schedule": schedule, "network.loss": 0.3},
                            zip={"fields.lamps": [3, 3, 5], "outputs.interval": [0.5, 1, 1]})
@@ -159,6 +158,7 @@ def test_keys_without_an_effect_are_reported(schedule: str, project: Project) ->
     assert lines == (["collektive: runs that differ only in 'timing.period' have equal results"] if schedule == "Lockstep" else [])
 
 
+@pytest.mark.slow
 def test_csv_tables_do_not_become_outdated(project: Project) -> None:
     assert project.sweep("--csv", vary={"seed": [1]}).returncode == 0
     assert project.sweep("--resume", vary={"seed": [1, 2]}).returncode == 0
