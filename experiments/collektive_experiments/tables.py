@@ -151,16 +151,18 @@ def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> i
 
 def _warn_of_keys_without_effect(experiment: Experiment, store: Store, results: list[str]) -> None:
     """Prints a warning about each varied key without an effect on the results, such as `timing.period` if the schedule is not asynchronous."""
-    runs = read_parquet(store.folder, "runs", columns=["status", *experiment.keys, *results])
-    runs = runs.filter(pc.equal(runs["status"], "complete"))
+    runs = read_parquet(store.folder, "runs").select(["status", *experiment.keys, *results])
+    # PyArrow would take a name that begins with a dot for a path.
+    runs = runs.filter(pc.equal(runs["status"], "complete")).rename_columns([str(index) for index in range(len(runs.column_names))])
+    places = {key: str(index + 1) for index, key in enumerate(experiment.keys)}
+    counted = [(str(index + 1 + len(places)), "count_distinct", pc.CountOptions("all")) for index in range(len(results))]
     # Keys of `zip` can have an effect only together.
     for keys in (*([key] for key, _ in experiment.product), [key for key, _ in experiment.together]):
         if all(key.split(".")[0] in WITHOUT_EFFECT for key in keys):
             continue
-        others = [key for key in experiment.keys if key not in keys]
-        counts = runs.group_by(others).aggregate([([], "count_all"), *((name, "count_distinct", pc.CountOptions("all")) for name in results)])
+        counts = runs.group_by([place for key, place in places.items() if key not in keys]).aggregate([([], "count_all"), *counted])
         compared = counts.filter(pc.greater(counts["count_all"], 1))
-        if len(compared) and all(pc.max(compared[f"{name}_count_distinct"]).as_py() == 1 for name in results):
+        if len(compared) and all(pc.max(compared[f"{place}_count_distinct"]).as_py() == 1 for place, *_ in counted):
             names = " and ".join(f"'{key}'" for key in keys)
             print(f"collektive: runs that differ only in {names} have equal results", file=sys.stderr)
 

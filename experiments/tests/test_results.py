@@ -71,7 +71,7 @@ def test_combined_tables_without_distinct_labels_or_seeds_are_rejected() -> None
         compare(replace(some, runs=pd.concat([some.runs, some.runs], ignore_index=True)), "error", "program")
     twice = replace(some, series=pd.concat([some.series.assign(source=source) for source in "ab"], ignore_index=True),
                     runs=pd.concat([some.runs.assign(source=source, run=source + some.runs["run"]) for source in "ab"], ignore_index=True))
-    options = read_options({"metric": "error", "by": "program"})
+    options = read_options({"metric": "error", "by": "program", "kind": "ecdf"})
     for draw_figure in (lambda: over_time(twice, "error"), lambda: at_end(twice, "error"), lambda: next(draw(twice, options))):
         with pytest.raises(ValueError, match="have the same seed"):
             draw_figure()
