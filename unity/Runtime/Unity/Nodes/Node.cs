@@ -66,8 +66,10 @@ namespace Collektive.Unity
         private AnswerCopy answerCopy;
         private RoundTimer timer;
         private double asleepUntil;
-        // Simulated time of the last round plus the duration of sleep since then; negative before the first round.
+        // Simulated time of the last round plus the duration of sleep since then; NaN before the first round.
         private double roundTime;
+        // Simulated time of the first tick of the present sleep; NaN while the node is awake.
+        private double sleepStart;
         private float roundInterval;
 
         /// <summary>The id in the running simulation; -1 while the node is not in one.</summary>
@@ -264,16 +266,21 @@ namespace Collektive.Unity
         /// <param name="now">Simulated time up to which rounds are due, in seconds.</param>
         internal bool TakeDue(double time, double now, float deltaTime)
         {
-            var isAsleep = asleepUntil > now;
-            IsDue = !isAsleep && (timer == null || timer.TakeDue(now));
+            if (asleepUntil > now)
+            {
+                if (double.IsNaN(sleepStart)) sleepStart = time;
+                return IsDue = false;
+            }
+            if (!double.IsNaN(sleepStart))
+            {
+                roundTime += time - sleepStart;
+                sleepStart = double.NaN;
+            }
+            IsDue = timer == null || timer.TakeDue(now);
             if (IsDue)
             {
-                roundInterval = roundTime < 0 ? deltaTime : (float)(time - roundTime);
+                roundInterval = double.IsNaN(roundTime) ? deltaTime : (float)(time - roundTime);
                 roundTime = time;
-            }
-            else if (isAsleep && roundTime >= 0)
-            {
-                roundTime += SimulatedSeconds.Exact(deltaTime);
             }
             return IsDue;
         }
@@ -292,7 +299,8 @@ namespace Collektive.Unity
             ForgetAnswer();
             timer = null;
             asleepUntil = 0;
-            roundTime = -1;
+            roundTime = double.NaN;
+            sleepStart = double.NaN;
             for (var i = 0; i < Sensors.Count; i++) Sensors[i].NodeJoined();
         }
 
