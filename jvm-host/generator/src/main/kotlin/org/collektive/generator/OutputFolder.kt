@@ -45,10 +45,9 @@ internal class OutputFolder(private val root: Path) {
     /** Throws if another schema in this folder has the namespace of the schema whose class is [path]. Both would have the same types. */
     fun checkNamespace(path: String) {
         val own = root.resolve(path)
+        if (!Files.isDirectory(own.parent)) return
         // On systems that ignore case, a renamed schema may have the same class.
-        val other = schemas().find {
-            it.parent == own.parent && listedIn(it).isNotEmpty() && !(Files.exists(own) && Files.isSameFile(it, own))
-        } ?: return
+        val other = schemasIn(own.parent, depth = 1).find { listedIn(it).isNotEmpty() && !(Files.exists(own) && Files.isSameFile(it, own)) } ?: return
         throw GeneratorException(
             "${other.parent}: its namespace already belongs to the schema of ${other.fileName}: choose another namespace or folder, " +
                 "or delete ${other.fileName} if its schema was renamed",
@@ -64,7 +63,7 @@ internal class OutputFolder(private val root: Path) {
         write(path, "$text$LIST${(written + path).filter(::isSource).joinToString()}\n")
         val obsolete = previous - written
         if (obsolete.isEmpty()) return
-        for (file in (obsolete - schemas().flatMap(::listedIn).toSet()).filter(::isSource).map(root::resolve)) {
+        for (file in (obsolete - schemasIn(root).flatMap(::listedIn).toSet()).filter(::isSource).map(root::resolve)) {
             // On systems that ignore case, a renamed type may have the same file.
             if (isOwn(file) && written.none { Files.isSameFile(root.resolve(it), file) }) Files.delete(file)
         }
@@ -74,10 +73,8 @@ internal class OutputFolder(private val root: Path) {
     private fun isOwn(file: Path): Boolean = Files.isRegularFile(file, NOFOLLOW_LINKS) && file.toRealPath().startsWith(root.toRealPath()) &&
         isGenerated(Files.readAllBytes(file))
 
-    private fun schemas(): List<Path> {
-        if (!Files.isDirectory(root)) return emptyList()
-        return Files.walk(root).use { paths -> paths.filter { it.nameWithoutExtension.endsWith("Schema") }.toList() }
-    }
+    private fun schemasIn(folder: Path, depth: Int = Int.MAX_VALUE): List<Path> =
+        Files.walk(folder, depth).use { paths -> paths.filter { it.nameWithoutExtension.endsWith("Schema") }.toList() }
 
     private fun listedIn(file: Path): List<String> {
         val line = if (Files.isRegularFile(file)) Files.readAllBytes(file).decodeToString().trimEnd().substringAfterLast('\n') else ""
