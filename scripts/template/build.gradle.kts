@@ -35,7 +35,8 @@ val generateSchemas by tasks.registering(JavaExec::class) {
     classpath = generator
     args("--flatc", flatc, "--include", types, "--jvm", generated.get().asFile)
     schemas.forEach { args("--schema", it) }
-    doFirst { generated.get().asFile.deleteRecursively() }
+    // A renamed schema leaves the classes of its old name.
+    doFirst { outputs.files.forEach { it.deleteRecursively() } }
 }
 
 // Inline functions of the library cannot be compiled for an older JVM.
