@@ -72,7 +72,7 @@ class Store:
                     files.remove(os.path.join(folder, name))
         settings = {"version": VERSION, "experiment": os.path.basename(experiment.path), "keys": experiment.keys, "set": experiment.fixed,
                     "zip": [key for key, _ in experiment.together],
-                 "measure": experiment.measure, "figures": experiment.located.root.get("figures", []), "labels": experiment.labels}
+                    "measure": experiment.measure, "figures": experiment.located.root.get("figures", []), "labels": experiment.labels}
         if not os.listdir(self.runs):
             # The folder has no results yet, so the bundle can be created again.
             files.remove(self.bundle)

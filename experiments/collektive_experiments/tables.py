@@ -152,7 +152,7 @@ def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> i
 def _warn_of_keys_without_effect(experiment: Experiment, store: Store, results: list[str]) -> None:
     """Prints a warning about each varied key without an effect on the results, such as `timing.period` if the schedule is not asynchronous."""
     runs = read_parquet(store.folder, "runs").select(["status", *experiment.keys, *results])
-    # PyArrow would take a name that begins with a dot for a path.
+    # PyArrow interprets a name that begins with a dot as a path.
     runs = runs.filter(pc.equal(runs["status"], "complete")).rename_columns([str(index) for index in range(len(runs.column_names))])
     places = {key: str(index + 1) for index, key in enumerate(experiment.keys)}
     counted = [(str(index + 1 + len(places)), "count_distinct", pc.CountOptions("all")) for index in range(len(results))]

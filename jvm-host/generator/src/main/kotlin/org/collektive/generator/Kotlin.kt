@@ -47,12 +47,12 @@ internal class Kotlin(private val schema: UserSchema) {
         },
         "annotation" to if (type.fields.any { !it.required }) "@JvmOverloads constructor" else "",
         "fields" to type.fields.map { mapOf("member" to member(it), "type" to kotlin(type, it), "default" to default(type, it)) },
-        "anyLimited" to type.fields.any { limit(it) != null },
-        "limits" to type.fields.mapNotNull { limit(it) },
+        "anyChecked" to type.fields.any { rangeCheck(it) != null },
+        "checks" to type.fields.mapNotNull { rangeCheck(it) },
     )
 
-    /** The check of an unsigned field, or `null`. */
-    private fun limit(field: Field): String? {
+    /** Returns the statement that checks the range of an unsigned field, or `null` for other fields. */
+    private fun rangeCheck(field: Field): String? {
         val isVector = field.type is VectorType
         val type = if (field.type is VectorType) field.type.element else field.type
         val scalar = if (type is EnumType) type.underlying else type
