@@ -41,15 +41,11 @@ STATE = [
 ]
 # More examples of the same kinds of state.
 MORE_STATE = [
-    ("for (var i = 0; i < 100; i++) new Kept(); var big = new object[300000]; lamps += Kept.Count > 0 ? 1 : 0;",
-     "internal sealed class Kept { internal static int Count; ~Kept() { Count++; } }"),
     ('if (System.Globalization.CultureInfo.CurrentCulture.Name == "de-DE") lamps++;'
      'System.Globalization.CultureInfo.CurrentCulture = new System.Globalization.CultureInfo("de-DE");', ""),
     ('if (System.Environment.GetEnvironmentVariable("LAMPS") != null) lamps++; System.Environment.SetEnvironmentVariable("LAMPS", "1");', ""),
     ('var cube = GameObject.CreatePrimitive(PrimitiveType.Cube); var mesh = cube.GetComponent<MeshFilter>().sharedMesh;'
      'if (mesh.bounds.size.x > 1) lamps++; mesh.bounds = new Bounds(Vector3.zero, 2 * Vector3.one);', ""),
-    ('GameObject.CreatePrimitive(PrimitiveType.Cube).AddComponent<Rigidbody>(); lamps += new GameObject("id").GetHashCode() % 7;', ""),
-    ('if (Collektive.Bridge.Jvm.GetStatus().Classes > lamps * 1000) lamps++; Collektive.Bridge.JvmRecording.Start("lamps.jfr");', ""),
     ("lamps += Kept.Next();", "internal static class Kept { internal static readonly System.Func<int> Next = "
      "((System.Func<System.Func<int>>)(() => { var count = 0; return () => count++; }))(); }"),
     ("lamps += Kept.List.Count; Kept.List.Add(1);", "internal static class Kept { public static readonly List<int> List = new List<int>(); }"),
