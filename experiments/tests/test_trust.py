@@ -119,9 +119,14 @@ def test_runs_do_not_depend_on_locale_and_time_zone(project: Project, monkeypatc
     assert list(project.table()["nodes"]) == [11]
 
 
-@pytest.mark.parametrize(("build", "is_used_again"), [("", True), pytest.param("System.GC.Collect();", False, marks=pytest.mark.slow)])
-def test_a_process_is_reused_only_for_scripts_without_state(project: Project, tmp_path: Path, build: str, is_used_again: bool) -> None:
-    change_scene(project, build)
+@pytest.mark.parametrize(("build", "declared", "is_used_again"), [
+    ("", "", True),
+    pytest.param("System.GC.Collect();", "", False, marks=pytest.mark.slow),
+    pytest.param("new Kept();", "internal sealed class Kept { ~Kept() { } }", False, marks=pytest.mark.slow),
+])
+def test_a_process_is_reused_only_for_scripts_without_state(
+        project: Project, tmp_path: Path, build: str, declared: str, is_used_again: bool) -> None:
+    change_scene(project, build, declared)
     assert project.sweep(vary={"seed": [1]}).returncode == 0
     worker = Worker(str(project.folder / "out/bundle"), str(tmp_path / "worker.txt"))
     try:
