@@ -48,24 +48,26 @@ internal class Kotlin(private val schema: UserSchema) {
         "annotation" to if (type.fields.any { !it.required }) "@JvmOverloads constructor" else "",
         "fields" to type.fields.map { mapOf("member" to member(it), "type" to kotlin(type, it), "default" to default(type, it)) },
         "anyChecked" to type.fields.any { rangeCheck(it) != null },
-        "checks" to type.fields.mapNotNull { rangeCheck(it) },
+        "checks" to type.fields.mapNotNull(::rangeCheck),
     )
 
     /** Returns the statement that checks the range of an unsigned field, or `null` for other fields. */
     private fun rangeCheck(field: Field): String? {
-        val isVector = field.type is VectorType
-        val type = if (field.type is VectorType) field.type.element else field.type
-        val scalar = if (type is EnumType) type.underlying else type
-        if (scalar !is Scalar || scalar !in UNSIGNED) return null
-        val value = if (isVector || field.optional) "it" else member(field)
+        val scalar = unsigned(field.type) ?: return null
+        val value = if (field.optional) "it" else member(field)
         val number = if (scalar.kotlin == "Long") value else "$value.toLong()"
-        val check = "ResultRules.requireUnsigned($number, ${Byte.SIZE_BITS * scalar.bytes}, \"${field.name}\")"
-        return when {
-            isVector -> "${member(field)}${if (field.required) "" else "?"}.forEach { $check }"
-            field.optional -> "${member(field)}?.let { $check }"
-            else -> check
-        }
+        val check = "ResultRules.requireUnsigned($number, ${bits(scalar)}, \"${field.name}\")"
+        return if (field.optional) "${member(field)}?.let { $check }" else check
     }
+
+    /** Returns the unsigned scalar whose Kotlin type has more values, or `null` for other types. */
+    private fun unsigned(type: Type): Scalar? = when (type) {
+        is Scalar -> type.takeIf { it == Scalar.UBYTE || it == Scalar.USHORT || it == Scalar.UINT }
+        is EnumType -> unsigned(type.underlying)
+        else -> null
+    }
+
+    private fun bits(type: Scalar) = Byte.SIZE_BITS * type.bytes
 
     private fun documentation(text: String) = SchemaText.withoutCommentEnds(text)
 
@@ -256,7 +258,7 @@ internal class Kotlin(private val schema: UserSchema) {
                 is StringType -> fault("strings($value, $name)")
                 is TableType -> fault("items($value, $name) { fault(it, depth - 1) }")
                 is StructType -> fault("items($value, $name) { null }")
-                else -> null
+                else -> unsigned(type.element)?.let { fault("unsigned($value, ${bits(it)}, $name)") }
             }
         }
     }
@@ -273,9 +275,4 @@ internal class Kotlin(private val schema: UserSchema) {
     private fun member(field: Field): String = lowerCamel(field.name).let { if (it in ReservedNames.kotlin) "`$it`" else it }
 
     private fun constant(type: TableType): String = "LAYOUT_${type.name.toString().replace('.', '_').uppercase()}"
-
-    private companion object {
-        /** The types whose Kotlin type has more values. */
-        val UNSIGNED = setOf(Scalar.UBYTE, Scalar.USHORT, Scalar.UINT)
-    }
 }

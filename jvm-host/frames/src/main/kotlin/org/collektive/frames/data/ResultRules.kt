@@ -15,7 +15,21 @@ public object ResultRules {
 
     /** Throws an exception if [value] is not an unsigned number of [bits] bits, because a frame would contain another number. */
     public fun requireUnsigned(value: Long, bits: Int, name: String) {
-        require(value ushr bits == 0L) { "$name is $value; it must be from 0 to ${(1L shl bits) - 1}" }
+        require(value ushr bits == 0L) { outOfRange(value, bits, name) }
+    }
+
+    /** Checks a vector of unsigned numbers of [bits] bits, fewer than 32. */
+    public fun unsigned(value: IntArray?, bits: Int, name: String): String? {
+        if (value == null) return null
+        for (i in value.indices) if (value[i] ushr bits != 0) return outOfRange(value[i].toLong(), bits, "$name[$i]")
+        return null
+    }
+
+    /** Checks a vector of unsigned numbers of [bits] bits. */
+    public fun unsigned(value: LongArray?, bits: Int, name: String): String? {
+        if (value == null) return null
+        for (i in value.indices) if (value[i] ushr bits != 0L) return outOfRange(value[i], bits, "$name[$i]")
+        return null
     }
 
     /** Checks a string field. */
@@ -48,6 +62,8 @@ public object ResultRules {
 
     @PublishedApi
     internal fun join(path: String, problem: String): String = if (problem == TOO_DEEP) "$path $problem" else "$path.$problem"
+
+    private fun outOfRange(value: Long, bits: Int, name: String) = "$name is $value; it must be from 0 to ${(1L shl bits) - 1}"
 
     private fun isWellFormed(text: String): Boolean {
         var i = 0

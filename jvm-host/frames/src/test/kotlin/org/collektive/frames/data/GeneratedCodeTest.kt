@@ -153,6 +153,11 @@ internal class GeneratedCodeTest {
         assertEquals("label contains an unpaired surrogate", problem("label", "x\ud83d"))
         assertEquals("words[1] is null", problem("words", listOf("a", null)))
         assertEquals("words[0] contains an unpaired surrogate", problem("words", listOf("\ude80")))
+        val modes = intArrayOf(0, 255, 0)
+        val result = resultWith("modes" to modes)
+        assertNull(features.findProblem(result))
+        modes[2] = 256
+        assertEquals("modes[2] is 256; it must be from 0 to 255", features.findProblem(result))
         assertEquals("leaves[0] is null", problem("leaves", listOf(null)))
         assertEquals("path[0] is null", problem("path", listOf(null)))
         val tree = type("TreeValue").constructors.single { it.parameterCount == 1 }.newInstance(leaf("\ud83d"))
@@ -170,7 +175,6 @@ internal class GeneratedCodeTest {
     fun `an unsigned number out of range is refused`() {
         assertOutOfRange("mode is 256; it must be from 0 to 255") { resultWith("mode" to 256) }
         assertOutOfRange("maybe_mode is -1; it must be from 0 to 255") { resultWith("maybeMode" to -1) }
-        assertOutOfRange("modes is 256; it must be from 0 to 255") { resultWith("modes" to intArrayOf(0, 255, 256)) }
         val schema = GeneratedSchemas.of(
             "namespace test.unsigned; table SensorData { } struct ActuatorData { high: ushort; count: uint; }",
             "test.unsigned.UserSchema",
