@@ -6,6 +6,7 @@ import java.nio.file.FileSystemException
 import java.nio.file.Files
 import java.nio.file.LinkOption.NOFOLLOW_LINKS
 import java.nio.file.Path
+import kotlin.io.path.extension
 import kotlin.io.path.nameWithoutExtension
 
 /** A folder of generated files. An unchanged file keeps its modification time, so that builds do not redo work. */
@@ -47,7 +48,9 @@ internal class OutputFolder(private val root: Path) {
         val own = root.resolve(path)
         if (!Files.isDirectory(own.parent)) return
         // On systems that ignore case, a renamed schema may have the same class.
-        val other = schemasIn(own.parent, depth = 1).find { listedIn(it).isNotEmpty() && !(Files.exists(own) && Files.isSameFile(it, own)) } ?: return
+        val other = schemasIn(own.parent, depth = 1).find {
+            it.extension == own.extension && listedIn(it).isNotEmpty() && !(Files.exists(own) && Files.isSameFile(it, own))
+        } ?: return
         throw GeneratorException(
             "${other.parent}: its namespace already belongs to the schema of ${other.fileName}: choose another namespace or folder, " +
                 "or delete ${other.fileName} if its schema was renamed",

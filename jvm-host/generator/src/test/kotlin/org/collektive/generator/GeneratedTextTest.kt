@@ -245,6 +245,18 @@ internal class GeneratedTextTest {
         assertContains(texts(work.resolve("out")).keys, "jvm/a/SecondSchema.kt")
     }
 
+    @Test
+    fun `both languages can share a folder`() {
+        val schema = Fixture.newFolder().resolve("user.fbs")
+        Files.writeString(schema, "namespace a; struct SensorData { x: float; } struct ActuatorData { x: float; }")
+        val out = schema.resolveSibling("out")
+        fun generate(): Map<String, String> {
+            generate(Arguments(Fixture.flatc, listOf(schema), Fixture.root.resolve("schema"), out, out))
+            return texts(out)
+        }
+        assertEquals(generate(), generate())
+    }
+
     private fun texts(folder: Path): Map<String, String> = Fixture.files(folder).associate {
         folder.relativize(it).joinToString("/") to Files.readAllBytes(it).toString(Charsets.ISO_8859_1)
     }.toSortedMap()
