@@ -67,14 +67,19 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(body.linearVelocity.x, Is.EqualTo(1).Within(1e-6f));
         }
 
-        [Test]
-        public void A_body_with_asynchronous_rounds_does_not_pass_its_target()
+        [TestCase(0.5f, 0)]
+        [TestCase(0.07f, 0)]
+        [TestCase(0.12f, 0)]
+        [TestCase(0.2f, 0.19f)]
+        public void A_body_with_asynchronous_rounds_does_not_pass_its_target(float period, float jitter)
         {
-            Configure("double", ScheduleTests.Asynchronous(0.5f));
+            Configure("double", ScheduleTests.Asynchronous(period, jitter));
             var node = MakeNode(1).Node;
             var body = node.gameObject.AddComponent<Rigidbody>();
             body.useGravity = false;
-            node.gameObject.AddComponent<Move>().ReachTime = 0.1f;
+            var move = node.gameObject.AddComponent<Move>();
+            move.ReachTime = 0.02f;
+            move.MaxSpeed = 1000;
             for (var tick = 0; tick < 40; tick++)
             {
                 if (tick == 20) node.Sleep(0.2);

@@ -257,6 +257,7 @@ namespace Collektive.Headless.Tests.Simulation
             node.Sensor.Value = 0;
             Play(1);
             Assert.That(node.Node.AnswerTick, Is.EqualTo(7));
+            Assert.That(node.Node.AnswerInterval, Is.EqualTo(0.05f).Within(1e-6f));
             Expect(node, node.Answer, 7);
         }
 

@@ -148,8 +148,8 @@ namespace Collektive.Unity
         public double AnswerTime { get; private set; } = -1;
 
         /// <summary>
-        /// Simulated seconds from the previous round, even if it failed, to the round of the last answer, without the seconds in which the node slept; in the
-        /// first round, the manager's delta time. It is meant for actuators whose effect depends on the elapsed time.
+        /// Simulated seconds from the previous round, even if it failed, to the round of the last answer, without the seconds in which the node slept. In the
+        /// first round, it is the manager's delta time. It is meant for actuators whose effect depends on the elapsed time.
         /// </summary>
         public float AnswerInterval { get; private set; }
 
@@ -285,8 +285,8 @@ namespace Collektive.Unity
             return IsDue;
         }
 
-        /// <summary>The expected seconds from a round of the node to the next one.</summary>
-        internal float RoundPeriod => timer == null ? Simulation.DeltaTime : timer.Period;
+        /// <summary>The greatest possible number of seconds from a round of the node to the next one, if the node does not sleep. Rounds begin with ticks.</summary>
+        internal float LongestInterval => Simulation.DeltaTime * (timer == null ? 1 : Mathf.Ceil(timer.LongestInterval / Simulation.DeltaTime - 1e-3f));
 
         internal void OnJoined(Simulation simulation, int newId)
         {

@@ -27,6 +27,9 @@ namespace Collektive.Unity
 
         internal float Period { get; }
 
+        /// <summary>The greatest possible number of seconds from one due time to the next.</summary>
+        internal float LongestInterval => (float)(period + jitter);
+
         /// <summary>Returns whether a round has become due since the last call that returned true. Times must not decrease.</summary>
         internal bool TakeDue(double now)
         {

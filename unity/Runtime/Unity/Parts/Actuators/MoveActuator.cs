@@ -91,7 +91,7 @@ namespace Collektive.Unity
             var fall = body.linearVelocity.y;
             if (body.useGravity) offset.y = 0;
             // The body keeps the velocity until the next round.
-            var velocity = Velocity(offset, Mathf.Max(Node.AnswerInterval, Node.RoundPeriod));
+            var velocity = Velocity(offset, Mathf.Max(Node.AnswerInterval, Node.LongestInterval));
             if (body.useGravity) velocity.y = fall;
             body.linearVelocity = velocity;
         }
