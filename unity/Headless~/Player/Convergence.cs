@@ -100,8 +100,8 @@ namespace Collektive.Headless
             {
                 if (!(value >= From && value <= To)) since = null;
                 else since = since ?? second;
-                // Rows of an interval of 1 s may be 30 ticks of 0.0333333 s apart.
-                var least = Seconds * (1 - RowSchedule.Tolerance) - RowSchedule.Tolerance;
+                // Rows of an interval of 1 s may be 30 ticks of 0.033333 s apart.
+                var least = Seconds * (1 - RowSchedule.Tolerance);
                 // The metric cannot converge at second 0, because no round has run yet.
                 if (since != null && second > 0 && second - since >= least) Time = Time ?? Math.Round(since.Value, 6, MidpointRounding.AwayFromZero);
             }

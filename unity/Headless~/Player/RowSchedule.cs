@@ -6,8 +6,8 @@ namespace Collektive.Headless
     /// <summary>Determines when rows of a table are due. It counts ticks, because sums of times are inexact: 50 times 0.02f is less than 1.</summary>
     internal sealed class RowSchedule
     {
-        /// <summary>Tolerance with which quotients of times are compared.</summary>
-        internal const double Tolerance = 1e-6;
+        /// <summary>Relative tolerance with which times are compared. It permits tick lengths with five digits, such as 0.016667.</summary>
+        internal const double Tolerance = 5e-5;
 
         private readonly double ticksPerRow;
         private int rows = 1;

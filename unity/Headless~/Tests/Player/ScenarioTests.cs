@@ -253,15 +253,18 @@ namespace Collektive.Headless.Tests.Player
                 + "are: other"));
         }
 
-        [Test]
-        public void A_period_of_rounded_ticks_has_its_full_length()
+        [TestCase(0.0333333, 30, 49.99995)]
+        [TestCase(0.033333, 30, 49.9995)]
+        [TestCase(0.016667, 60, 50.001)]
+        [TestCase(0.0083333, 120, 49.9998)]
+        public void A_metric_converges_after_just_the_period_with_rounded_ticks(double deltaTime, int ticksPerRow, double expected)
         {
             var root = Minimal();
             root["converged"] = new JObject(new JProperty("error", new JObject(new JProperty("to", 1), new JProperty("seconds", 10))));
             var convergence = Read(root).Convergence;
             convergence.Bind(new[] { "error" });
-            for (var row = 0; row <= 60; row++) convergence.Add(row * 30 * 0.0333333, new[] { row >= 50 ? 0.0 : 2 });
-            Assert.That((double?)convergence.Times()["error"], Is.EqualTo(49.99995));
+            for (var row = 0; row <= 60; row++) convergence.Add(row * ticksPerRow * deltaTime, new[] { row >= 50 ? 0.0 : 2 });
+            Assert.That((double?)convergence.Times()["error"], Is.EqualTo(expected));
         }
 
         [Test]
@@ -409,6 +412,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase(0.1f, 1000)]
         [TestCase(0.03f, 3334)]
         [TestCase(1 / 3f, 300)]
+        [TestCase(0.016667f, 6000)]
         public void One_row_is_due_per_interval_for_any_tick_length(float deltaTime, int ticks)
         {
             var rows = new RowSchedule(1, deltaTime);
