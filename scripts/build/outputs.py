@@ -29,8 +29,8 @@ SWEEP = ".collektive-sweep"
 def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
     """Creates the folder of a run, locks it until this process and its children end, and removes earlier results.
 
-    If the run completes no tick, for example because of an invalid seed or JVM option, restores the earlier results. Raises `Failure` if the folder cannot
-    be used, or if it has earlier results and `overwrite` is false.
+    If the run fails before it completes a tick, for example because of an invalid seed or JVM option, restores the earlier results. Raises `Failure` if the
+    folder cannot be used, or if it has earlier results and `overwrite` is false.
     """
     for place in Path(os.path.realpath(folder)).parents:
         # A resumed sweep may delete the folders of its runs and its bundle, as in `deletable_above` of collektive_experiments.
@@ -107,7 +107,7 @@ def _end(folder: Path) -> None:
 
 
 def _failed_before_first_tick(manifest: Path) -> bool:
-    """Returns whether a run ended before it completed its first tick, unless a script ended it normally."""
+    """Returns whether a run ended before it completed its first tick, unless a script ended it with code 0."""
     try:
         run = json.loads(manifest.read_bytes())
         return bool(run["ticks"] == 0 and run["outcome"] not in (COMPLETE, WITHOUT_PICTURES))
@@ -149,8 +149,8 @@ def require_replaceable(file: str, beginning: bytes, option: str) -> None:
 def require(folder: Path, outcome: str, code: int) -> None:
     """Raises `Failure` if the manifest of a run contradicts the player's exit code.
 
-    After code 0, the manifest must exist and contain the given outcome. After another code, its outcome must not be `RUNNING`, unless a signal ended the
-    player. Raises `Failure` without a message if the player has printed a file error.
+    After code 0, the manifest must exist and contain the given outcome. After another code, its outcome must not be `RUNNING`, unless SIGINT or SIGTERM
+    ended the player. After SIGKILL, it must exist. Raises `Failure` without a message if the player has printed a file error.
     """
     try:
         found = json.loads((folder / "manifest.json").read_text())["outcome"]

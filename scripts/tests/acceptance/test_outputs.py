@@ -96,6 +96,9 @@ class Outputs(Project):
                           ("--set", "outputs.nodes.fields=[\"nonesuch\"]"), ("--set", "jvm.flags=[\"-Xss1k\"]")]:
             self.assertEqual(self.run_it("--overwrite", *arguments).returncode, 1, arguments)
             self.assertEqual(self.contents(), before, arguments)
+        self.change("scene/Lamps.cs", "if (loop) ", "Application.Quit(3); if (loop) ")
+        self.assertEqual(self.run_it("--overwrite").returncode, 3)
+        self.assertEqual(self.contents(), before)
 
     @pytest.mark.slow
     def test_a_run_that_crashes_in_its_first_tick_keeps_earlier_results(self) -> None:

@@ -326,6 +326,12 @@ namespace Collektive.Headless
             var isRepeated = scenario.OriginalRun?.IsRepeatedBy(manifest) ?? true;
             // Exit codes have only eight bits, so 256 would become 0.
             var quitCode = Loop.ExitCode == 0 ? 0 : Math.Max(1, Loop.ExitCode & 0xff);
+            if (quitCode != 0 && completedTicks == 0)
+            {
+                var problem = "a script ended the run with code " + quitCode + " before its first tick";
+                Console.Error.WriteLine("collektive: " + problem);
+                manifest.Outcome = problem;
+            }
             if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
             if (errors == 0) return isRepeated ? 0 : 1;
             Console.Error.WriteLine(
