@@ -82,7 +82,11 @@ def resolve_parents(word: str) -> str:
         return word
     option, path = re.fullmatch("(--[a-z-]+=)?(.*)", word, re.DOTALL).groups("")  # type: ignore[union-attr]
     folder, name = os.path.split(path)
-    return word if os.path.realpath(os.path.normpath(path)) == os.path.realpath(path) else option + os.path.join(os.path.realpath(folder), name)
+    try:
+        return word if os.path.realpath(os.path.normpath(path)) == os.path.realpath(path) else option + os.path.join(os.path.realpath(folder), name)
+    except FileNotFoundError:
+        # The current folder was deleted, which `main` reports.
+        return word
 
 
 def main(words: list[str]) -> int:

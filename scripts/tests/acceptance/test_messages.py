@@ -104,7 +104,7 @@ class Messages(Project):
         small = subprocess.run(["bash", "-c", f"ulimit -s 64; {COLLEKTIVE} run {self.path('project', 'lamps.json')}"], capture_output=True, text=True)
         self.assertEqual(small.returncode, 1)
         self.assertIn("the stack limit is 64 KB, and the tools need 1024 KB: run ulimit -s 8192", small.stderr)
-        for command, code in {"check .": 1, "diff a b": 2}.items():
+        for command, code in {"check .": 1, "diff a ../b": 2}.items():
             deleted = subprocess.run(["bash", "-c", f"mkdir gone; cd gone; rmdir ../gone; {sys.executable} {ROOT}/scripts/collektive.py {command}"],
                                      cwd=self.folder, capture_output=True, text=True)
             self.assertEqual(deleted.returncode, code)
