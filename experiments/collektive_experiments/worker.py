@@ -69,7 +69,7 @@ class _Process:
                  "--java-home", java_home(), "--channel", str(child_end.fileno()), "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
                 stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()],
                 # Nodes of a cluster may have different settings, with which scripts and programs would have different results.
-                env={**os.environ, "LC_ALL": "C.UTF-8", "TZ": "UTC", "MONO_ENV_OPTIONS": ""})
+                env={**os.environ, "LC_ALL": "C.UTF-8", "TZ": "UTC", "MONO_ENV_OPTIONS": "", "MONO_CRASH_NOFILE": "1"})
         self._pids = {self._process.pid}
         self._ready = "" if settings is None else self._send({"start": True, "set": start})
 
@@ -90,8 +90,9 @@ class _Process:
         """Kills the process and its children. Any thread may call this method."""
         for path in glob.glob("/proc/[0-9]*/stat"):
             with contextlib.suppress(OSError), open(path, "rb") as file:
-                pid, (_, parent, *_) = path.split("/")[2], file.read().rpartition(b")")[2].split()
-                if int(parent) == self._process.pid:
+                pid, (_, _, _, session, *_) = path.split("/")[2], file.read().rpartition(b")")[2].split()
+                # Children keep the session when the process has ended.
+                if int(session) == self._process.pid:
                     self._pids.add(int(pid))
         try:
             os.killpg(self._process.pid, signal.SIGKILL)

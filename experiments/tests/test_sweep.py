@@ -386,15 +386,16 @@ def test_runs_that_fail_crash_or_hang_are_reported_and_the_others_complete(proje
 
 
 @pytest.mark.slow  # an acceptance test examines a single run
-@pytest.mark.parametrize("placement", ["InProcess", "OwnProcess"])
-def test_a_sweep_leaves_no_sockets_of_the_jvm(project: Project, placement: str) -> None:
+@pytest.mark.parametrize(("placement", "end"), [
+    ("InProcess", ""), ("OwnProcess", ""), ("OwnProcess", "System.Diagnostics.Process.GetCurrentProcess().Kill();")])
+def test_a_sweep_leaves_no_sockets_of_the_jvm(project: Project, placement: str, end: str) -> None:
     pids = project.folder / "pids"
     pids.mkdir()
     source = project.folder / "project/scene/Lamps.cs"
     source.write_text(source.read_text().replace("data.Brightness = Brightness;", "data.Brightness = Brightness;\n            "
                       "var child = Collektive.Bridge.Jvm.GetStatus().Process;"
-                      f'System.IO.File.WriteAllText("{pids}/" + (child == 0 ? System.Diagnostics.Process.GetCurrentProcess().Id : child), "");'))
-    assert project.sweep(vary={"seed": "1-3"}, set={"jvm.placement": placement}).returncode == 0
+                      f'System.IO.File.WriteAllText("{pids}/" + (child == 0 ? System.Diagnostics.Process.GetCurrentProcess().Id : child), "");' + end))
+    assert project.sweep(vary={"seed": "1-3"}, set={"jvm.placement": placement}).returncode == (1 if end else 0)
     assert len(list(pids.iterdir())) >= 3
     assert [pid.name for pid in pids.iterdir() if os.path.lexists(f"/tmp/.java_pid{pid.name}")] == []
 
