@@ -10,7 +10,7 @@ ALLOWED = {
                   "IndexOutOfRangeException UnsupportedOperationException NoSuchFieldError ArithmeticException NullPointerException "
                   "ClassCastException AssertionError Cloneable Class",
     "java/lang/invoke/": "LambdaMetafactory StringConcatFactory MethodHandles MethodHandles$Lookup CallSite MethodType MethodHandle",
-    "java/util/": "Collection List Set Map Map$Entry Iterator ListIterator Comparator ArrayList LinkedList ArrayDeque PriorityQueue HashMap HashSet "
+    "java/util/": "Collection List Set Map Map$Entry Iterator ListIterator Comparator ArrayList LinkedList ArrayDeque PriorityQueue "
                   "LinkedHashMap LinkedHashSet TreeMap TreeSet Arrays Collections Objects Optional NoSuchElementException BitSet "
                   "Deque Queue SortedMap SortedSet",
     "java/util/function/": None,

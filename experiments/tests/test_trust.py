@@ -103,7 +103,7 @@ def test_a_run_is_not_affected_by_programs_of_earlier_runs(project: Project, fou
 
 
 @pytest.mark.parametrize(("collection", "can_leave"), [("HashSet<Lamp>()", True), pytest.param("LinkedHashSet<Lamp>()", False, marks=pytest.mark.slow)])
-def test_a_process_is_not_reused_for_programs_that_depend_on_hashes(project: Project, tmp_path: Path, collection: str, can_leave: bool) -> None:
+def test_programs_that_depend_on_hashes_can_leave_state(project: Project, tmp_path: Path, collection: str, can_leave: bool) -> None:
     program = project.folder / "project/programs/Brightest.kt"
     program.write_text(program.read_text().replace("share(mine)", f"share(mine + listOf(Lamp(0), Lamp(1)).toCollection({collection}).first().index)")
                        + "internal class Lamp(val index: Int)\n")

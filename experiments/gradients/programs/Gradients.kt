@@ -62,7 +62,7 @@ public fun error(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
 
 /** Computes the shortest paths with the algorithm of Bellman and Ford, with a queue of the nodes whose distance has become shorter. */
 private fun shortestPaths(network: NetworkSnapshot<SensorData, ActuatorData>): Map<Int, Double> {
-    val distances = network.nodes.associateTo(HashMap()) { it.id to if (it.sensors?.isSource == true) 0.0 else FAR }
+    val distances = network.nodes.associateTo(LinkedHashMap()) { it.id to if (it.sensors?.isSource == true) 0.0 else FAR }
     val pending = ArrayDeque(network.nodes)
     while (true) {
         val node = pending.poll() ?: return distances
