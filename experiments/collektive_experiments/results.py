@@ -50,9 +50,9 @@ class Results:
 
     def other_keys(self, shown: list[str]) -> list[str]:
         """Returns the other keys of the configuration, except those that a shown key of the same `zip` determines."""
-        mates = [key for key in shown if key in self.zipped]
+        shown_zipped = [key for key in shown if key in self.zipped]
         return [key for key in self.configuration if key not in shown and not (
-            mates and key in self.zipped and self.runs[key].nunique() > 1 and self.runs.groupby(mates)[key].nunique().max() == 1)]
+            shown_zipped and key in self.zipped and self.runs[key].nunique() > 1 and self.runs.groupby(shown_zipped)[key].nunique().max() == 1)]
 
     @property
     def metrics(self) -> list[str]:

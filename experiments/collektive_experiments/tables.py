@@ -161,8 +161,7 @@ def _warn_of_keys_without_effect(experiment: Experiment, store: Store, results: 
         if all(key.split(".")[0] in WITHOUT_EFFECT for key in keys):
             continue
         counts = runs.group_by([place for key, place in places.items() if key not in keys]).aggregate([([], "count_all"), *counted])
-        compared = counts.filter(pc.greater(counts["count_all"], 1))
-        if len(compared) and all(pc.max(compared[f"{place}_count_distinct"]).as_py() == 1 for place, *_ in counted):
+        if (pc.max(counts["count_all"]).as_py() or 0) > 1 and all(pc.max(counts[f"{place}_count_distinct"]).as_py() == 1 for place, *_ in counted):
             names = " and ".join(f"'{key}'" for key in keys)
             print(f"collektive: runs that differ only in {names} have equal results", file=sys.stderr)
 

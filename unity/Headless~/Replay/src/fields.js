@@ -98,7 +98,7 @@ export function isolated(values) {
   return found;
 }
 
-/** Formats a number with four digits or more: integers and integer parts have all digits, and values that differ by `step` have different texts. */
+/** Formats a number with four digits or more. Integers and integer parts below 1e9 have all digits. Values that differ by `step` have different texts. */
 export function short(value, step) {
   const size = Math.abs(value);
   if (size >= 1e12 || (size > 0 && size < 1e-6)) return value.toExponential(digitsOf(value, step) - 1).replace(/\.?0*e\+?/, 'e');
