@@ -6,6 +6,7 @@ import time
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from build import processes
 from build.places import LOGS
 
 # A command that another command starts continues the clock of that command.
@@ -29,7 +30,7 @@ def print_progress(text: str) -> None:
 def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None, env: Mapping[str, str] | None = None, log: Path | None = None) -> None:
     """Runs a command and writes its output to a log file. Commands with the same name share a log.
 
-    If the exit code is not 0, prints the log and raises `Failure`.
+    If the exit code is not 0, raises `Failure`, and prints the log unless a signal interrupted the command.
     """
     path = log or LOGS / f"{name}.log"
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -44,5 +45,7 @@ def run_logged(name: str, command: Sequence[str | Path], cwd: Path | None = None
     lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
     # Compilers print the cause of an error first, and other tools print it last.
     shown = lines if len(lines) <= 60 else [*lines[:30], "...", *lines[-30:]]
-    print("\n".join(shown), file=sys.stderr)
+    # After Ctrl-C, the log ends with the interruption of the tool.
+    if not processes.was_interrupted():
+        print("\n".join(shown), file=sys.stderr)
     raise Failure(f"{name} failed; the full log is {path}")

@@ -60,6 +60,19 @@ def test_a_signal_ends_all_processes_and_is_the_exit_code(checkout: Checkout, nu
     assert ends(child)
 
 
+def test_an_interrupted_step_does_not_print_its_log(checkout: Checkout) -> None:
+    # The message and the error come from the tool, which receives the signal, too.
+    tool = "import signal, time; print('a message of the tool', flush=True); signal.signal(2, lambda *_: exit(1)); time.sleep(600)"
+    # Fetching runs its steps in other threads.
+    body = f"threading.Thread(target=run_logged, args=('tool', [sys.executable, '-c', {tool!r}])).start() or time.sleep(600)"
+    process = checkout.start(f"import threading, time; {run_in_group(body)}")
+    log = checkout.root / "build/log/tool.log"
+    wait_for(lambda: log.exists() and log.read_text())
+    process.send_signal(signal.SIGINT)
+    output, error = process.communicate(timeout=20)
+    assert "a message of the tool" not in output + error
+
+
 def test_a_signal_that_ended_a_process_is_the_exit_code(checkout: Checkout) -> None:
     assert checkout.run(run_in_group("__import__('os').kill(__import__('os').getpid(), 9)")).returncode == 137
 
