@@ -109,6 +109,9 @@ def _study(search: Search, store: Store) -> optuna.Study:
     path = os.path.abspath(os.path.join(store.folder, "study.db"))
     if os.path.islink(path):
         raise ExperimentError(f"'{path}' is a symbolic link; remove it, or name another folder with --out")
+    # SQLite writes to the file itself, so the search would also change a copy that `cp -al` made.
+    if os.path.exists(path) and os.stat(path).st_nlink > 1:
+        raise ExperimentError(f"'{path}' is a hard link: the search would also change its other names; replace it by a copy")
     # The folder's name may contain characters that are special in a URL.
     storage = sqlalchemy.URL.create("sqlite", database=path).render_as_string()
     try:

@@ -110,6 +110,11 @@ def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
     assert "is a symbolic link" in tune(project, "--resume", "--trials", "2", out=out).stderr
     assert (project.folder / "elsewhere.db").read_bytes() == content
     storage.unlink()
+    # A copy that `cp -al` made.
+    storage.hardlink_to(project.folder / "elsewhere.db")
+    assert "is a hard link" in tune(project, "--resume", "--trials", "2", out=out).stderr
+    assert (project.folder / "elsewhere.db").read_bytes() == content
+    storage.unlink()
     storage.write_bytes(content[:5000])
     damaged = tune(project, "--resume", "--trials", "2", out=out)
     assert (damaged.returncode, damaged.stderr.count("\n")) == (1, 1), damaged.stderr
