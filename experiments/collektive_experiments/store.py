@@ -63,7 +63,15 @@ class Store:
         if not os.path.islink(self.folder) and os.path.isdir(self.folder) and os.listdir(self.folder) and not files.is_marked(self.folder):
             raise ExperimentError(f"'{self.folder}' is not empty and was not created by a sweep: name another folder with --out")
         files.make(self.folder)
-        self.lock()
+        # `./collektive run` locks the folder before it writes its first file.
+        descriptor = os.open(self.folder, os.O_RDONLY)
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            self.lock()
+        except BlockingIOError as error:
+            raise ExperimentError(f"a run writes to '{self.folder}': name another folder with --out") from error
+        finally:
+            os.close(descriptor)
         for folder in (self.runs, self.logs):
             files.make(folder)
         for folder in (self.folder, self.runs):

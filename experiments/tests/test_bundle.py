@@ -1,4 +1,5 @@
 """Tests which files of a project a sweep copies."""
+import fcntl
 import json
 import os
 from pathlib import Path
@@ -77,3 +78,14 @@ def test_a_sweep_without_its_bundle_is_not_continued_with_other_inputs(project: 
         os.mkdir(os.path.join(store.runs, "seed=1"))
     with Store(str(project.folder / "out")) as store, pytest.raises(ExperimentError, match="with the inputs of the earlier runs is missing"):
         store.open(experiment, resume=True)
+
+
+def test_a_sweep_does_not_use_the_folder_of_a_run_that_has_written_no_files_yet(project: Project) -> None:
+    out = project.folder / "out"
+    out.mkdir()
+    run = os.open(out, os.O_RDONLY)
+    fcntl.flock(run, fcntl.LOCK_EX)
+    with Store(str(out)) as store, pytest.raises(ExperimentError, match="a run writes to"):
+        store.open(read(project.experiment()), resume=False)
+    assert not any(out.iterdir())
+    os.close(run)

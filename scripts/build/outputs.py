@@ -41,15 +41,15 @@ def open_folder(folder: Path, overwrite: bool) -> Iterator[None]:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise Failure(f"cannot create the output folder '{folder}': {error.strerror}; name another folder with --out") from error
-    if (folder / SWEEP).exists():
-        # The sweep would replace or delete nodes.csv.
-        raise Failure(f"'{folder}' is the folder of a sweep: name another folder with --out")
     descriptor = os.open(folder, os.O_RDONLY)
     os.set_inheritable(descriptor, True)
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError as error:
         raise Failure(f"another run writes to '{folder}': name another folder with --out") from error
+    if (folder / SWEEP).exists():
+        # The sweep would replace or delete nodes.csv.
+        raise Failure(f"'{folder}' is the folder of a sweep: name another folder with --out")
     try:
         # An earlier command may have been killed before it restored the results.
         _end(folder)
