@@ -186,6 +186,20 @@ suite('live', { timeout: 600000 }, async (t) => {
     await eventually(() => tab.evaluate(() => window.live.files.text), (text) => text === original, 'the editor should show the file');
   });
 
+  await t.test('keeps unsaved changes of a file that another editor removes for a moment', async () => {
+    const other = join(folder, 'out/live/GradientAscent/programs/Other.kt');
+    const hasFiles = (count) => eventually(() => tab.locator('#file option').count(), (now) => now === count, `${count} files should be listed`);
+    await tab.evaluate(() => window.live.files.view.dispatch({ changes: { from: 0, insert: '// unsaved\n' } }));
+    rmSync(program);
+    writeFileSync(other, '');
+    await hasFiles(2);
+    writeFileSync(program, original);
+    rmSync(other);
+    await hasFiles(1);
+    assert.equal(await tab.evaluate(() => window.live.files.text), `// unsaved\n${original}`);
+    await tab.evaluate(() => window.live.files.view.dispatch({ changes: { from: 0, to: '// unsaved\n'.length } }));
+  });
+
   await t.test('pauses, steps and changes the speed', async () => {
     await view.click('#play');
     const paused = await eventually(() => state(view), ({ running }) => !running, 'the simulation should pause');

@@ -56,7 +56,12 @@ class Files {
 
   /** Whether a file has changes that are not saved. */
   get isChanged() {
-    return [...this.files].some(([name, { state, saved }]) => (name === this.name ? this.text : state.doc.toString()) !== saved);
+    return [...this.files.keys()].some((name) => this.isFileChanged(name));
+  }
+
+  isFileChanged(name) {
+    const { state, saved } = this.files.get(name);
+    return (name === this.name ? this.text : state.doc.toString()) !== saved;
   }
 
   /** Removes all files with their changes. */
@@ -66,9 +71,9 @@ class Files {
     this.setProblems([]);
   }
 
-  /** Updates the files from disk, except files with unsaved changes. */
+  /** Updates the files from disk, except files with unsaved changes. Other editors may remove a file for a moment while they replace it. */
   update(files) {
-    for (const name of this.files.keys()) if (!(name in files)) this.files.delete(name);
+    for (const name of this.files.keys()) if (!(name in files) && !this.isFileChanged(name)) this.files.delete(name);
     for (const [name, file] of Object.entries(files)) this.updateFile(name, file);
     element('file').replaceChildren(...[...this.files.keys()].map((name) => part('option', name, { value: name })));
     if (!this.files.has(this.name)) this.open(this.files.keys().next().value);
@@ -83,7 +88,7 @@ class Files {
       return;
     }
     const shown = name === this.name ? this.view.state : known.state;
-    const isChanged = shown.doc.toString() !== known.saved;
+    const isChanged = this.isFileChanged(name);
     known.problem = problem;
     // A change from another editor becomes the base of the changes here only after a warning.
     if (!isChanged || text === known.sent || text === shown.doc.toString()) known.saved = text;
