@@ -179,7 +179,8 @@ def _value(store: Store, run: Run, metric: str) -> float:
     if name == metric or name not in manifest["converged"]:
         return math.nan
     time = manifest["converged"][name]
-    return float(manifest["scenario"]["seconds"] if time is None else time)
+    # The key `seconds` is not always a whole number of ticks.
+    return float(round(manifest["ticks"] * manifest["scenario"]["deltaTime"], 6) if time is None else time)
 
 
 def _write(study: optuna.Study, search: Search, path: str) -> None:

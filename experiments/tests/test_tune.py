@@ -121,14 +121,15 @@ def test_the_storage_is_in_the_output_folder_only(project: Project) -> None:
     assert f"'{storage}' cannot be read or written: database disk image is malformed" in damaged.stderr
 
 
-@pytest.mark.parametrize(("metric", "value"), [("two", 2), ("odd", math.nan), ("converged.two", 0.5), ("converged.three", 9), ("one", math.nan),
+@pytest.mark.parametrize(("metric", "value"), [("two", 2), ("odd", math.nan), ("converged.two", 0.5), ("converged.three", 9.3), ("one", math.nan),
                                                ("converged.one", math.nan)])
 def test_only_the_duration_of_runs_that_do_not_converge_replaces_a_value(project: Project, metric: str, value: float) -> None:
     run = next(read(project.experiment()).runs())
     store = Store(str(project.folder / "out"))
     part = store.runs + "/" + run.name + ".part"
     os.makedirs(part)
-    manifest = {"end": {"two": 2, "odd": "Infinity"}, "converged": {"two": 0.5, "three": None}, "scenario": {"seconds": 9}}
+    manifest = {"end": {"two": 2, "odd": "Infinity"}, "converged": {"two": 0.5, "three": None}, "ticks": 31,
+                "scenario": {"seconds": 9.25, "deltaTime": 0.3}}
     for name, content in (("manifest.json", json.dumps(manifest)), ("metrics.csv", ""), (".collektive-sweep", "")):
         with open(f"{part}/{name}", "w") as file:
             file.write(content)
