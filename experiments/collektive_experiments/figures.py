@@ -349,7 +349,7 @@ def _line(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str,
             continue
         places, means, low, high, is_bound = (np.array(column) for column in zip(*rows))
         line_style = _line_style(index)
-        axes.errorbar(places, means, [np.nan_to_num(means - low), np.nan_to_num(high - means)], label=str(index), capsize=2, **line_style)
+        axes.errorbar(places, means, [np.fmax(means - low, 0), np.fmax(high - means, 0)], label=str(index), capsize=2, **line_style)
         axes.plot(places[is_bound], means[is_bound], linestyle="", marker=line_style["marker"], color=line_style["color"], markerfacecolor="white", zorder=3)
     return counts
 

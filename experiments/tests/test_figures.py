@@ -452,6 +452,15 @@ def test_values_between_missing_values_are_drawn_with_their_interval(tmp_path: P
     assert intervals == [series["second"].nunique() // 2] * len(PROGRAMS)
 
 
+def test_means_that_differ_from_their_interval_by_a_rounding_error_are_drawn(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 12, (0.0,))
+    runs = pd.read_parquet(f"{folder}/runs.parquet")
+    # The mean of these values is below the interval, because resampled values are added in other orders.
+    values = 28.066399068880933 + np.array([-1, -1, 0, 1, 0, -1, 0, -1, 0, 1, 2, 2]) * np.spacing(28.0)
+    runs.assign(error=[*values] * 2).to_parquet(f"{folder}/runs.parquet")
+    assert len(list(draw(load(folder), read_options({"metric": "error", "x": "network.loss", "by": "program"})))) == 1
+
+
 def test_metrics_beyond_the_limit_of_figures_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = write_sweep(tmp_path / "out", 2, (0.0,))
     pd.read_parquet(f"{folder}/runs.parquet").assign(error=sys.float_info.max).to_parquet(f"{folder}/runs.parquet")
