@@ -243,13 +243,14 @@ namespace Collektive.Headless
 
         private double ReadInterval(JsonFile file, JObject part, string place)
         {
-            var interval = file.Optional(part, "interval", System.Math.Max(1.0, SimulatedSeconds.Exact(Settings.deltaTime)));
-            // An invalid delta time is reported later, with the other settings.
-            if (interval >= SimulatedSeconds.Exact(Settings.deltaTime) && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return interval;
+            var deltaTime = SimulatedSeconds.Exact(Settings.deltaTime);
+            var interval = file.Optional(part, "interval", System.Math.Max(1.0, deltaTime));
+            // An interval that is equal to the delta time may have more digits than a float. An invalid delta time is reported later, with the other settings.
+            if ((float)interval >= Settings.deltaTime && interval <= MaxTicks || float.IsNaN(Settings.deltaTime)) return System.Math.Max(interval, deltaTime);
             throw file.Error(
                 part["interval"] ?? root,
                 "'" + place + "interval' is " + Text(interval) + ": it must be " + (interval > MaxTicks
-                    ? "at most " + Text(MaxTicks) + " s" : "at least 'deltaTime', " + Text(SimulatedSeconds.Exact(Settings.deltaTime)) + " s"));
+                    ? "at most " + Text(MaxTicks) + " s" : "at least 'deltaTime', " + Text(deltaTime) + " s"));
         }
 
         /// <summary>Returns the scenario as a scenario file in which all keys are set, including those with default values.</summary>

@@ -65,6 +65,15 @@ namespace Collektive.Headless.Tests.Player
             Assert.That(Text(Read(once).ToJson(new JObject())), Is.EqualTo(Text(once)));
         }
 
+        [Test]
+        public void An_interval_may_be_equal_to_a_delta_time_with_more_digits_than_a_float()
+        {
+            var root = Minimal();
+            root["deltaTime"] = 1 / 60.0;
+            root["outputs"] = new JObject(new JProperty("interval", 1 / 60.0));
+            Assert.That(Read(root).Interval, Is.EqualTo(0.01666667));
+        }
+
         [TestCase("network", "{\"loss\": 0.1, \"los\": 0.1}", "unknown key 'network.los'; known here: loss, lossPerMetre")]
         [TestCase("timing", "{\"period\": \"long\"}", "'timing.period' is \"long\"; it must be of type number")]
         [TestCase("network", "0.1", "'network' is 0.1; it must be of type object; its keys are: loss, ")]
