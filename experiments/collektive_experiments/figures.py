@@ -376,11 +376,15 @@ def _boxes(axes: Axes, results: Results, data: pd.DataFrame, metric: str, x: str
             box["boxes"][0].set(facecolor=to_rgba(colour, 0.35), edgecolor=colour, hatch=HATCHES[index] if by else "",
                                 label="" if index in labelled else str(index))
             labelled.add(index)
+            ended = censored[sample.index].to_numpy(bool)
             if is_few:
                 spots = at + 0.5 * width * ((np.arange(len(sample)) * GOLDEN_RATIO) % 1 - 0.5)
-                ended = censored[sample.index].to_numpy(bool)
                 axes.plot(spots[~ended], sample[~ended], "o", color="black", markersize=2.2, markeredgewidth=0, alpha=0.7, zorder=3)
-                axes.plot(spots[ended], sample[ended], "^", color=colour, markersize=4, markeredgewidth=0.6, markerfacecolor="white", zorder=3)
+                places, bounds = spots[ended], sample[ended]
+            else:
+                bounds = sample[ended].drop_duplicates()
+                places = np.full(len(bounds), at)
+            axes.plot(places, bounds, "^", color=colour, markersize=4, markeredgewidth=0.6, markerfacecolor="white", zorder=3)
     _set_x_labels(axes, labels)
     axes.set_xlim(-0.6, len(labels) - 0.4)
     axes.grid(False, axis="x")
@@ -433,8 +437,8 @@ def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metr
     axes.grid(False)
     figure.colorbar(image, ax=axes, label=_axis(results, metric), pad=0.02)
     for (row, column), mean in np.ndenumerate(means.to_numpy(float)):
-        if np.isfinite(mean) and means.size <= MAX_CELLS:
-            number = f"{mean:#.2g}".rstrip(".") if abs(mean) < 99.5 else f"{mean:.0f}"
+        if np.isfinite(mean) and (means.size <= MAX_CELLS or bounds.iat[row, column]):
+            number = "" if means.size > MAX_CELLS else f"{mean:#.2g}".rstrip(".") if abs(mean) < 99.5 else f"{mean:.0f}"
             axes.text(column, row, ("≥" if bounds.iat[row, column] else "") + number, ha="center", va="center",
                       fontsize=matplotlib.rcParams["font.size"] - 2, color="white" if norm(mean) < 0.6 else "black")
     return set(groups[VALUE].count())

@@ -228,6 +228,17 @@ def test_runs_that_do_not_converge_are_censored_in_each_kind(sweep: str) -> None
         assert mark in captions[-1]
 
 
+def test_runs_that_do_not_converge_are_marked_in_large_figures(tmp_path: Path) -> None:
+    results = load(write_sweep(tmp_path / "runs", seeds=21))
+    (_, figure, caption), = draw(results, read_options({"metric": "converged.error", "kind": "box", "by": "program", "x": "network.loss"}))
+    assert "Triangles: " in caption
+    assert [list(line.get_ydata()) for line in figure.axes[0].get_lines() if line.get_marker() == "^" and len(line.get_ydata())] == [[8.0]]
+    results = load(write_sweep(tmp_path / "cells", 1, np.linspace(0, 0.4, 33).tolist()))
+    (_, figure, caption), = draw(results, read_options({"metric": "converged.error", "kind": "heat", "by": "program", "x": "network.loss"}))
+    assert "Cells with ≥: " in caption
+    assert [entry.get_text() for entry in figure.axes[0].texts] == ["≥"] * results.censored("converged.error").sum()
+
+
 def test_a_key_that_depends_on_x_does_not_divide_figures(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", seeds=2)
     for name in ("runs", "series"):
