@@ -285,7 +285,7 @@ namespace Collektive.Unity
             return IsDue;
         }
 
-        /// <summary>The greatest possible number of seconds from a round of the node to the next one, if the node does not sleep. Rounds begin with ticks.</summary>
+        /// <summary>The greatest possible number of seconds from a round of the node to the next one, without sleep. Rounds begin with ticks.</summary>
         internal float LongestInterval => Simulation.DeltaTime * (timer == null ? 1 : Mathf.Ceil(timer.LongestInterval / Simulation.DeltaTime - 1e-3f));
 
         internal void OnJoined(Simulation simulation, int newId)

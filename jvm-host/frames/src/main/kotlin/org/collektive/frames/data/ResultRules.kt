@@ -3,8 +3,8 @@ package org.collektive.frames.data
 /**
  * Finds values that a frame cannot represent: unsigned numbers out of range, malformed strings, and `null` in vectors from Java code.
  *
- * Generated code calls it. Each function except [requireUnsigned] returns the path of the field and the error, or `null`. A field that is `null` is
- * absent.
+ * Generated code calls it. Each function except [requireUnsigned] returns the path of the field and the error, or `null`. A field that is `null`
+ * is absent.
  */
 public object ResultRules {
     /** Maximum depth of nested tables. Detects an object that contains itself. */
