@@ -179,8 +179,12 @@ def _value(store: Store, run: Run, metric: str) -> float:
     if name == metric or name not in manifest["converged"]:
         return math.nan
     time = manifest["converged"][name]
-    # The key `seconds` is not always a whole number of ticks.
-    return float(round(manifest["ticks"] * manifest["scenario"]["deltaTime"], 6) if time is None else time)
+    if time is None:
+        # The run may have ended early. Its duration is a whole number of ticks, whose length has seven digits.
+        scenario = manifest["scenario"]
+        tick = float(f"{scenario['deltaTime']:.7g}")
+        time = round(max(1, round(scenario["seconds"] / tick)) * tick, 6)
+    return float(time)
 
 
 def _write(study: optuna.Study, search: Search, path: str) -> None:

@@ -128,8 +128,8 @@ def test_only_the_duration_of_runs_that_do_not_converge_replaces_a_value(project
     store = Store(str(project.folder / "out"))
     part = store.runs + "/" + run.name + ".part"
     os.makedirs(part)
-    manifest = {"end": {"two": 2, "odd": "Infinity"}, "converged": {"two": 0.5, "three": None}, "ticks": 31,
-                "scenario": {"seconds": 9.25, "deltaTime": 0.3}}
+    manifest = {"end": {"two": 2, "odd": "Infinity"}, "converged": {"two": 0.5, "three": None}, "ticks": 4,
+                "scenario": {"seconds": 9.25, "deltaTime": 0.30000001192092896}}
     for name, content in (("manifest.json", json.dumps(manifest)), ("metrics.csv", ""), (".collektive-sweep", "")):
         with open(f"{part}/{name}", "w") as file:
             file.write(content)
