@@ -456,7 +456,8 @@ def _caption(results: Results, data: pd.DataFrame, metric: str, kind: str, x: st
         caption = f"{estimate} of {title} of {runs}, with 95 % intervals."
     else:
         when = "" if metric.startswith(CONVERGED) else " at the end"
-        points = "points for all runs" if max(counts, default=0) <= MAX_POINTS else "values beyond"
+        points = ("points for all runs" if max(counts, default=0) <= MAX_POINTS else "values beyond" if min(counts) > MAX_POINTS
+                  else f"values beyond, or points for all runs of groups of up to {MAX_POINTS}")
         caption = f"{title}{when} of {runs}: median, quartiles, whiskers to the last value within 1.5 interquartile ranges, and {points}."
     if x == TIME:
         return caption

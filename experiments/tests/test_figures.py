@@ -333,6 +333,15 @@ def test_titles_of_panels_do_not_overlap(tmp_path: Path) -> None:
         assert [axes.get_title().replace("\n", " ").split()[-1] for axes in figure.axes] == ["0.25", "0.5", "0.75", "1"]
 
 
+def test_captions_of_box_plots_name_the_points_of_all_groups(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path, 21)
+    runs = pd.read_parquet(tmp_path / "runs.parquet")
+    for missing, points in ((0, "and values beyond."), (1, "and values beyond, or points for all runs of groups of up to 20.")):
+        runs.iloc[missing:].to_parquet(tmp_path / "runs.parquet")
+        (_, _, caption), = draw(load(folder), read_options({"metric": "error", "kind": "box", "by": "program", "x": "network.loss"}))
+        assert caption.endswith(points)
+
+
 def test_captions_state_how_many_panels_are_missing(tmp_path: Path) -> None:
     for panels, remark in ((24, ""), (25, "Only the first 24 of 25 panels are shown.")):
         results_of_panels = load(write_sweep(tmp_path / str(panels), 1, tuple(float(index) for index in range(panels))))
