@@ -290,9 +290,16 @@ def _draw(figure: Figure, results: Results, data: pd.DataFrame, metric: str, opt
         axes.set_xticks(ticks, [_value(results, tick) for tick in ticks])
         axes.xaxis.set_minor_formatter(NullFormatter())
     (axes.set_xlim if options.kind == "ecdf" else axes.set_ylim)(*options.range)
+    if (axes.xaxis if options.kind == "ecdf" else axes.yaxis).get_inverted():
+        raise _no_value(options, metric)
     if options.by:
         _add_legend(figure, results, options.by)
     return _caption(results, data, metric, options.kind, options.x, counts)
+
+
+def _no_value(options: FigureOptions, metric: str) -> ExperimentError:
+    """Returns the error for a range with one limit that leaves no value, for which Matplotlib would invert the axis."""
+    return options.fail("range", f"contains no value of '{metric}' in at least one figure; set both limits")
 
 
 def _add_legend(figure: Figure, results: Results, by: str) -> None:
@@ -429,7 +436,10 @@ def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metr
     rows, columns = _order(data[y]), _order(data[x])
     means, bounds = (column.unstack(0).reindex(index=rows, columns=columns) for column in (groups[VALUE].mean(), groups[BOUND].any()))
     low, high = options.range
-    norm = Normalize(means.min().min() if low is None else low, means.max().max() if high is None else high)
+    low, high = means.min().min() if low is None else low, means.max().max() if high is None else high
+    if low > high:
+        raise _no_value(options, metric)
+    norm = Normalize(low, high)
     image = axes.imshow(means, aspect="auto", origin="lower" if pd.api.types.is_numeric_dtype(data[y]) else "upper", cmap="viridis", norm=norm)
     _set_x_labels(axes, [_value(results, value) for value in columns])
     axes.set_yticks(range(len(rows)), [_value(results, value) for value in rows])
