@@ -203,6 +203,21 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void The_impulses_of_a_body_in_a_corner_are_those_of_each_collider()
+        {
+            foreach (var place in new[] { new Vector3(10.5f, 0, 0), new Vector3(0, -10.5f, 0), new Vector3(0, 0, 10.5f) })
+                MakeBox(place).transform.localScale = 20 * Vector3.one;
+            var node = MakeNode(0).Node;
+            node.gameObject.AddComponent<BoxCollider>();
+            node.gameObject.AddComponent<Rigidbody>().sleepThreshold = 0;
+            var sensor = node.gameObject.AddComponent<Contacts>();
+            Play(60);
+            Assert.That(sensor.Values.Count, Is.EqualTo(3));
+            foreach (var contact in sensor.Values)
+                Assert.That(contact.Impulse.magnitude, Is.EqualTo(contact.Collider.transform.position.y < 0 ? 9.81f * 0.05f : 0).Within(0.02f));
+        }
+
+        [Test]
         public void A_short_collision_between_two_rounds_is_reported_once()
         {
             Configure("double", settings => settings.deltaTime = 0.3f);
