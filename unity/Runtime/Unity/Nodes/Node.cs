@@ -144,7 +144,10 @@ namespace Collektive.Unity
         /// </summary>
         public ulong AnswerTick { get; private set; }
 
-        /// <summary>Simulated time of the last round that returned an answer, in seconds; -1 before the first answer.</summary>
+        /// <summary>
+        /// Simulated time at the end of the tick of the last answer, in seconds; -1 before the first answer. The <c>device.time</c> of the round is the time
+        /// at the beginning of the tick.
+        /// </summary>
         public double AnswerTime { get; private set; } = -1;
 
         /// <summary>
