@@ -85,7 +85,7 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
         raise ExperimentError(f"no trial has a value of '{search.metric}'; the messages are in '{store.runs}'")
     if len(done) < len(finished_trials):
         print(f"collektive: {len(finished_trials) - len(done)} of {len(finished_trials)} trials have no value of '{search.metric}', because it is not finite "
-              "or missing in one of their runs", file=sys.stderr)
+              "or missing in one of their runs, or one of them failed", file=sys.stderr)
     print(f"{len(done)} trials, best {search.metric} {text(study.best_value)} in trial {study.best_trial.number}:")
     for key, value in study.best_params.items():
         print(f"  {key} = {text(value)}")
