@@ -82,7 +82,10 @@ class Store:
                     "zip": [key for key, _ in experiment.together],
                     "measure": experiment.measure, "figures": experiment.located.root.get("figures", []), "labels": experiment.labels}
         if not os.listdir(self.runs):
-            # The folder has no results yet, so the bundle can be created again.
+            # The folder has no results yet, so the bundle can be created again. An interrupted deletion must not leave an incomplete bundle.
+            if files.is_marked(self.bundle):
+                os.rename(self.bundle, self.bundle + PART)
+                files.remove(self.bundle + PART)
             files.remove(self.bundle)
         elif not resume:
             raise ExperimentError(f"'{self.folder}' has results of a sweep: continue it with --resume, or name another folder with --out")

@@ -206,6 +206,21 @@ def test_a_failed_sweep_releases_its_folder(project: Project, monkeypatch: pytes
     assert main(words) == 0
 
 
+@pytest.mark.slow
+def test_an_interrupted_deletion_leaves_no_incomplete_bundle(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    words = ["sweep", project.experiment(vary={"seed": [1]}), "--out", str(project.folder / "out")]
+    assert main(words) == 0
+    shutil.rmtree(project.run("seed=1"))
+
+    def fail(*_: object) -> None:
+        raise OSError("a full disk")
+    with monkeypatch.context() as broken:
+        broken.setattr(shutil, "rmtree", fail)
+        assert main([*words, "--resume"]) == 1
+    assert not (project.folder / "out/bundle").exists()
+    assert main(words) == 0
+
+
 def test_a_folder_of_the_user_is_not_modified(project: Project) -> None:
     out = project.folder / "out"
     for name in ("bundle", "runs/x.part"):
