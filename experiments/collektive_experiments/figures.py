@@ -515,7 +515,7 @@ def at_end(results: Results, metric: str) -> tuple[Figure, str]:
     for axes, group in zip(panels, groups):
         counts |= _boxes(axes, results, group, metric, colour, None)
     _finish(figure, panels, results, metric, None)
-    return figure, _caption(results, results.complete, metric, "box", colour, counts) + remark + _omitted(results)
+    return figure, _caption(results, pd.concat(groups), metric, "box", colour, counts) + remark + _omitted(results)
 
 
 def _first_values(results: Results, data: pd.DataFrame) -> tuple[pd.DataFrame, str]:

@@ -353,6 +353,7 @@ def test_captions_state_how_many_panels_are_missing(tmp_path: Path) -> None:
         for draw_panels in (at_end, over_time):
             figure, caption = draw_panels(results_of_panels, "error")
             assert len(figure.axes) == 24 and ("panels" in caption) == bool(remark) and remark in caption
+        assert "Triangles: 46 of 48 runs did not converge" in at_end(results_of_panels, "converged.error")[1]
 
 
 def test_many_values_do_not_hide_figures_over_time_behind_their_legend(tmp_path: Path) -> None:
