@@ -18,7 +18,8 @@ namespace Collektive.Headless
         internal bool IsComplete => criteria.Count > 0 && criteria.TrueForAll(criterion => criterion.Time != null);
 
         /// <summary>Reads the criteria of the metrics.</summary>
-        internal static Convergence Read(JsonFile file, JObject metrics)
+        /// <param name="deltaTime">Length of a tick in simulated seconds.</param>
+        internal static Convergence Read(JsonFile file, JObject metrics, float deltaTime)
         {
             var convergence = new Convergence();
             foreach (var property in metrics.Properties())
@@ -27,7 +28,7 @@ namespace Collektive.Headless
                 var part = file.Part(metrics, "converged.", property.Name, new[] { "from", "to", "seconds" });
                 var criterion = new Criterion(
                     property.Name, file.Optional(part, "from", double.NegativeInfinity), file.Optional(part, "to", double.PositiveInfinity),
-                    file.Optional(part, "seconds", 0.0));
+                    file.Optional(part, "seconds", 0.0), deltaTime);
                 if (part["from"] == null && part["to"] == null)
                     throw file.Error(part, "'" + key + "' needs 'from', 'to' or both: the band of the metric's values");
                 if (!(criterion.From <= criterion.To)) throw file.Error(part, "'" + key + "': 'from' is greater than 'to'; swap them");
@@ -73,10 +74,13 @@ namespace Collektive.Headless
         /// <summary>The criterion by which one metric converges.</summary>
         internal sealed class Criterion
         {
+            private readonly double shortestPeriod;
             private double? since;
 
-            internal Criterion(string metric, double from, double to, double seconds)
+            internal Criterion(string metric, double from, double to, double seconds, float deltaTime)
             {
+                // Rows of an interval of 1 s may be 30 ticks of 0.033333 s apart. A period that lacks a whole tick is too short.
+                shortestPeriod = Math.Max(seconds * (1 - RowSchedule.Tolerance), seconds - deltaTime / 2);
                 Metric = metric;
                 From = from;
                 To = to;
@@ -100,10 +104,9 @@ namespace Collektive.Headless
             {
                 if (!(value >= From && value <= To)) since = null;
                 else since = since ?? second;
-                // Rows of an interval of 1 s may be 30 ticks of 0.033333 s apart.
-                var least = Seconds * (1 - RowSchedule.Tolerance);
                 // The metric cannot converge at second 0, because no round has run yet.
-                if (since != null && second > 0 && second - since >= least) Time = Time ?? Math.Round(since.Value, 6, MidpointRounding.AwayFromZero);
+                if (since != null && second > 0 && second - since >= shortestPeriod)
+                    Time = Time ?? Math.Round(since.Value, 6, MidpointRounding.AwayFromZero);
             }
 
             internal JObject ToJson()

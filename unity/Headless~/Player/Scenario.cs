@@ -68,7 +68,7 @@ namespace Collektive.Headless
             ReadParameters(file, file.Optional(root, "parameters", new JObject()));
             Queries = file.Optional(root, "metrics", new JObject());
             Functions = new FunctionMetrics(file, Queries);
-            Convergence = Convergence.Read(file, file.Optional(root, "converged", new JObject()));
+            Convergence = Convergence.Read(file, file.Optional(root, "converged", new JObject()), Settings.deltaTime);
             StopWhenConverged = file.Optional(root, "stopWhenConverged", false);
             if (StopWhenConverged && Convergence.Criteria.Count == 0)
                 throw file.Error(root["stopWhenConverged"], "'stopWhenConverged' needs 'converged', which defines when a metric has converged");

@@ -276,6 +276,20 @@ namespace Collektive.Headless.Tests.Player
             Assert.That((double?)convergence.Times()["error"], Is.EqualTo(expected));
         }
 
+        [TestCase(0.003, null)]
+        [TestCase(0.002, 0.002)]
+        public void A_long_period_of_convergence_lacks_no_tick(double start, double? expected)
+        {
+            var root = Minimal();
+            root["deltaTime"] = 0.001;
+            root["converged"] = new JObject(new JProperty("error", new JObject(new JProperty("to", 1), new JProperty("seconds", 100))));
+            var convergence = Read(root).Convergence;
+            convergence.Bind(new[] { "error" });
+            convergence.Add(start, new[] { 0.0 });
+            convergence.Add(100.002, new[] { 0.0 });
+            Assert.That((double?)convergence.Times()["error"], Is.EqualTo(expected));
+        }
+
         [Test]
         public void A_time_of_convergence_is_rounded_as_in_the_table()
         {
