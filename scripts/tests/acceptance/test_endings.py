@@ -5,11 +5,13 @@ import signal
 import socket
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 import replay
-from command import Project, collektive, jdk, last_error, processes
+from command import Project, collektive, compiled, jdk, last_error, processes
 
+from build import managed, player
 from build.places import COLLEKTIVE
 
 
@@ -256,6 +258,22 @@ class WholeRuns(Project):
         debugger.communicate("print sensors.brightness()\nclear lamps.BrightestKt.brightest\ncont\nquit\n")
         self.assertEqual(run.wait(60), 0, run.stderr.read())
         self.assertEqual(self.manifest(self.path("out"))["ticks"], 10)
+
+    def test_a_live_run_ends_without_an_error_if_its_connection_is_closed(self) -> None:
+        scenario = self.path("project", "lamps.json")
+        plan = player.plan(scenario, [])
+        jar, dll = (Path(compiled(compile_part)) for compile_part in (plan.programs_jar, plan.scripts_dll))
+        own_end, player_end = socket.socketpair()
+        with player_end:
+            command = player.command("live", scenario, plan, jar, dll, Path(jdk()), ["--out", self.folder, "--channel", str(player_end.fileno())])
+            run = subprocess.Popen(command, env=managed.environment("mono-sgen"), stderr=subprocess.PIPE, text=True, pass_fds=[player_end.fileno()])
+        own_end.recv(1)
+        # The paused run sends nothing, so only its reader notices that the connection is closed before the other messages are received.
+        own_end.sendall(b'{"run": false}\n')
+        time.sleep(1)
+        own_end.close()
+        self.assertEqual(run.communicate(timeout=60)[1], "")
+        self.assertEqual(run.returncode, 1)
 
     def test_threads_and_processes_of_a_script_do_not_outlive_the_run(self) -> None:
         began = time.monotonic()

@@ -83,8 +83,15 @@ namespace Collektive.Headless
 
         private void ReadCommands()
         {
-            var reader = new StreamReader(stream, Encoding.UTF8);
-            for (string line; (line = reader.ReadLine()) != null;) commands.Add(line);
+            try
+            {
+                var reader = new StreamReader(stream, Encoding.UTF8);
+                for (string line; (line = reader.ReadLine()) != null;) commands.Add(line);
+            }
+            catch (UnixIOException)
+            {
+                // The connection was closed before all messages were received.
+            }
             // The command has ended and closed the connection.
             Program.Exit(1);
         }
