@@ -19,8 +19,9 @@ from build.places import HOST_JAR, PLAYER
 READERS = {"scripts": inputs.scripts, "schema": inputs.schema, "programs": inputs.programs, "data": inputs.data, "runtimeJars": inputs.jars,
            "runtimePlugin": inputs.jar}
 
-# A number in Java. The host checks the digits of hexadecimal ones.
-NUMBER = re.compile(r"\s*[+-]?(NaN|Infinity|(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?[fFdD]?|0[xX].*)\s*", re.ASCII)
+# A number in Java, as in LiveRun.cs.
+NUMBER = re.compile(r"\s*[+-]?(NaN|Infinity|((\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|0[xX]([\da-fA-F]+\.?[\da-fA-F]*|\.[\da-fA-F]+)[pP][+-]?\d+)[fFdD]?)\s*",
+                    re.ASCII)
 
 
 @dataclass(frozen=True)

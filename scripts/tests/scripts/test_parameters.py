@@ -32,6 +32,7 @@ def test_names_that_only_the_compiler_can_read_do_not_hide_others(other: str, tm
     ({"hops": {"width": 1}}, "'parameters.hops': unknown program; the programs are: channel"),
     ({"channel": {"wide": 1}}, r"'parameters.channel.wide': unknown parameter; the program declares: kind, length, width"),
     ({"channel": {"width": "wide"}}, "'parameters.channel.width' is 'wide'; it must be a number like its default 1.0"),
+    ({"channel": {"width": "0xZZ"}}, "'parameters.channel.width' is '0xZZ'; it must be a number like its default 1.0"),
     ({"channel": {"width": True}}, "'parameters.channel.width' is 'true'; it must be a number"),
     ({"channel": {"kind": "Blue"}}, "'parameters.channel.kind' is 'Blue'; it must be one of Red, Green"),
 ])

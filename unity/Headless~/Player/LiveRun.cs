@@ -1,7 +1,7 @@
 using System;
 using System.Diagnostics;
-using System.Globalization;
 using System.Linq;
+using System.Text.RegularExpressions;
 using Collektive.Bridge;
 using Collektive.Unity;
 using Newtonsoft.Json;
@@ -29,6 +29,11 @@ namespace Collektive.Headless
         private const int MaxAdded = 10000;
 
         private const int SlotsPerRow = 1024;
+
+        /// <summary>A number in Java, as in scripts/build/player.py.</summary>
+        private static readonly Regex JavaNumber = new Regex(
+            @"^\s*[+-]?(NaN|Infinity|((\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|0[xX]([\da-fA-F]+\.?[\da-fA-F]*|\.[\da-fA-F]+)[pP][+-]?\d+)[fFdD]?)\s*$",
+            RegexOptions.ECMAScript);
 
         private readonly Scenario scenario;
         private readonly SceneBuilder scene;
@@ -239,11 +244,8 @@ namespace Collektive.Headless
             if (value == null) return "must have a value";
             if (parameter.Type == ParameterType.Enum)
                 return parameter.Values.Contains(value) ? null : "must be one of " + string.Join(", ", parameter.Values);
-            // In contrast to C#, the JVM accepts numbers with a suffix for the type.
-            return !IsNumber(parameter.DefaultValue.TrimEnd('d', 'D', 'f', 'F')) || IsNumber(value) ? null : "must be a number";
+            return !JavaNumber.IsMatch(parameter.DefaultValue) || JavaNumber.IsMatch(value) ? null : "must be a number";
         }
-
-        private static bool IsNumber(string text) => double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out _);
 
         private void RemoveNode(int id)
         {
