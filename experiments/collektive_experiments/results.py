@@ -9,7 +9,7 @@ import pyarrow as pa
 
 from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
-from .statistics import holm, paired_effect, unpaired_effect
+from .statistics import EFFECTS, holm, paired_effect, unpaired_effect
 from .store import Store
 from .tables import CONTENT, read_parquet
 
@@ -154,6 +154,9 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     metric = results.column(metric)
     rows = []
     others = results.other_keys([by])
+    # Combined tables may have keys with any names.
+    if taken := {"a", "b", "n_a", "n_b", "pairs", *EFFECTS, "p_holm"}.intersection(others):
+        raise ValueError(f"the key '{min(taken)}' has the name of a column of the comparison: rename the key")
     data = results.complete.assign(**{VALUE: results.values(metric)}).dropna(subset=VALUE)
     require_distinct(data, [*others, by])
     groups = data.groupby(others, sort=False, dropna=False) if others else [((), data)]

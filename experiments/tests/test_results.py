@@ -91,6 +91,14 @@ def test_combined_tables_without_a_value_of_a_key_are_rejected() -> None:
         replace(some, series=pd.concat([some.series, some.series.drop(columns="program")], ignore_index=True))
 
 
+@pytest.mark.parametrize("key", ["a", "p", "pairs"])
+def test_a_key_with_the_name_of_a_column_of_a_comparison_is_rejected(key: str) -> None:
+    some = results(2)
+    both = replace(some, keys=[*some.keys, key], runs=some.runs.assign(**{key: 1}), series=some.series.assign(**{key: 1}))
+    with pytest.raises(ValueError, match=f"the key '{key}' has the name of a column"):
+        compare(both, "error", "program")
+
+
 def test_axes_have_units_and_captions_the_number_of_runs() -> None:
     figure, caption = over_time(results(2), "error")
     axes = figure.axes[0]
