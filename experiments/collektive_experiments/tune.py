@@ -128,7 +128,10 @@ def _study(search: Search, store: Store) -> optuna.Study:
     if _finished(study, search) and not os.listdir(store.runs):
         # The bundle was created again, and its inputs may differ from those of the deleted runs.
         raise ExperimentError(f"'{path}' has trials whose runs were deleted: delete this file, too, or name another folder with --out")
+    if _finished(study, search) and study.user_attrs.get("inputs", store.inputs) != store.inputs:
+        raise ExperimentError(f"'{path}' was copied from a search with other inputs: delete it and continue with --resume")
     study.set_user_attr("search", search.identity)
+    study.set_user_attr("inputs", store.inputs)
     for trial in study.get_trials(states=(TrialState.RUNNING,)):
         # The search was killed while it proposed this trial.
         if trial.params.keys() != search.parameters.keys():

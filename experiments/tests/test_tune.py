@@ -81,6 +81,17 @@ def test_trials_without_runs_are_not_continued_with_other_inputs(project: Projec
     assert tune(project, "--trials", "1").returncode == 0
 
 
+def test_a_storage_of_a_search_with_other_inputs_is_refused(project: Project) -> None:
+    assert tune(project, "--trials", "2").returncode == 0
+    program = next((project.folder / "project/programs").glob("*.kt"))
+    program.write_text(program.read_text() + "// changed\n")
+    assert tune(project, "--trials", "1", out="other").returncode == 0
+    shutil.copy(project.folder / "out/study.db", project.folder / "other")
+    again = tune(project, "--trials", "2", "--resume", out="other")
+    assert again.returncode == 1
+    assert "study.db' was copied from a search with other inputs" in again.stderr
+
+
 @pytest.mark.parametrize(("change", "message"), [
     ("update trial_values set value = value + 1", "study.db' differs from the runs of trial 0: delete study.db and continue"),
     pytest.param("update trial_params set distribution_json = '{'", "study.db' cannot be read or written: ", marks=pytest.mark.slow)])
