@@ -43,7 +43,6 @@ namespace Collektive.Headless
             var tracks = extension == ".csv" ? FromCsv(file, isMoving) : extension == ".gpx" ? FromGpx(file, isMoving)
                 : extension != ".geojson" && extension != ".json" ? throw file.Error(0, "the name must end in .csv, .geojson, .json or .gpx")
                 : isMoving ? throw file.Error(0, "GeoJSON has no times: use a CSV or GPX file") : FromGeoJson(file);
-            if (tracks.Count == 0) throw file.Error(0, "the file contains no points");
             if (tracks.Count > MaxTracks) throw file.Error(0, "the file has " + tracks.Count + " nodes; the maximum is " + MaxTracks);
             return tracks;
         }
@@ -98,7 +97,7 @@ namespace Collektive.Headless
                 if (isGeographic) RequireGeographic(file, line, row[3], row[4]);
                 track.Add(file, line, row[5], row[first], row[first + 1]);
             }
-            if (isGeographic) Project(tracks);
+            if (isGeographic) Project(file, tracks);
             return tracks;
         }
 
@@ -141,7 +140,7 @@ namespace Collektive.Headless
             }
             foreach (var track in tracks)
                 for (var i = 0; i < track.times.Count; i++) track.times[i] -= earliest;
-            Project(tracks);
+            Project(file, tracks);
             return tracks;
         }
 
@@ -167,7 +166,7 @@ namespace Collektive.Headless
         {
             var tracks = new List<Track>();
             AddPoints(file, JsonFile.Read(file.Path).Root, tracks);
-            Project(tracks);
+            Project(file, tracks);
             return tracks;
         }
 
@@ -222,8 +221,9 @@ namespace Collektive.Headless
         }
 
         /// <summary>Converts degrees to metres from the centre of all points, by equirectangular projection. x points east, and z north.</summary>
-        private static void Project(List<Track> tracks)
+        private static void Project(DataFile file, List<Track> tracks)
         {
+            if (tracks.Count == 0) throw file.Error(0, "the file contains no nodes, which are points in GeoJSON and tracks in GPX");
             var longitudes = tracks.SelectMany(track => track.x).Distinct().OrderBy(longitude => longitude).ToList();
             double south = tracks.Min(track => track.z.Min()), north = tracks.Max(track => track.z.Max());
             // The area begins east of the widest gap, so it may continue beyond 180 degrees.
