@@ -100,11 +100,13 @@ namespace Collektive.Headless
                 var rest = CharacterAt(bytes, end);
                 var hasRest = sql.Substring(rest).Trim().Length > 0;
                 var hasParameters = sqlite3_bind_parameter_count(statement) != parameters;
-                // SQLite would read a column's name in single quotes as a text with the value 0.
-                var text = Comments.Replace(sql, comment => new string(' ', comment.Length)).IndexOf('\'');
-                if (!hasRest && !hasParameters && text < 0 && sqlite3_column_count(statement) == 1) return query;
+                // SQLite would read a column's name in single quotes as a text with the value 0, and "0 || 1" as the text 01.
+                var uncommented = Comments.Replace(sql, comment => new string(' ', comment.Length));
+                int text = uncommented.IndexOf('\''), concatenation = uncommented.IndexOf("||", StringComparison.Ordinal);
+                if (!hasRest && !hasParameters && text < 0 && concatenation < 0 && sqlite3_column_count(statement) == 1) return query;
                 query.Dispose();
                 if (!hasRest && text >= 0) throw new SqlException("it must not contain texts; write columns without single quotes", text);
+                if (!hasRest && concatenation >= 0) throw new SqlException("|| concatenates texts; write OR", concatenation);
                 throw new SqlException(hasParameters ? "it must not have parameters" : "it must be one expression", hasRest ? rest : -1);
             }
             finally

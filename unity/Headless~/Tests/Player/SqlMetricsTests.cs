@@ -42,6 +42,7 @@ namespace Collektive.Headless.Tests.Player
         [TestCase("avg(heard) + x", -1, "depends on the order of nodes: write each column in a function over all nodes")]
         [TestCase("avg(heard), max(x)", -1, "row value misused")]
         [TestCase("/* isn't */ avg('heard')", 16, "it must not contain texts; write columns without single quotes, at character 17")]
+        [TestCase("count(*) filter (where heard > 3 || heard < 1)", 33, "|| concatenates texts; write OR, at character 34")]
         [TestCase("sum(9223372036854775807)", -1, "integer overflow")]
         [TestCase("avg(?)", -1, "it must not have parameters")]
         [TestCase("avg(heard); select 1", 10, "near \";\": syntax error")]
