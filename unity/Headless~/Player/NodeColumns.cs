@@ -36,7 +36,8 @@ namespace Collektive.Headless
             foreach (var name in new[] { "message_values", "message_bytes" }) Add("", name, Kind.Message, columns.Count, "");
             answers = Reader.Of(typeof(AnswerReader<>), typeof(ActuatorBuffer<>), schema.CreateActuators());
             sensors = Reader.Of(typeof(SensorReader<>), typeof(SensorBuffer<>), schema.CreateSensors());
-            // Fields whose names in the schema equal those of their columns come first: "xy" is the column of xy, not of x_y, which is XY in generated code.
+            // Fields whose names in the schema equal those of their columns come first: "xy" is the column of xy, not of x_y, which is XY in generated code,
+            // and "target_x" is the column of target_x, not of the x of target, whose name contains an underscore here.
             foreach (var isExact in new[] { true, false })
             {
                 AddFields(answers, Kind.Answer, "answer_", isExact);
@@ -182,7 +183,7 @@ namespace Collektive.Headless
             for (var i = 0; i < reader.Fields.Count; i++)
             {
                 var name = SnakeCase(reader.Fields[i]);
-                if (AnswerField.GeneratedName(name) == AnswerField.GeneratedName(reader.Fields[i]) == isExact)
+                if (AnswerField.GeneratedName(name) == reader.Fields[i] == isExact)
                     Add(byName.ContainsKey(name) ? prefix : "", name, kind, i, reader.Fields[i]);
             }
         }

@@ -174,6 +174,7 @@ namespace Collektive.Headless.Tests.Player
         public void Columns_accept_schema_and_Kotlin_names(string sql) => Make(sql, new test.features.FeaturesSchema()).Dispose();
 
         [TestCase("avg(hrd)", " hop_count, hopcount, ")]
+        [TestCase("avg(hrd)", " answer_target_x, target_y, ")]
         [TestCase("max(hopCount)", "'hopCount' is ambiguous, because SQL ignores case: write hop_count or hopcount")]
         public void A_column_is_the_field_with_its_name_in_the_schema(string sql, string message)
         {
