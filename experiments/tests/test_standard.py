@@ -457,6 +457,8 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
      {"total(x) filter (where id = 0)": (-1.0564e7, -1.0563e7), "max(x)": (1.0563e7, 1.0564e7)}),
     # The program's target is the origin.
     ({"deployment": {"nodes": 4}, "movement": {"kind": "Target", "speed": 1}}, 2, {f"max({SPEED})": (0.5, 1.01), "max(x)": (1, 2.5)}),
+    # The height of the target does not slow the body, whose centre is 2 m above the ground.
+    ({"deployment": {"nodes": 2, "columns": 2, "spacing": 10}, "movement": {"kind": "Target", "bodyRadius": 2}}, 5, {"max(x)": (4.95, 5.05)}),
     ({"churn": {"failures": 0.1, "arrivals": 10}}, 5,
      {"count(*) filter (where id < 100)": (45, 75), "count(*) filter (where id >= 100)": (20, 70)}),
     ({"deployment": {"kind": "File", "file": "stations.csv"}, "sets": [{"name": "source", "ids": [7]}]}, 0.1,

@@ -36,10 +36,10 @@ namespace Collektive.Standard
         protected override Vector3 Read(ActuatorData data) => data.Velocity;
     }
 
-    /// <summary>Moves the node's body to the program's target.</summary>
+    /// <summary>Moves the node's body to the program's target at its present height, because bodies move only horizontally.</summary>
     public sealed class TargetActuator : MoveActuator<ActuatorData>
     {
-        protected override Vector3 Read(ActuatorData data) => data.Target;
+        protected override Vector3 Read(ActuatorData data) => new Vector3(data.Target.X, Node.Position.y, data.Target.Z);
     }
 
     /// <summary>Moves a node without a body along a random path. The path depends only on the movement, the seed and the node's id.</summary>
