@@ -71,6 +71,16 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Tick, Is.EqualTo(0));
         }
 
+        [TestCase(0.8, 4)]
+        [TestCase(0.9, 9)]
+        public void A_burst_length_can_be_the_least_possible(double share, double length)
+        {
+            Configure("sum", settings => settings.network = new NetworkModel { burstShare = share, burstLength = length });
+            MakeNode(1);
+            Play(1);
+            Assert.That(Manager.Failure, Is.Empty);
+        }
+
         /// <summary>Creates three nodes in a row, each linked to the next.</summary>
         private void Line(NetworkModel network, out ProbeNode left, out ProbeNode middle, out ProbeNode right)
         {

@@ -49,7 +49,8 @@ namespace Collektive.Bridge
             if (!IsAmount(jitter)) return "network jitter is " + jitter + " s: it must be 0 or greater";
             if (!(burstShare >= 0 && burstShare < 1)) return "network burst share is " + burstShare + ": it must be at least 0 and less than 1";
             var shortest = Math.Max(1, burstShare / (1 - burstShare));
-            if (!(burstLength >= shortest) || double.IsInfinity(burstLength))
+            // Without the tolerance, 4 would be too short for a share of 0.8, because 0.8 / (1 - 0.8) is 4.000000000000001.
+            if (!(burstLength >= 1 && burstLength * (1 + 1e-9) >= shortest) || double.IsInfinity(burstLength))
                 return "network burst length is " + burstLength + ": with a burst share of " + burstShare + " it must be at least " + shortest;
             if (!(burstLoss >= 0 && burstLoss <= 1)) return "network burst loss is " + burstLoss + ": it must be from 0 to 1";
             return FindRetentionProblem(retention, deltaTime);

@@ -42,7 +42,8 @@ public class NetworkModel(
         require(burstShare >= 0.0 && burstShare < 1.0) {
             "the network's burst share must be at least 0 and less than 1, but is $burstShare"
         }
-        require(burstLength >= 1.0 && burstLength >= burstShare / (1.0 - burstShare) && burstLength.isFinite()) {
+        // The tolerance is for shares such as 0.8, because 0.8 / (1 - 0.8) is 4.000000000000001.
+        require(burstLength >= 1.0 && burstLength * (1.0 + 1e-9) >= burstShare / (1.0 - burstShare) && burstLength.isFinite()) {
             "the network's burst length must be finite, at least 1 and at least burst share / (1 - burst share), but is $burstLength"
         }
         require(burstLoss in 0.0..1.0) { "the network's burst loss must be 0..1, but is $burstLoss" }

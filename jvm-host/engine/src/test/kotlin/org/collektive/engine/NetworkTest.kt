@@ -255,7 +255,7 @@ class NetworkTest {
 
     @TestFactory
     fun `losses have the requested rate and mean burst length`(): List<DynamicTest> =
-        listOf(0.05 to 4.0, 0.2 to 8.0, 0.5 to 1.0, 0.6 to 2.5).map { (share, length) ->
+        listOf(0.05 to 4.0, 0.2 to 8.0, 0.5 to 1.0, 0.6 to 2.5, 0.8 to 4.0).map { (share, length) ->
             DynamicTest.dynamicTest("$share, $length") {
                 val (messages, bursts) = bursts(NetworkModel(burstShare = share, burstLength = length))
                 assertEquals(share, bursts.sum().toDouble() / messages, 0.01 * share)
