@@ -6,7 +6,7 @@ import re
 
 def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive sweep."""
-    group = _add_run_arguments(parser)
+    group = _add_run_arguments(parser, "out/NAME")
     group.add_argument("--slurm", action="store_true", help="write slurm.sh, an array job for the remaining runs, instead of running them")
     parser.add_argument("--resume", action="store_true", help="continue a sweep that was stopped; complete runs are not repeated")
     parser.add_argument("--csv", action="store_true", help="also write the tables as CSV files")
@@ -15,15 +15,15 @@ def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
 
 def add_tune_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive tune."""
-    _add_run_arguments(parser)
+    _add_run_arguments(parser, "out/NAME-tuned")
     parser.add_argument("--trials", type=_positive, metavar="N", help="total number of trials (default: the number in the experiment file, or 50)")
     parser.add_argument("--resume", action="store_true", help="continue a search; complete runs are not repeated")
 
 
-def _add_run_arguments(parser: argparse.ArgumentParser) -> "argparse._MutuallyExclusiveGroup":
+def _add_run_arguments(parser: argparse.ArgumentParser, out: str) -> "argparse._MutuallyExclusiveGroup":
     """Adds the arguments of commands that execute runs. Returns the group of options that select other machines."""
     parser.add_argument("experiment", metavar="EXPERIMENT.json")
-    parser.add_argument("--out", metavar="DIR", help="folder for the results (default: out/NAME)")
+    parser.add_argument("--out", metavar="DIR", help=f"folder for the results (default: {out})")
     parser.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)), metavar="N",
                         help="simultaneous runs (default: the number of processors)")
     parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
