@@ -81,6 +81,22 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Failure, Is.Empty);
         }
 
+        [Test]
+        public void A_retention_with_more_digits_than_a_float_can_be_the_delta_time()
+        {
+            Configure("sum", settings =>
+            {
+                settings.deltaTime = 1 / 60f;
+                settings.network.retention = 1 / 60.0;
+            });
+            var left = MakeNode(1);
+            var right = MakeNode(2);
+            Manager.AddLink(left.Node.Id, right.Node.Id, directed: true);
+            Play(60);
+            Assert.That(Manager.Failure, Is.Empty);
+            Assert.That(right.Answer, Is.EqualTo(1));
+        }
+
         /// <summary>Creates three nodes in a row, each linked to the next.</summary>
         private void Line(NetworkModel network, out ProbeNode left, out ProbeNode middle, out ProbeNode right)
         {

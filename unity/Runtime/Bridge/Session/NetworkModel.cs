@@ -56,8 +56,9 @@ namespace Collektive.Bridge
             return FindRetentionProblem(retention, deltaTime);
         }
 
+        // The tolerance is for a retention such as 1/60 that has more digits than the delta time, which is rounded to seven.
         internal static string FindRetentionProblem(double retention, double deltaTime) =>
-            IsAmount(retention) && (retention == 0 || retention >= deltaTime) ? null
+            IsAmount(retention) && (retention == 0 || retention * (1 + 1e-6) >= deltaTime) ? null
                 : "network retention is " + retention + " s: it must be 0 (until the next message) or at least the delta time, " + deltaTime
                     + " s, otherwise messages expire before they are read";
 
