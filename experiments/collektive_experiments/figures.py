@@ -102,7 +102,7 @@ class Drawing:
         return self.svg.decode().split("?>", 1)[1].split(".dtd\">", 1)[-1]
 
 
-@matplotlib.rc_context(STYLE)
+@matplotlib.rc_context()
 def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptions | None = None, experiment: Experiment | None = None) -> list[str]:
     """
     Writes figures of a sweep as SVG and PDF, and their captions as text, to `figures/` in the sweep's folder. Returns their paths.
@@ -114,6 +114,9 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
 
     The figures and labels of `experiment` replace those that the experiment file had during the sweep.
     """
+    # A file matplotlibrc of the user or in the working folder must not change figures, or run LaTeX on their labels.
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update(STYLE)
     results = load(folder, experiment.labels if experiment else None)
     if results.complete.empty:
         raise ExperimentError(f"'{folder}' has no complete runs to plot; their errors are in runs.parquet. Correct them and continue with --resume")

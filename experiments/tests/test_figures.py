@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+import matplotlib
 import numpy as np
 import pandas as pd
 import pyarrow as pa
@@ -83,7 +84,11 @@ def test_the_same_tables_give_the_same_bytes(out: Path) -> None:
 
     def contents() -> list[bytes]:
         return [Path(path).read_bytes() for path in plot(str(out), options=read_options(options))]
-    assert contents() == contents()
+    expected = contents()
+    assert contents() == expected
+    with matplotlib.rc_context({"font.size": 30, "axes.facecolor": "red", "text.usetex": True}):
+        assert contents() == expected, "a file matplotlibrc must not change figures"
+        assert matplotlib.rcParams["font.size"] == 30
 
 
 @pytest.mark.parametrize(("options", "message"), [
