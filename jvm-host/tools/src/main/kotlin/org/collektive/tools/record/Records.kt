@@ -128,11 +128,9 @@ private fun diff(arguments: List<String>, report: Report): Int {
 private fun describe(record: Record): String {
     val settings = record.settings
     val jars = record.jars.joinToString { "${it.path.substringAfterLast('/').substringAfterLast('\\')} (SHA-256 ${sha256(it)})" }
-    val text = "schema ${settings.schema()}, program '${settings.program().orEmpty()}', seed ${settings.seed().toULong()}, $jars, " +
+    return "schema ${settings.schema()}, program '${settings.program().orEmpty()}', seed ${settings.seed().toULong()}, $jars, " +
         "${AggregateRuntime.of(settings.runtime()).title}; " +
         "recorded with ${record.head.trim().replace("\n", ", ")}"
-    // Escape sequences in a record must not reach the terminal.
-    return text.map { if (it.isISOControl()) '?' else it }.joinToString("")
 }
 
 private fun path(name: String): Path = try {
@@ -144,6 +142,6 @@ private fun path(name: String): Path = try {
 private fun code(isEqual: Boolean) = if (isEqual) EQUAL else DIFFERENT
 
 private fun failure(messages: PrintStream, e: Exception): Int {
-    messages.println("collektive: ${e.message}")
+    messages.println(printable("collektive: ${e.message}"))
     return ERROR
 }

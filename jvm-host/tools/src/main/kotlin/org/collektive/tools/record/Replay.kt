@@ -140,11 +140,14 @@ internal class Replay(
 /** Formats a digest as manifests do: 16 hexadecimal digits. */
 internal fun hex(digest: Long): String = digest.toULong().toString(16).padStart(16, '0')
 
+/** Returns a line in which escape sequences of a record cannot reach the terminal. */
+internal fun printable(line: String): String = String(CharArray(line.length) { if (line[it].isISOControl()) '?' else line[it] })
+
 /** Prints results and progress to separate streams. */
 internal class Report(private val results: PrintStream, private val messages: PrintStream) {
     private var shown = 0L
 
-    fun line(text: String) = results.println(text)
+    fun line(text: String) = results.println(printable(text))
 
     fun log(text: String) = messages.println(text)
 

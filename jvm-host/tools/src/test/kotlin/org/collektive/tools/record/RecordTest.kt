@@ -592,8 +592,10 @@ class RecordTest {
     fun `a record cannot print escape sequences`() {
         val jar = folder.resolve("\u001b[2Jhidden.jar")
         Files.copy(ProbeJars.programs, jar)
-        val result = run("replay", record(jar = jar))
-        assertContains(result.results, "?[2Jhidden.jar")
+        val file = record(jar = jar)
+        assertContains(run("replay", file).results, "?[2Jhidden.jar")
+        val other = record("b", jar = jar) { sensors = sensors?.map { Step.Sensor(it.value, "\u001b[2J\nb", it.points) } }
+        assertContains(run("diff", file, other).results, "\"?[2J?b\" in B")
     }
 
     /** Returns a jar whose program "sum" returns the value of [expression]. */
