@@ -236,10 +236,11 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_force_wakes_a_sleeping_body()
+        public void A_force_wakes_a_sleeping_body_unless_it_is_zero()
         {
             var ball = Ball(new Vector3(0f, 5f, 0f));
             ball.Sleep();
+            ball.AddForceAtPosition(Vector3.zero, Vector3.right);
             Run(0.2f);
             Assert.That(ball.IsSleeping(), Is.True);
             Assert.That(ball.transform.position.y, Is.EqualTo(5f));

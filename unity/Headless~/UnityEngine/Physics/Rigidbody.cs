@@ -379,10 +379,10 @@ namespace UnityEngine
         public void AddForce(float x, float y, float z) => AddForce(new Vector3(x, y, z));
         public void AddForce(float x, float y, float z, ForceMode mode) => AddForce(new Vector3(x, y, z), mode);
 
-        /// Adds a force, which takes effect in the next step.
+        /// Adds a force, which takes effect in the next step. As in Unity, a zero force does not wake the body.
         public void AddForce(Vector3 force, ForceMode mode)
         {
-            if (!Finite.Accepts(force, "Rigidbody.AddForce", this) || kinematic) return;
+            if (!Finite.Accepts(force, "Rigidbody.AddForce", this) || kinematic || force.Equals(Vector3.zero)) return;
             Motion.Asleep = 0;
             Order(Physx.Order.Force + Number(mode), force);
         }
@@ -398,7 +398,7 @@ namespace UnityEngine
 
         public void AddTorque(Vector3 torque, ForceMode mode)
         {
-            if (!Finite.Accepts(torque, "Rigidbody.AddTorque", this) || kinematic) return;
+            if (!Finite.Accepts(torque, "Rigidbody.AddTorque", this) || kinematic || torque.Equals(Vector3.zero)) return;
             Motion.Asleep = 0;
             Order(Physx.Order.Torque + Number(mode), torque);
         }
