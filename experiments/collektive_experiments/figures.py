@@ -437,7 +437,8 @@ def _heat(figure: Figure, axes: Axes, results: Results, data: pd.DataFrame, metr
     x, y = str(options.x), str(options.by)
     groups = data.assign(**{VALUE: results.values(metric), BOUND: results.censored(metric)}).groupby([x, y], sort=False)
     rows, columns = _order(data[y]), _order(data[x])
-    means, bounds = (column.unstack(0).reindex(index=rows, columns=columns) for column in (groups[VALUE].mean(), groups[BOUND].any()))
+    # Matplotlib cannot draw nullable types.
+    means, bounds = (column.unstack(0).reindex(index=rows, columns=columns) for column in (groups[VALUE].mean().astype(float), groups[BOUND].any()))
     low, high = options.range
     low, high = means.min().min() if low is None else low, means.max().max() if high is None else high
     if low > high:

@@ -4,6 +4,7 @@ import re
 import shutil
 import sys
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -576,3 +577,11 @@ def test_axes_support_scales_limits_and_points(sweep: str) -> None:
     assert sum(len(curve.get_xdata()) for curve in points) == 40
     assert [tick.get_text() for tick in box.get_xticklabels()] == ["0", "0.1", "0.2", "0.4"]
     assert axes(kind="heat", x="network.loss").images[0].get_array().shape == (2, 4)
+
+
+@pytest.mark.parametrize("backend", ["numpy_nullable", "pyarrow"])
+def test_a_heat_map_accepts_tables_with_nullable_types(sweep: str, backend: Any) -> None:
+    results = load(sweep)
+    options = read_options({"metric": "error", "kind": "heat", "x": "network.loss", "by": "program"})
+    (_, plain, _), (_, typed, _) = [next(draw(each, options)) for each in (results, replace(results, runs=results.runs.convert_dtypes(dtype_backend=backend)))]
+    assert np.allclose(typed.axes[0].images[0].get_array(), plain.axes[0].images[0].get_array())
