@@ -222,7 +222,7 @@ def check(results: Results, options: FigureOptions) -> None:
                          for key in results.keys})
     check_metrics(options, metrics_at_end(results), results.metrics)
     for metric in options.metrics:
-        values = results.series[metric] if options.x == TIME else results.values(metric)
+        values = results.selected_series[metric] if options.x == TIME else results.values(metric)
         if values.isna().all():
             raise options.fail("metric", f"is '{metric}', which has no value in any run")
         if values.abs().max() > MAX_VALUE:
@@ -242,7 +242,7 @@ def draw(results: Results, options: FigureOptions) -> Iterator[tuple[str, Figure
     """Draws the requested figure for each metric and each combination of values of the keys that it does not show. Yields name, figure and caption."""
     check(results, options)
     options = _with_columns(results, options)
-    data = results.series if options.x == TIME else results.complete
+    data = results.selected_series if options.x == TIME else results.complete
     require_distinct(data, results.configuration)
     others = [key for key in results.other_keys([key for key in (options.x, options.by) if key and key != TIME]) if results.runs[key].nunique() > 1]
     combinations = list(data.groupby(others, sort=False)) if others else [((), data)]
@@ -500,7 +500,7 @@ def _line_style(index: int) -> dict[str, Any]:
 def over_time(results: Results, metric: str) -> tuple[Figure, str]:
     """Plots the mean of a metric over simulated time with its 95 % bootstrap interval. Returns the figure and the caption."""
     metric = results.column(metric)
-    data, lines = _first_values(results, results.series)
+    data, lines = _first_values(results, results.selected_series)
     figure, panels, colour, groups, remark = _panels(results, data)
     counts: set[int] = set()
     for axes, group in zip(panels, groups):
@@ -533,6 +533,8 @@ def _first_values(results: Results, data: pd.DataFrame) -> tuple[pd.DataFrame, s
 
 def _panels(results: Results, data: pd.DataFrame) -> tuple[Figure, list[Axes], str | None, list[pd.DataFrame], str]:
     """Returns the figure, its axes, the key that colours show, the rows of each panel, and the sentence of a caption about omitted panels."""
+    if data.empty:
+        raise ValueError("the tables contain no complete run to draw")
     keys = results.configuration
     require_distinct(data, keys)
     colour = keys[0] if keys else None

@@ -70,6 +70,13 @@ class Results:
         return self.runs[self.runs["status"] == "complete"]
 
     @property
+    def selected_series(self) -> pd.DataFrame:
+        """The rows of `series` for the runs in the table of runs, which may be filtered."""
+        columns = [key for key in dict.fromkeys([*self.keys, "seed"]) if key in self.series]
+        selected, rows = (pd.MultiIndex.from_frame(table[columns]) for table in (self.runs, self.series))
+        return self.series[rows.isin(selected)]
+
+    @property
     def convergence_times(self) -> list[str]:
         """The columns of convergence times."""
         return [name for name in self.runs.columns if name.startswith(CONVERGED) and name not in self.keys]

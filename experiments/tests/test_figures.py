@@ -585,3 +585,18 @@ def test_a_heat_map_accepts_tables_with_nullable_types(sweep: str, backend: Any)
     options = read_options({"metric": "error", "kind": "heat", "x": "network.loss", "by": "program"})
     (_, plain, _), (_, typed, _) = [next(draw(each, options)) for each in (results, replace(results, runs=results.runs.convert_dtypes(dtype_backend=backend)))]
     assert np.allclose(typed.axes[0].images[0].get_array(), plain.axes[0].images[0].get_array())
+
+
+def test_figures_over_time_omit_runs_that_are_not_in_a_filtered_table(sweep: str) -> None:
+    everything = load(sweep)
+    selected = replace(everything, runs=everything.runs[everything.runs["network.loss"] == 0.4])
+    expected = replace(selected, series=everything.series[everything.series["network.loss"] == 0.4])
+    options = read_options({"metric": "error", "by": "program"})
+    (_, _, caption), = draw(selected, options)
+    assert caption == next(draw(expected, options))[2]
+    assert "of 5 runs per configuration" in caption
+    lines = [[line.get_ydata() for line in over_time(each, "error")[0].axes[0].get_lines()] for each in (selected, expected)]
+    assert np.array_equal(*lines)
+    for draw_figure in (over_time, at_end):
+        with pytest.raises(ValueError, match="no complete run"):
+            draw_figure(replace(everything, runs=everything.runs[:0]), "error")
