@@ -62,7 +62,8 @@ def _kind(file: Path) -> str | None:
     try:
         text = file.read_text(encoding="utf-8", errors="replace")
     except OSError:
-        return None
+        # The player reports the error.
+        return SCENARIO
     top, nested = text.partition("{")[2], 1
     while nested:
         top, nested = re.subn(r"\{[^{}]*\}", "", top)

@@ -58,6 +58,16 @@ def test_other_files_of_a_folder_are_named(tmp_path: Path, capsys: pytest.Captur
     assert capsys.readouterr().err == f"{tmp_path / 'misspelled.json'}: skipped, because it has neither the key 'scene' nor 'scenario'\n"
 
 
+def test_unreadable_files_of_a_folder_are_checked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "unreadable.json").write_text('{"scene": "standard"}')
+
+    def read(*_: object, **__: object) -> str:
+        raise PermissionError
+
+    monkeypatch.setattr(Path, "read_text", read)
+    assert check.find_files(tmp_path) == [(tmp_path / "unreadable.json", check.SCENARIO)]
+
+
 def test_pipes_are_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pipe = tmp_path / "pipe.json"
     os.mkfifo(pipe)
