@@ -88,12 +88,12 @@ namespace Collektive.Headless
         }
 
         /// <summary>Extends a range to include the frame's values of a field.</summary>
-        internal void Widen(int field, ref float min, ref float max)
+        internal void Widen(int field, ref double min, ref double max)
         {
             for (var slot = 0; slot < Slots; slot++)
             {
                 if (!present[slot]) continue;
-                var value = (float)values[field][slot];
+                var value = values[field][slot];
                 // Both comparisons are false for NaN.
                 if (value < min) min = value;
                 if (value > max) max = value;
@@ -101,14 +101,14 @@ namespace Collektive.Headless
         }
 
         /// <summary>Converts a field's values to steps. Steps of numbers start at the smallest value.</summary>
-        internal void Quantise(int field, float min, double scale)
+        internal void Quantise(int field, double min, double scale)
         {
             var isNumber = fields[field].Kind == ReplayFieldKind.Number;
             for (var slot = 0; slot < Slots; slot++)
             {
                 if (!present[slot]) continue;
                 var value = values[field][slot];
-                Steps[field][slot] = double.IsNaN(value) ? 0 : isNumber ? 1 + (int)(((double)(float)value - min) * scale + 0.5) : 1 + Signed((int)value);
+                Steps[field][slot] = double.IsNaN(value) ? 0 : isNumber ? 1 + (int)((value - min) * scale + 0.5) : 1 + Signed((int)value);
             }
         }
 

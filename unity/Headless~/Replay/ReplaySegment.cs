@@ -13,7 +13,7 @@ namespace Collektive.Headless
         private readonly ReplayFrame[] frames = new ReplayFrame[ReplayWriter.FramesPerSegment];
         private readonly ReplayField[] fields;
         private readonly double[] scales;
-        private readonly float[] minimum;
+        private readonly double[] minimum;
         // Indexed by column (x, y and z, followed by the fields) and slot.
         private readonly int[][] last;
         private readonly int[][] motion;
@@ -25,7 +25,7 @@ namespace Collektive.Headless
         {
             this.fields = fields;
             scales = new double[fields.Length];
-            minimum = new float[fields.Length];
+            minimum = new double[fields.Length];
             last = new int[Axes + fields.Length][];
             motion = new int[Axes + fields.Length][];
             for (var column = 0; column < last.Length; column++) last[column] = motion[column] = new int[0];
@@ -94,15 +94,14 @@ namespace Collektive.Headless
         private void WriteRange(int field)
         {
             if (fields[field].Kind != ReplayFieldKind.Number) return;
-            float min = float.PositiveInfinity, max = float.NegativeInfinity;
+            double min = double.PositiveInfinity, max = double.NegativeInfinity;
             for (var i = 0; i < Count; i++) frames[i].Widen(field, ref min, ref max);
             if (min > max) min = max = 0;
-            Reserve(8);
-            WriteFloat(min);
-            WriteFloat(max);
+            Reserve(16);
+            WriteDouble(min);
+            WriteDouble(max);
             minimum[field] = min;
-            // The scale is computed in double precision, because the difference of two floats may overflow.
-            scales[field] = max > min ? NumberSteps / ((double)max - min) : 0;
+            scales[field] = max > min ? NumberSteps / (max - min) : 0;
         }
 
         private void WriteIds(List<int> ids)
@@ -197,10 +196,10 @@ namespace Collektive.Headless
             bytes[length++] = (byte)value;
         }
 
-        private void WriteFloat(float value)
+        private void WriteDouble(double value)
         {
-            var bits = BitConverter.SingleToInt32Bits(value);
-            for (var shift = 0; shift < 32; shift += 8) bytes[length++] = (byte)(bits >> shift);
+            var bits = BitConverter.DoubleToInt64Bits(value);
+            for (var shift = 0; shift < 64; shift += 8) bytes[length++] = (byte)(bits >> shift);
         }
 
         private void Reserve(int more)

@@ -25,7 +25,7 @@ namespace Collektive.Headless
         public const int LinkBudget = 60000;
 
         internal const string Placeholder = "@@REPLAY@@";
-        internal const int Version = 5;
+        internal const int Version = 6;
 
         private const int MaxSlots = 1 << 24;
 

@@ -2,7 +2,7 @@
 
 import { lastAt } from './fields.js';
 
-const VERSION = 5;
+const VERSION = 6;
 const KEPT_NODES = 1e6; // nodes in all cached frames, about 30 bytes each
 const PAIR = 2 ** 26; // in a link's key: times the lesser slot
 export const TEXELS = 1024; // nodes in a row of a frame's texture
@@ -118,9 +118,9 @@ export class Segment {
     // For each field, a function that converts a positive code to a value.
     this.decoders = recording.fields.map(({ kind }) => {
       if (kind !== 'number') return (code) => ((code - 1) >>> 1) ^ -((code - 1) & 1);
-      const [min, max] = [data.getFloat32(this.at, true), data.getFloat32(this.at + 4, true)];
+      const [min, max] = [data.getFloat64(this.at, true), data.getFloat64(this.at + 8, true)];
       const step = (max - min) / 65534;
-      this.at += 8;
+      this.at += 16;
       return (code) => min + (code - 1) * step;
     });
     const columns = 3 + recording.fields.length;
@@ -149,7 +149,7 @@ export class Segment {
       ...this.readPresence(),
       places: new Float32Array(4 * TEXELS * Math.max(Math.ceil(this.recording.slots / TEXELS), 1)), // by slot x, y, z; -1 in w if it is missing
       // By field and slot; NaN: no value.
-      values: this.recording.fields.map(({ kind }) => new (kind === 'number' ? Float32Array : Float64Array)(this.recording.slots).fill(NaN)),
+      values: this.recording.fields.map(() => new Float64Array(this.recording.slots).fill(NaN)),
     };
     const { slots, places, values } = frame;
     const { positionStep } = this.recording;

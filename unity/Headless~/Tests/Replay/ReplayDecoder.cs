@@ -39,7 +39,7 @@ namespace Collektive.Headless.Tests
             var text = html.Substring(before.Length, html.Length - before.Length - after.Length);
             var lines = text.Split('\n');
             Header = JObject.Parse(Encoding.UTF8.GetString(Unpack(lines[0])));
-            if ((int)Header["version"] != 5) throw new InvalidDataException("version");
+            if ((int)Header["version"] != 6) throw new InvalidDataException("version");
             if ((int)Header["length"] != text.Length - lines[0].Length) throw new InvalidDataException("length");
             step = (double)Header["positionStep"];
             slots = (int)Header["slots"];
@@ -60,9 +60,9 @@ namespace Collektive.Headless.Tests
         {
             var reader = new BinaryReader(new MemoryStream(bytes));
             var fields = (JArray)Header["fields"];
-            var ranges = new (float Min, float Max)[fields.Count];
+            var ranges = new (double Min, double Max)[fields.Count];
             for (var field = 0; field < fields.Count; field++)
-                if ((string)fields[field]["kind"] == "number") ranges[field] = (reader.ReadSingle(), reader.ReadSingle());
+                if ((string)fields[field]["kind"] == "number") ranges[field] = (reader.ReadDouble(), reader.ReadDouble());
             ids = new int[ReadNumber(reader)];
             if (ids.Length > slots) throw new InvalidDataException("number of slots");
             for (var slot = 0; slot < ids.Length; slot++) ids[slot] = unchecked((slot == 0 ? 0 : ids[slot - 1]) + ReadSigned(reader));
@@ -92,7 +92,7 @@ namespace Collektive.Headless.Tests
                         var q = last[3 + field, slot];
                         var (min, max) = ranges[field];
                         var isNumber = (string)fields[field]["kind"] == "number";
-                        values[field] = q == 0 ? double.NaN : isNumber ? min + (q - 1) * ((double)max - min) / 65534 : (q - 1) >> 1 ^ -((q - 1) & 1);
+                        values[field] = q == 0 ? double.NaN : isNumber ? min + (q - 1) * (max - min) / 65534 : (q - 1) >> 1 ^ -((q - 1) & 1);
                     }
                     float Metres(int axis) => (float)(last[axis, slot] * step);
                     frame.Nodes.Add(ids[slot], new Node { X = Metres(0), Y = Metres(1), Z = Metres(2), Scalar = (float)values[0], Values = values });

@@ -200,6 +200,18 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
+        public void ScalarsFarFromZeroKeepTheirDifferences()
+        {
+            var replay = Record(writer =>
+            {
+                writer.BeginFrame(0);
+                for (var id = 0; id < 5; id++) writer.Node(id, 0, 0, 0, 1e9 + id);
+                writer.EndFrame();
+            });
+            for (var id = 0; id < 5; id++) Assert.AreEqual(1e9 + id, replay.Frames[0].Nodes[id].Values[0], 4.0 / 65534);
+        }
+
+        [Test]
         public void ANodeFarOutsideTheArenaDoesNotReduceThePrecisionOfOthers()
         {
             var far = (float)(Step * (1 << 30));
