@@ -25,7 +25,10 @@ public fun Aggregate<Int>.channel(sensors: SensorData, device: Device): Actuator
     val length = gradientCast(sensors.target(), fromSource, metric)
     val way = fromSource + toTarget
     return ActuatorData(
-        inChannel = way.isFinite() && way <= length + device.parameters.double("width"),
+        inChannel = way.isFinite() && way <= length + device.parameters.double("width") + ROUNDING,
         distance = if (fromSource.isFinite()) fromSource.toFloat() else -1f,
     )
 }
+
+/** Metres by which sums of the same lengths may differ, because their order differs. */
+private const val ROUNDING = 1e-6

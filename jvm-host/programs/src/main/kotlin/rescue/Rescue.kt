@@ -63,7 +63,7 @@ public fun Aggregate<Int>.rescue(sensors: SensorData, device: Device): ActuatorD
 private fun Aggregate<Int>.isOnPath(toBase: Double, isWithIt: Boolean, metric: Field<Int, Double>, width: Double): Boolean {
     val way = toBase + distanceTo(isWithIt, metric)
     val length = gradientCast(isWithIt, toBase, metric)
-    return way.isFinite() && way <= length + width
+    return way.isFinite() && way <= length + width + ROUNDING
 }
 
 /** Whether this robot stays with the casualty that it sees. Of neighbours that see the same one, the robot with the lowest id stays. */
@@ -140,3 +140,6 @@ private const val OUTWARDS = 2.0
 private const val MIN_DISTANCE = 1.3
 private const val PUSH = 3.0
 private const val TOO_SMALL = 1e-6
+
+/** Metres by which sums of the same lengths may differ, because their order differs. */
+private const val ROUNDING = 1e-6

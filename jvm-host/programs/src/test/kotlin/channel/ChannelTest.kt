@@ -37,6 +37,13 @@ class ChannelTest {
     }
 
     @Test
+    fun `rounding errors do not remove nodes from a channel without width`() = swarm("0").use {
+        it.places.clear()
+        for (id in 0..4) it.places[id] = Point2D(7.3 * id to 3.1 * id)
+        assertEquals((0..4).toSet(), it.ticks(STABLE).marked())
+    }
+
+    @Test
     fun `each node computes its distance to the source`() {
         val answers = swarm().use { it.ticks(STABLE) }
         for ((id, metres) in listOf(
