@@ -61,7 +61,7 @@ namespace CollektiveSamples.Swarm
 
         /// <summary>
         /// Writes three values: the number of drones within a metre of their places on the shape; the number of shapes that drones now form; and the smallest
-        /// distance in metres between the centres of two drones at the beginning of the tick, at most 2.5.
+        /// distance in metres between the centres of two drones at the beginning of the tick, at most 2.5, and NaN before the first tick.
         /// </summary>
         public override void Measure(double[] values)
         {
@@ -82,6 +82,8 @@ namespace CollektiveSamples.Swarm
                 }
             }
             values[1] = formed.Count;
+            // Before the first tick, FindNodes finds no nodes.
+            if (manager.Tick == 0) values[2] = double.NaN;
         }
 
         /// <inheritdoc/>
