@@ -105,6 +105,14 @@ class SamplesTest(Folder):
         self.assertEqual(rows[-1]["connected"], 3)
 
     @pytest.mark.slow
+    def test_the_explored_share_does_not_depend_on_the_interval_of_rows(self) -> None:
+        shares = set()
+        for interval in 0.1, 5:
+            shares.add(self.rows("Rescue", seconds=15, outputs={"interval": interval})[-1]["explored"])
+            shutil.rmtree(self.path("samples"))
+        self.assertEqual(len(shares), 1, shares)
+
+    @pytest.mark.slow
     def test_the_crowds_pass_with_few_collisions_and_warnings_end(self) -> None:
         rows = self.rows("Crowd")
         self.assertEqual(rows[-1]["arrived"], 160)

@@ -85,12 +85,12 @@ namespace CollektiveSamples.Rescue
         {
             values[0] = values[1] = values[2] = 0;
             FindReached();
+            Explore(manager);
             var found = new bool[Casualties.Length];
             var connected = new bool[Casualties.Length];
             foreach (var node in manager.Nodes)
             {
                 var place = node.transform.position;
-                visited.Add((Mathf.FloorToInt(place.x / 2), Mathf.FloorToInt(place.z / 2)));
                 var role = RoleOf(node);
                 if (role == 1) values[2]++;
                 if (role != 2) continue;
@@ -131,12 +131,26 @@ namespace CollektiveSamples.Rescue
         private void OnEnable()
         {
             manager = SimulationManager.Current;
-            if (manager != null) manager.Ticked += FailWhenDue;
+            if (manager == null) return;
+            manager.Ticked += Explore;
+            manager.Ticked += FailWhenDue;
         }
 
         private void OnDisable()
         {
-            if (manager != null) manager.Ticked -= FailWhenDue;
+            if (manager == null) return;
+            manager.Ticked -= Explore;
+            manager.Ticked -= FailWhenDue;
+        }
+
+        /// <summary>Marks the cells of the ground that contain robots. Called after each tick, because rows of the metrics may be many ticks apart.</summary>
+        private void Explore(SimulationManager manager)
+        {
+            foreach (var node in manager.Nodes)
+            {
+                var place = node.transform.position;
+                visited.Add((Mathf.FloorToInt(place.x / 2), Mathf.FloorToInt((place.z + 25) / 2)));
+            }
         }
 
         private void FailWhenDue(SimulationManager manager)
