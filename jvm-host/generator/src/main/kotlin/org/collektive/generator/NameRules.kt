@@ -68,6 +68,7 @@ internal class NameRules(
 
     private fun checkWord(place: String, word: String) {
         if (word.all { it == '_' }) reject(place, "a name must contain a letter; rename it")
+        if (word in LITERALS) reject(place, "flatc cannot use the literal '$word' as a name in Java; rename it")
         if (word.length > MAX_WORD) reject(place, "the name has more than $MAX_WORD characters; shorten it")
     }
 
@@ -156,6 +157,7 @@ internal class NameRules(
         const val MAX_NAME = 200
         const val TAKEN = "the generator uses this name"
         val SCALARS = BaseType.UType..BaseType.Double
+        val LITERALS = setOf("true", "false", "null")
         val ENUM_MEMBERS = setOf("names", "value__")
 
         /** Member names that clash with inherited members or members of flatc's base types. */

@@ -128,6 +128,8 @@ internal class RefusalTest {
             type("table Detail {}\ntable b {}\nnamespace a.b;\nenum E : byte { A }\nnamespace a;") to
                 "user.fbs:4: b: a namespace has the same name",
             type("enum E : byte { names }") to "user.fbs:3: E.names: generated code has a member of this name",
+            type("enum E : byte { null }") to "user.fbs:3: E.null: flatc cannot use the literal 'null' as a name in Java; rename it",
+            fields("true: int;") to "user.fbs:4: SensorData.true: flatc cannot use the literal 'true'",
             fields("_: int;") to "user.fbs:4: SensorData._: a name must contain a letter",
             fields("__assign: int;") to "user.fbs:4: SensorData.__assign: a name must begin with a letter",
             fields("_1: int;") to "user.fbs:4: SensorData._1: a name must begin with a letter",
