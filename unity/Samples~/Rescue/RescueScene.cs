@@ -110,9 +110,10 @@ namespace CollektiveSamples.Rescue
         /// <inheritdoc/>
         protected override void Build(SimulationManager manager)
         {
-            if (robots < 1 || robots > 300 || !(range >= 0))
+            if (robots < 1 || robots > 300 || !(range >= 0) || !(failing >= 0 && failing <= 1))
             {
-                manager.Fail("the scene has " + robots + " robots with a range of " + range + " m: use 1 to 300 robots, and a range of 0 or greater");
+                manager.Fail("the scene has " + robots + " robots with a range of " + range + " m, of which a share of " + failing
+                    + " fails: use 1 to 300 robots, a range of 0 or greater, and a share from 0 to 1");
                 return;
             }
             this.manager = manager;
