@@ -11,7 +11,7 @@ def read(path):
     text = open(path, encoding="utf-8").read()
     lines = re.search(r'<script id="replay"[^>]*>([^<]*)</script>', text).group(1).split("\n")
     header = json.loads(_unpack(lines[0]))
-    assert header["version"] == 5
+    assert header["version"] == 6
     assert header["length"] == sum(1 + len(line) for line in lines[1:])
     times, frames = iter(header["times"]), []
     for line in lines[1:]:
@@ -56,8 +56,8 @@ class _Segment:
         return nodes
 
     def range(self):
-        self.at += 8
-        return struct.unpack_from("<2f", self.data, self.at - 8)
+        self.at += 16
+        return struct.unpack_from("<2d", self.data, self.at - 16)
 
     def value(self, field, steps):
         if steps == 0:
