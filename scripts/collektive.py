@@ -173,7 +173,8 @@ def check_environment() -> None:
     """Sets locale and time zone, and checks Mono's options, the stack limit and the path of the checkout."""
     # Names of files are UTF-8, and numbers and times that scenes and programs format do not depend on the user's settings.
     os.environ.update(LC_ALL="C.UTF-8", TZ="UTC")
-    if re.search(r"(?:^|\s)(?:-O|--optimize)", os.environ.get("MONO_ENV_OPTIONS", "")):
+    # Mono removes quotes and backslashes.
+    if re.search(r"(?:^|\s)(?:-O|--optimize)", re.sub(r"[\"'\\]", "", os.environ.get("MONO_ENV_OPTIONS", ""))):
         raise Failure("MONO_ENV_OPTIONS sets optimizations, and some of them change results: remove -O or --optimize")
     stack, _ = resource.getrlimit(resource.RLIMIT_STACK)
     if stack != resource.RLIM_INFINITY and stack < STACK_KB * 1024:

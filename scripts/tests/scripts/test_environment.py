@@ -85,9 +85,10 @@ def test_commands_use_the_same_locale_and_time_zone_for_any_user(name: str, give
     assert result.stdout == f"{expected}\n", result.stderr
 
 
-def test_mono_has_no_other_optimizations(checkout: Checkout) -> None:
+@pytest.mark.parametrize("options", ["--debug -O=-float32", '--debug -"O=-float32"', r"\-O=-float32"])
+def test_mono_has_no_other_optimizations(options: str, checkout: Checkout) -> None:
     result = subprocess.run([checkout.root / "collektive", "run", "x.json"], capture_output=True, text=True,
-                            env={**os.environ, "MONO_ENV_OPTIONS": "--debug -O=-float32"})
+                            env={**os.environ, "MONO_ENV_OPTIONS": options})
     assert (result.returncode, result.stderr.count("\n")) == (1, 1)
     assert "MONO_ENV_OPTIONS sets optimizations" in result.stderr
 
