@@ -1,5 +1,6 @@
 """Runs the package collektive_experiments in a Python environment with packages from PyPI."""
 import os
+import re
 import runpy
 import signal
 import sys
@@ -21,7 +22,9 @@ def option(name: str) -> Callable[..., Any]:
 
 def environment() -> Mapping[str, str]:
     """Returns the environment variables for running the package."""
-    return {**os.environ, "COLLEKTIVE_JAVA_HOME": str(find_jdk()), "COLLEKTIVE": str(COLLEKTIVE), "PYTHONPATH": str(EXPERIMENTS),
+    # Settings of the user's Python and Matplotlib, which a notebook passes to its commands, can prevent the start.
+    inherited = {name: value for name, value in os.environ.items() if not re.match("PYTHON|MPLBACKEND$|SOURCE_DATE_EPOCH$", name)}
+    return {**inherited, "COLLEKTIVE_JAVA_HOME": str(find_jdk()), "COLLEKTIVE": str(COLLEKTIVE), "PYTHONPATH": str(EXPERIMENTS),
             "PYTHONDONTWRITEBYTECODE": "1"}
 
 

@@ -11,6 +11,7 @@ import pytest
 from checkout import Checkout
 
 import collektive
+from build import experiments
 from build.places import ROOT
 
 
@@ -91,6 +92,12 @@ def test_mono_has_no_other_optimizations(options: str, checkout: Checkout) -> No
                             env={**os.environ, "MONO_ENV_OPTIONS": options})
     assert (result.returncode, result.stderr.count("\n")) == (1, 1)
     assert "MONO_ENV_OPTIONS sets optimizations" in result.stderr
+
+
+@pytest.mark.parametrize("name", ["MPLBACKEND", "PYTHONHOME", "PYTHONWARNINGS", "SOURCE_DATE_EPOCH"])
+def test_sweeps_and_figures_ignore_settings_of_the_user_s_python(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(name, "module://matplotlib_inline.backend_inline")
+    assert name not in experiments.environment()
 
 
 def test_files_are_utf_8_in_any_locale(checkout: Checkout) -> None:
