@@ -12,6 +12,11 @@ OLDEST = 17
 OPTIONS = ("JAVA_TOOL_OPTIONS", "JDK_JAVA_OPTIONS", "_JAVA_OPTIONS")
 
 
+def environment() -> dict[str, str]:
+    """Returns the environment variables for a JVM whose results must not depend on the user's JVM options."""
+    return {name: value for name, value in os.environ.items() if name not in OPTIONS}
+
+
 def is_jdk(home: Path) -> bool:
     """Returns whether a folder is a JDK with a JVM library."""
     return (home / "lib/server/libjvm.so").exists() and os.access(home / "bin/javac", os.X_OK) and (home / "release").exists()

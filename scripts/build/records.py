@@ -4,7 +4,7 @@ from pathlib import Path
 
 from build import processes
 from build.console import Failure
-from build.jdk import find_jdk
+from build.jdk import environment, find_jdk
 from build.places import HOST_JAR, TOOLS_JAR
 
 # The reader's exit code for an unusable record or jar.
@@ -19,7 +19,7 @@ _MAX_HEAD_BYTES = 10_000
 def read(command: str, record: str, *words: str | Path) -> int:
     """Runs a command of the reader, which prints its results itself. Returns the exit code: 0 no difference, 1 a difference, otherwise an error."""
     code = processes.call([find_jdk() / "bin/java", *flags(Path(record)), "-cp", f"{TOOLS_JAR}:{HOST_JAR}", "org.collektive.tools.record.RecordsKt",
-                           command, record, *words])
+                           command, record, *words], env=environment())
     if code == 1:
         raise Failure(f"{command}: the JVM has ended; its messages are above", UNUSABLE)
     return 1 if code == _DIFFERENT else code

@@ -106,8 +106,7 @@ def version_of(command: str) -> str:
 
 def _version_output(command: str) -> subprocess.CompletedProcess[str]:
     # If a JVM rejected these options, it would not print its version and would appear outdated.
-    environment = {name: value for name, value in os.environ.items() if name not in jdk.OPTIONS}
-    return subprocess.run([command, "--version"], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    return subprocess.run([command, "--version"], env=jdk.environment(), stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
 
 
 def _describe(name: str) -> str:

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from build import graph, inputs, projects
 from build.console import Failure
-from build.jdk import find_jdk
+from build.jdk import environment, find_jdk
 from build.places import ADAPTER_JAR, HOST_JAR, LIBRARY_JAR, TESTING_JAR, compiler_plugin
 
 SCHEMA = Path(__file__).with_suffix(".fbs")
@@ -68,7 +68,7 @@ class RuntimeProcess:
         path = ":".join(str(jar) for jar in [HOST_JAR, TESTING_JAR, *jars, programs])
         command: list[str | Path] = [find_jdk() / "bin/java", "-XX:+UseSerialGC", "-Dfile.encoding=UTF-8", "-cp", path]
         command += ["org.collektive.testing.ComparedRunsKt", programs, runtime]
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8")
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8", env=environment())
         self.functions = self._lines()
 
     def __enter__(self) -> "RuntimeProcess":

@@ -5,7 +5,7 @@ import os
 from pathlib import Path
 
 from build import processes
-from build.jdk import find_jdk
+from build.jdk import environment, find_jdk
 from build.places import HOST_JAR, TOOLS_JAR
 from commands import run as run_command
 
@@ -25,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     # If a run cannot begin, an earlier recording remains.
     if _modified(recording) not in (0, before):
         report = processes.call([find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", f"{TOOLS_JAR}:{HOST_JAR}", "org.collektive.tools.profile.ProfileReport",
-                                 recording])
+                                 recording], env=environment())
         return code or report
     return code
 

@@ -3,6 +3,7 @@ import os
 import shutil
 import struct
 import subprocess
+import unittest.mock
 import zlib
 
 import pytest
@@ -62,6 +63,14 @@ class Records(Project):
         self.change("lamps.json", '"maximumHeapMb": 128', '"repeatableMaths": true')
         result = collektive("replay", self.record("b"))
         self.assertEqual(result.returncode, 0, result.stdout)
+
+    def test_a_replay_ignores_the_user_s_jvm_options_like_its_run(self) -> None:
+        letter = '"I".lowercase(java.util.Locale.getDefault())[0].code'
+        self.change("programs/Brightest.kt", "val mine = sensors.brightness()", f"val mine = sensors.brightness() + {letter}")
+        record = self.record("b")
+        with unittest.mock.patch.dict(os.environ, JAVA_TOOL_OPTIONS="-Duser.language=tr"):
+            result = collektive("replay", record)
+        self.assertEqual((result.returncode, result.stderr), (0, ""), result.stdout)
 
     def test_a_replay_overwrites_neither_its_record_nor_other_files(self) -> None:
         with open(self.a, "rb") as file:

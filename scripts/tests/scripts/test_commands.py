@@ -91,7 +91,7 @@ def test_a_failed_report_is_the_exit_code_of_profile(tmp_path: Path, monkeypatch
 
     monkeypatch.setattr(run_command, "run_scenario", run_scenario)
     monkeypatch.setattr(profile, "find_jdk", lambda: tmp_path)
-    monkeypatch.setattr(processes, "call", lambda *_: 3)
+    monkeypatch.setattr(processes, "call", lambda *_, **__: 3)
     assert profile.run(argparse.Namespace(scenario="", out=str(tmp_path), overwrite=False)) == 3
 
 
