@@ -52,5 +52,14 @@ namespace Collektive.Headless.Tests.Bridge
             Assert.Throws<ArgumentOutOfRangeException>(() => stream.Range(3, 3));
             Assert.Throws<ArgumentOutOfRangeException>(() => new RandomStream(1, -1, RandomPurpose.Node));
         }
+
+        [TestCase(float.MinValue, float.MaxValue)]
+        [TestCase(-1e8f, 5f)]
+        public void Range_does_not_round_its_width(float low, float high)
+        {
+            var doubles = new RandomStream(5, 1, RandomPurpose.Scene);
+            var floats = new RandomStream(5, 1, RandomPurpose.Scene);
+            for (var i = 0; i < 100; i++) Assert.That(floats.Range(low, high), Is.EqualTo((float)(low + ((double)high - low) * doubles.NextDouble())));
+        }
     }
 }

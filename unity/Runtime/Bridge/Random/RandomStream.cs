@@ -72,7 +72,7 @@ namespace Collektive.Bridge
         /// <summary>Returns a number from <paramref name="low"/> up to <paramref name="high"/>, which is returned only as a result of rounding.</summary>
         public float Range(float low, float high)
         {
-            return (float)(low + (high - low) * NextDouble());
+            return (float)(low + ((double)high - low) * NextDouble());
         }
 
         /// <summary>Returns an integer from <paramref name="low"/> to <paramref name="high"/> - 1.</summary>
