@@ -18,7 +18,13 @@ public typealias ReplicaID = ULong
  * Runs several overlapping replicas of [process] and returns the result of the oldest one.
  *
  * Use this function for a process that never discards values, such as `nonStabilizingGossip`. The result then follows changes, because each
- * replica and its state end after [timeToSpawn] * [maxReplicas]. [process] must settle within [timeToSpawn] * ([maxReplicas] - 1).
+ * replica and its state end after at most [timeToSpawn] * [maxReplicas]. [process] must settle within
+ * [timeToSpawn] * ([maxReplicas] - 1) if the waits of all devices end together.
+ *
+ * Waits end together if all devices call this function for the first time in the same round and always run at the same times. Otherwise,
+ * for example under the asynchronous schedule or if nodes join later, each of the n devices of the connected component starts replicas.
+ * Replicas then end up to n times as early, and results may lack values unless [process] settles within [timeToSpawn] * k, where k is
+ * ([maxReplicas] - 1) / n without its fraction.
  *
  * This is time replication (Pianini, Beal and Viroli, "Improving gossip dynamics through overlapping replicates", COORDINATION 2016).
  * A device takes part in the youngest replica that it or a neighbour knows. When the wait of [sharedTimeLeftTo] for [timeToSpawn] is
@@ -30,7 +36,7 @@ public typealias ReplicaID = ULong
  *
  * @param currentTime this device's clock. Only differences between its values matter.
  * @param maxReplicas the number of replicas that run at the same time, which must be 1 or greater.
- * @param timeToSpawn the time between the starts of two replicas, which must be positive.
+ * @param timeToSpawn the time that a device waits between its starts of two replicas, which must be positive.
  * @throws IllegalArgumentException when [maxReplicas] or [timeToSpawn] is out of range.
  */
 public inline fun <reified T> Aggregate<*>.timeReplicated(
