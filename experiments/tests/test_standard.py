@@ -291,8 +291,8 @@ def test_nodes_can_be_added_to_a_live_run(study: Study, tmp_path: Path) -> None:
             if not ticks:
                 own_end.sendall(b'{"add": 2, "at": [1, 0, 1]}\n')
             ticks.append(event["tick"])
-            # The first 8 bytes are the range of the answers' values.
-            slots = frame[8]
+            # The first 16 bytes are the range of the answers' values.
+            slots = frame[16]
             assert event["errors"] == 0, event["error"]
         own_end.shutdown(socket.SHUT_RDWR)
     process.wait(60)
