@@ -114,7 +114,7 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
 
     The figures and labels of `experiment` replace those that the experiment file had during the sweep.
     """
-    # A file matplotlibrc of the user or in the working folder must not change figures, or run LaTeX on their labels.
+    # A file matplotlibrc must not change figures, or run LaTeX on their labels.
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
     results = load(folder, experiment.labels if experiment else None)
@@ -221,8 +221,9 @@ def check(results: Results, options: FigureOptions) -> None:
     check_keys(options, {key: [value.item() if hasattr(value, "item") else value for value in results.runs[key].dropna().unique()]
                          for key in results.keys})
     check_metrics(options, metrics_at_end(results), results.metrics)
+    series = results.selected_series if options.x == TIME else None
     for metric in options.metrics:
-        values = results.selected_series[metric] if options.x == TIME else results.values(metric)
+        values = results.values(metric) if series is None else series[metric]
         if values.isna().all():
             raise options.fail("metric", f"is '{metric}', which has no value in any run")
         if values.abs().max() > MAX_VALUE:
