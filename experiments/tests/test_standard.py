@@ -29,6 +29,8 @@ import org.collektive.api.NetworkSnapshot
 import org.collektive.api.Program
 import standard.ActuatorData
 import standard.SensorData
+import kotlin.math.abs
+import kotlin.math.hypot
 
 @Program("hops")
 fun Aggregate<Int>.hops(sensors: SensorData): ActuatorData {
@@ -45,6 +47,18 @@ fun sources(network: NetworkSnapshot<SensorData, ActuatorData>): Double = networ
 @Metric("step")
 fun step(network: NetworkSnapshot<SensorData, ActuatorData>): Double =
     network.nodes.maxOf { node -> node.links.maxOf { (node.answer?.value ?: 0.0) - (network[it.from]?.answer?.value ?: 0.0) } }
+
+@Metric("error")
+fun error(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
+    val places = network.nodes.associate { node -> node.id to node.sensors?.position() }
+    return network.nodes.maxOf { node ->
+        node.links.maxOfOrNull { link ->
+            val a = places.getValue(node.id)
+            val b = places.getValue(link.from)
+            if (a == null || b == null) Double.NaN else abs(link.length - hypot((a.x() - b.x()).toDouble(), (a.z() - b.z()).toDouble()))
+        } ?: 0.0
+    }
+}
 
 @Metric("late")
 fun late(network: NetworkSnapshot<SensorData, ActuatorData>): Double {
@@ -143,6 +157,7 @@ REFUSED: list[tuple[str, Any, str]] = [
     ("fields.deployment", "grid", "'deployment' is \"grid\"; it must be of type object"),
     ("fields.neighbourhood.radius", -1, "'neighbourhood.radius' is -1"),
     ("fields.neighbourhood.count", 0, "'neighbourhood.count' is 0; it must be at least 1"),
+    ("fields.neighbourhood.lengthTolerance", -0.1, "'neighbourhood.lengthTolerance' is -0.1; it must be at least 0"),
     ("fields.sets", [{"name": "a"}], "'sets[0]' needs 'ids' or 'near'"),
     ("fields.sets", [{"near": [0, 0]}], "'sets[0].name' is missing"),
     ("fields.sets", [{"name": "a", "ids": [1]}, {"name": "a", "ids": [2]}], "'sets[1].name' is 'a', which is also the name of another set"),
@@ -398,6 +413,17 @@ def test_a_function_that_fails_ends_the_run_with_its_place(study: Study, tmp_pat
     assert "'metrics.all': the function 'late' failed: java.lang.IllegalStateException: too late" in result.message
     with (tmp_path / "out/metrics.csv").open() as file:
         assert [row["all"] for row in csv.DictReader(file)] == ["NaN", "1", "1"]
+
+
+@pytest.mark.parametrize(("tolerance", "least", "greatest"), [(None, 0.05, 0.2501), (1, 0.3, 1.0001), (0, 0, 1e-4)])
+def test_lengths_of_moving_nodes_are_as_accurate_as_the_tolerance(study: Study, tolerance: float | None, least: float, greatest: float, tmp_path: Path) -> None:
+    neighbourhood = {"radius": 5} if tolerance is None else {"radius": 5, "lengthTolerance": tolerance}
+    study.write({**SCENARIO, "metrics": {"error": {"function": "error"}}, "converged": {}, "outputs": {"interval": 0.1},
+                 "fields": {**SCENARIO["fields"], "neighbourhood": neighbourhood, "churn": {}}})
+    assert study.worker.run({"seconds": 2}, "{}", str(tmp_path / "out"), 300, is_repeated=False).status == "complete"
+    with (tmp_path / "out/metrics.csv").open() as file:
+        errors = [float(row["error"]) for row in csv.DictReader(file)][1:]
+    assert least <= max(errors) <= greatest
 
 
 def test_a_set_has_its_members_from_one_tick_to_another(study: Study, tmp_path: Path) -> None:

@@ -118,6 +118,9 @@ namespace Collektive.Standard
 
         /// <summary>Number of neighbours, for Nearest.</summary>
         public int count = 8;
+
+        /// <summary>Change in metres above which the length of a link is measured again.</summary>
+        public float lengthTolerance = 0.25f;
     }
 
     /// <summary>Kinds of movement.</summary>

@@ -114,7 +114,8 @@ namespace Collektive.Standard
 
         private static string ProblemOf(Neighbourhood neighbourhood) =>
             neighbourhood.count < 1 ? "'neighbourhood.count' is " + neighbourhood.count + "; it must be at least 1"
-                : ProblemIfBelow("neighbourhood.radius", neighbourhood.radius, 0);
+                : ProblemIfBelow("neighbourhood.radius", neighbourhood.radius, 0)
+                    ?? ProblemIfBelow("neighbourhood.lengthTolerance", neighbourhood.lengthTolerance, 0);
 
         private static string ProblemOf(Movement movement) =>
             !(movement.exponent > 1) ? "'movement.exponent' is " + Text(movement.exponent) + "; it must be greater than 1"
@@ -297,6 +298,7 @@ namespace Collektive.Standard
             if (neighbourhood.kind == NeighbourhoodKind.Radius) holder.AddComponent<RadiusNeighbourhood>().Radius = area.Rounded(neighbourhood.radius);
             else if (neighbourhood.kind == NeighbourhoodKind.Nearest) holder.AddComponent<KNearestNeighbourhood>().Count = neighbourhood.count;
             else holder.AddComponent<LineOfSightNeighbourhood>().Radius = area.Rounded(neighbourhood.radius);
+            holder.GetComponent<NeighbourhoodRule>().LengthTolerance = neighbourhood.lengthTolerance;
         }
 
         private void FillSets()
