@@ -281,9 +281,12 @@ def convergence_times(experiment: Experiment, others: Iterable[str] = ()) -> lis
 
 
 def _check_figures(experiment: Experiment, metrics: list[str]) -> None:
-    """Checks that the metrics in `figures` and `labels` exist, and that no key has the name of a convergence time."""
+    """Checks that the metrics in `figures` and `labels` exist, and that no key or metric has the name of a convergence time."""
     numbers = [name for name, kind in tables.RUN_COLUMNS + tables.RUN_TIMES if not pa.types.is_string(kind)]
     converged = convergence_times(experiment)
+    for name in metrics:
+        if name in converged:
+            raise ExperimentError(f"the metric '{name}' has the name of a column for the convergence time of another metric: rename one of them")
     for key in experiment.keys:
         if key in converged:
             raise experiment.located.error(f"'{key}' is also the name of a column for the convergence time of a metric: rename the metric",

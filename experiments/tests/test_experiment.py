@@ -88,6 +88,12 @@ def test_a_key_cannot_be_the_convergence_time_of_another_metric(tmp_path: Path) 
         _check_figures(read(str(file)), ["m", "m.to"])
 
 
+def test_a_metric_cannot_be_the_convergence_time_of_another_metric(tmp_path: Path) -> None:
+    path = write(tmp_path, '{"version": 1, "scenario": "scenario.json", "set": {"converged.m": {"to": 1}}}')
+    with pytest.raises(ExperimentError, match=r"the metric 'converged\.m' has the name of a column"):
+        _check_figures(read(path), ["m", "converged.m"])
+
+
 def test_a_file_that_is_not_utf_8_is_a_one_line_error(tmp_path: Path) -> None:
     (tmp_path / "experiment.json").write_bytes(b'{"version": "\xff"}')
     with pytest.raises(ExperimentError, match="is not a JSON file: it is not UTF-8"):
