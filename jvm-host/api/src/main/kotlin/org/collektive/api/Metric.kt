@@ -50,7 +50,7 @@ public class NodeSnapshot<S : Any, A : Any>(
  * A link on which a node receives messages.
  *
  * @property from id of the sender.
- * @property length the length in metres.
+ * @property length the length in metres, as accurate as the Length Tolerance of the neighbourhood rule.
  * @property attenuation the attenuation, 0 (clear) or greater.
  */
 public class LinkSnapshot(public val from: Int, public val length: Double, public val attenuation: Double)

@@ -13,7 +13,8 @@ import org.collektive.api.Device
 /**
  * Returns the lengths of the links from the aligned neighbours in metres, and 0 for this device.
  *
- * The scene's neighbourhood rule sets the lengths, so programs need no positions in their schema:
+ * The scene's neighbourhood rule sets the lengths, with the accuracy of its Length Tolerance, so programs need no positions in their
+ * schema:
  *
  * ```
  * val toSource = with(device) { distanceTo(sensors.source(), metric = distances()) }
