@@ -117,7 +117,7 @@ typedef struct clk_direction {
     uint8_t is_sent;    /* private */
     uint8_t is_dirty;   /* private */
     uint8_t by_script;  /* private */
-    uint8_t reserved;   /* private */
+    uint8_t is_stale;   /* private */
 } clk_direction;
 
 /* Two ids and the links between them. */

@@ -88,7 +88,13 @@ static bool add(struct links *links, int32_t index, clk_direction *direction) {
     return touch(links, index, direction);
 }
 
+static void mark_stale(struct links *links, clk_direction *direction, bool is_stale) {
+    links->stale += is_stale - direction->is_stale;
+    direction->is_stale = is_stale;
+}
+
 static bool set(struct links *links, int32_t index, clk_direction *direction, float length, float attenuation) {
+    mark_stale(links, direction, false);
     if (direction->length == length && direction->attenuation == attenuation) return true;
     direction->length = length;
     direction->attenuation = attenuation;
@@ -100,6 +106,7 @@ static bool release(struct links *links, int32_t index, clk_direction *direction
         const struct script *script = &links->scripts[2 * index + (direction == &links->pairs[index].down)];
         return set(links, index, direction, script->length, script->attenuation);
     }
+    mark_stale(links, direction, direction->references > 0);
     if (direction->references > 0) return true;
     links->count--;
     return touch(links, index, direction);
@@ -127,15 +134,10 @@ bool links_set(struct links *links, reference link, float length, float attenuat
            (!(link & DOWN) || set(links, index, &pair->down, length, attenuation));
 }
 
-static bool is_confirmed(const clk_direction *direction, float length, float attenuation, float tolerance) {
-    return direction->attenuation == attenuation && !is_beyond(direction->length, length, direction->by_script ? 0 : 2 * tolerance);
-}
-
-bool links_confirm(struct links *links, reference link, float length, float attenuation, float tolerance) {
+bool links_replace(struct links *links, reference link, float length, float attenuation) {
     const clk_pair *pair = &links->pairs[link >> 2];
-    bool is_up_confirmed = !(link & UP) || is_confirmed(&pair->up, length, attenuation, tolerance);
-    bool is_down_confirmed = !(link & DOWN) || is_confirmed(&pair->down, length, attenuation, tolerance);
-    return (is_up_confirmed && is_down_confirmed) || links_set(links, link, length, attenuation);
+    bool is_stale = ((link & UP) && pair->up.is_stale) || ((link & DOWN) && pair->down.is_stale);
+    return !is_stale || links_set(links, link, length, attenuation);
 }
 
 bool links_release(struct links *links, reference link) {
@@ -205,6 +207,7 @@ bool links_is_gone(const struct links *links, int32_t id) { return has_flag(&lin
 
 static void drop(struct links *links, clk_direction *direction) {
     if (direction->references > 0) links->count--;
+    mark_stale(links, direction, false);
     direction->references = 0;
     direction->is_sent = 0;
     direction->by_script = 0;

@@ -23,6 +23,7 @@ struct links {
     int32_t *buckets; /* hash table of the pairs; its size is `capacity`, a power of two */
     int32_t used, capacity, first_free;
     int32_t count; /* number of links */
+    int32_t stale; /* number of links whose values may be those of a rule or script that released them */
 
     struct script *scripts; /* for the up and down link of each pair, as far as scripts have set values */
     int32_t script_capacity;
@@ -48,11 +49,8 @@ static inline bool is_beyond(float a, float b, float tolerance) { return a - b >
 /* Adds a reference to a link, or to both links of a pair, and sets their values. Returns the reference, or a negative number if out of memory. */
 reference links_add(struct links *links, int32_t from, int32_t to, bool both, float length, float attenuation);
 bool links_set(struct links *links, reference link, float length, float attenuation);
-/*
- * Sets the values of a link unless it has the same attenuation and a length that two rules with this tolerance may have set. Scripts may have set any
- * length, so a link that scripts also reference keeps only an equal length.
- */
-bool links_confirm(struct links *links, reference link, float length, float attenuation, float tolerance);
+/* Sets the values of a link if they may be those of a rule or script that released it. */
+bool links_replace(struct links *links, reference link, float length, float attenuation);
 bool links_release(struct links *links, reference link);
 
 /* Loads a link into the cache. */

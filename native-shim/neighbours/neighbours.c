@@ -29,13 +29,11 @@ struct rule {
     int32_t count, capacity;
     int32_t next_free; /* number + 1 of the next removed rule; -1 if the rule is in use */
     int32_t centre;    /* id */
-    bool is_taken;     /* the caller determines the links, not a search */
-    float tolerance;   /* tolerance of lengths in the last update of the rule */
     uint32_t update;   /* number of the last update that contained the rule */
     float reach;       /* distance of the farthest point that the last search for nearest points found */
 };
 
-enum change_kind { ADD, ADD_BOTH, SET, CONFIRM, RELEASE };
+enum change_kind { NONE, ADD, ADD_BOTH, SET, REPLACE, RELEASE };
 
 /* Number of items by which prefetches are ahead. Links and rules are far apart in memory, so loading them takes long. */
 enum { AHEAD = 8 };
@@ -80,7 +78,7 @@ struct clk_neighbours {
     const clk_search *searches;
     int32_t search_count;
     uint32_t update;
-    bool confirms; /* searches set the values of links again, because other rules or scripts released some */
+    bool replaces; /* searches replace stale values of links */
     atomic_int next;
     atomic_int new_links;
     atomic_bool is_out_of_memory;
@@ -204,7 +202,6 @@ void clk_neighbours_remove_rule(clk_neighbours *neighbours, int32_t number) {
     for (int32_t i = 0; i < rule->count; i++) {
         if (rule->held[i].link >= 0) links_release(&neighbours->links, rule->held[i].link);
     }
-    neighbours->confirms |= rule->is_taken;
     free(rule->held);
     *rule = (struct rule){.next_free = neighbours->free_rule};
     neighbours->free_rule = number + 1;
@@ -216,14 +213,15 @@ static bool add_change(struct thread_memory *memory, enum change_kind kind, int3
     return true;
 }
 
-/* Updates a link that the rule keeps. With `confirms`, also sets unchanged values again, in case another rule or a script has set others. */
-static bool keep(struct thread_memory *memory, struct held *held, float length, float attenuation, float tolerance, bool confirms) {
+/* Updates a link that the rule keeps. `unchanged` is the change if the rule keeps its values. */
+static bool keep(struct thread_memory *memory, struct held *held, float length, float attenuation, float tolerance,
+                 enum change_kind unchanged) {
     bool is_longer = is_beyond(length, held->length, tolerance);
-    bool is_same = !is_longer && attenuation == held->attenuation;
-    if (is_same && !confirms) return true;
+    enum change_kind kind = is_longer || attenuation != held->attenuation ? SET : unchanged;
+    if (kind == NONE) return true;
     if (is_longer) held->length = length;
     held->attenuation = attenuation;
-    return add_change(memory, is_same ? CONFIRM : SET, held->link, held->length, attenuation);
+    return add_change(memory, kind, held->link, held->length, attenuation);
 }
 
 /*
@@ -231,13 +229,12 @@ static bool keep(struct thread_memory *memory, struct held *held, float length, 
  * later, so several threads can run this function for different rules.
  */
 static bool merge(struct thread_memory *memory, struct rule *rule, const clk_neighbour *requested, int32_t count, float tolerance,
-                  bool both, bool confirms) {
+                  bool both, enum change_kind unchanged) {
     struct held *held = rule->held;
     int32_t same = 0;
-    rule->tolerance = tolerance;
     /* This loop handles the beginning, because usually most links are the same as before. */
     while (same < count && same < rule->count && held[same].id == requested[same].id) {
-        if (!keep(memory, &held[same], requested[same].length, requested[same].attenuation, tolerance, confirms)) return false;
+        if (!keep(memory, &held[same], requested[same].length, requested[same].attenuation, tolerance, unchanged)) return false;
         same++;
     }
     if (same == count && same == rule->count) return true;
@@ -248,7 +245,7 @@ static bool merge(struct thread_memory *memory, struct rule *rule, const clk_nei
             continue;
         }
         if (h < rule->count && held[h].id == requested[r].id) {
-            if (!keep(memory, &held[h], requested[r].length, requested[r].attenuation, tolerance, confirms)) return false;
+            if (!keep(memory, &held[h], requested[r].length, requested[r].attenuation, tolerance, unchanged)) return false;
             memory->merged[r] = held[h++];
         } else {
             memory->merged[r] = (struct held){requested[r].id, requested[r].length, requested[r].attenuation, -1};
@@ -270,9 +267,8 @@ static bool apply(clk_neighbours *neighbours, struct rule *rule, const struct ch
         if (end - change > AHEAD && change[AHEAD].kind >= SET) links_prefetch(links, change[AHEAD].target);
         if (change->kind == RELEASE) {
             if (!links_release(links, change->target)) return false;
-            neighbours->confirms |= rule->is_taken;
-        } else if (change->kind == CONFIRM) {
-            if (!links_confirm(links, change->target, change->length, change->attenuation, rule->tolerance)) return false;
+        } else if (change->kind == REPLACE) {
+            if (!links_replace(links, change->target, change->length, change->attenuation)) return false;
         } else if (change->kind == SET) {
             if (!links_set(links, change->target, change->length, change->attenuation)) return false;
         } else {
@@ -309,7 +305,7 @@ static bool search(clk_neighbours *neighbours, struct thread_memory *memory, con
         memory->requested[count] = (clk_neighbour){grid->points[index].id, hit_distance(hits->keys[i]), 0};
         count += index != search->centre;
     }
-    return merge(memory, rule, memory->requested, count, search->tolerance, search->both != 0, neighbours->confirms);
+    return merge(memory, rule, memory->requested, count, search->tolerance, search->both != 0, neighbours->replaces ? REPLACE : NONE);
 }
 
 /* Runs searches until none are left, or until MAX_NEW_LINKS is reached. */
@@ -352,6 +348,7 @@ int32_t clk_neighbours_update(clk_neighbours *neighbours, const clk_search *sear
     neighbours->searches = searches;
     neighbours->search_count = count;
     neighbours->next = 0;
+    neighbours->replaces = neighbours->links.stale > 0;
     for (int32_t done = 0; done < count;) {
         neighbours->new_links = 0;
         for (int32_t i = 0; i < MAX_WORKERS; i++) neighbours->threads[i].change_count = 0;
@@ -371,7 +368,6 @@ int32_t clk_neighbours_update(clk_neighbours *neighbours, const clk_search *sear
         if (neighbours->links.count > max_links) return exceeding;
         done = end;
     }
-    neighbours->confirms = false;
     return count;
 }
 
@@ -395,9 +391,8 @@ int32_t clk_neighbours_take(clk_neighbours *neighbours, int32_t number, int32_t 
     }
     struct rule *rule = &neighbours->rules[number];
     rule->centre = centre;
-    rule->is_taken = true;
     memory->change_count = 0;
-    if (!merge(memory, rule, memory->requested, requested, tolerance, both != 0, true)) return CLK_NEIGHBOURS_MEMORY;
+    if (!merge(memory, rule, memory->requested, requested, tolerance, both != 0, SET)) return CLK_NEIGHBOURS_MEMORY;
     return apply(neighbours, rule, memory->changes, memory->change_count, memory->changes + memory->change_count) ? 0
                                                                                                                   : CLK_NEIGHBOURS_MEMORY;
 }
@@ -411,7 +406,6 @@ int32_t clk_neighbours_hold(clk_neighbours *neighbours, const clk_link *link) {
 
 int32_t clk_neighbours_release(clk_neighbours *neighbours, int32_t from, int32_t to) {
     int32_t released = links_release_script(&neighbours->links, from, to);
-    neighbours->confirms |= released > 0;
     return released < 0 ? CLK_NEIGHBOURS_MEMORY : released;
 }
 

@@ -412,6 +412,28 @@ static void rules_of_the_caller_determine_the_values_of_shared_links(void) {
     clk_neighbours_destroy(neighbours);
 }
 
+static void values_of_released_links_are_those_of_the_remaining_rules(void) {
+    clk_neighbours *neighbours = clk_neighbours_create();
+    clk_changes changes;
+    int32_t wide = clk_neighbours_add_rule(neighbours), narrow = clk_neighbours_add_rule(neighbours),
+            taken = clk_neighbours_add_rule(neighbours);
+    CHECK(clk_neighbours_know(neighbours, 4, 1) == 0 && clk_neighbours_know(neighbours, 9, 1) == 0);
+    float places[] = {6.735f, 5.235f, 4.995f, 5.2f, 5.4f, 5.4f, 5.4f, 5.4f, 5.6f, 5.6f, 5.6f};
+    float sent[] = {6.735f, 5.235f, 4.995f, 0, 5.235f, 0, 5.0f, 0, 5.0f, 0, 5.6f};
+    for (int32_t i = 0; i < 11; i++) {
+        clk_point now[] = {{0, 0, 0, 4}, {0, 0, places[i], 9}};
+        clk_search searches[] = {{wide, 0, -1, 0, 8, 0.25f, 1}, {narrow, 1, -1, 0, 5, 0.25f, 1}};
+        clk_neighbour cable = {9, 5, 0};
+        CHECK(clk_neighbours_place(neighbours, now, 2, 0) == 0);
+        CHECK(clk_neighbours_update(neighbours, searches, 2, 1, 99) == 2);
+        CHECK(i < 6 || clk_neighbours_take(neighbours, taken, 4, &cable, i < 9, 0.25f, 1) == 0);
+        CHECK(clk_neighbours_flush(neighbours, &changes) == 0);
+        CHECK(changes.set_count == (sent[i] > 0 ? 2 : 0));
+        if (sent[i] > 0) CHECK(changes.set[0].length == sent[i] && changes.set[1].length == sent[i]);
+    }
+    clk_neighbours_destroy(neighbours);
+}
+
 static void rules_of_the_caller_replace_the_values_of_scripts(void) {
     clk_neighbours *neighbours = clk_neighbours_create();
     clk_changes changes;
@@ -558,6 +580,7 @@ int main(int count, char **words) {
         CASE(links_exist_while_referenced_and_changes_are_sent_once),
         CASE(lengths_are_sent_when_they_leave_the_tolerance),
         CASE(rules_of_the_caller_determine_the_values_of_shared_links),
+        CASE(values_of_released_links_are_those_of_the_remaining_rules),
         CASE(rules_of_the_caller_replace_the_values_of_scripts),
         CASE(links_between_the_largest_ids_need_little_memory),
         CASE(any_number_of_threads_has_equal_results),
