@@ -8,6 +8,7 @@ import shutil
 import signal
 import subprocess
 import time
+import zipfile
 from pathlib import Path
 
 import pandas as pd
@@ -109,6 +110,16 @@ def test_programs_that_depend_on_hashes_can_leave_state(project: Project, tmp_pa
                        + "internal class Lamp(val index: Int)\n")
     assert project.sweep(vary={"seed": [1]}).returncode == 0
     assert can_leave_state(shutil.copy(project.folder / "out/bundle/programs.jar", tmp_path / "programs.jar")) == can_leave
+
+
+def test_damaged_programs_can_leave_state(tmp_path: Path) -> None:
+    with zipfile.ZipFile(tmp_path / "programs.jar", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("A.class", bytes(100))
+        start = len(archive.infolist()[0].FileHeader())
+    content = bytearray((tmp_path / "programs.jar").read_bytes())
+    content[start] ^= 0xFF
+    (tmp_path / "programs.jar").write_bytes(content)
+    assert can_leave_state(str(tmp_path / "programs.jar"))
 
 
 def test_runs_do_not_depend_on_locale_and_time_zone(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -89,8 +89,8 @@ def parameters(jar: Path) -> dict[str, dict[str, list[str]]]:
                     declared = found.setdefault(program, {})
                     if kind == "parameter" and len(rest) >= 2:
                         declared[name] = rest
-    # The host reports damaged jars.
-    except (zipfile.BadZipFile, OSError, ValueError):
+    # The host reports damaged jars. An encrypted or damaged entry, or an unknown compression, raises one of many types.
+    except Exception:
         return {}
     return found
 
@@ -290,6 +290,8 @@ def _runtime_hash(jars: Part) -> str:
 
 def _require_plugin(jar: Path) -> None:
     """Raises `Failure` if a jar is not a plugin of the Kotlin compiler. The compiler itself would ignore such a jar silently."""
-    with zipfile.ZipFile(jar) as archive:
-        if PLUGIN_SERVICE not in archive.namelist():
-            raise Failure(f"{jar} is not a plugin of the Kotlin compiler: set 'runtimePlugin' to Collektive's compiler plugin")
+    try:
+        with zipfile.ZipFile(jar) as archive:
+            archive.getinfo(PLUGIN_SERVICE)
+    except (zipfile.BadZipFile, LookupError, ValueError, NotImplementedError) as error:
+        raise Failure(f"{jar} is not a plugin of the Kotlin compiler: set 'runtimePlugin' to Collektive's compiler plugin") from error

@@ -197,6 +197,9 @@ class Runtimes(Project):
         plugin = self.path("project", "plugin.jar")
         repack(LIBRARY, plugin)
         self.refused(f"{plugin} is not a plugin of the Kotlin compiler")
+        with open(plugin, "w", encoding="utf-8") as file:
+            file.write("not a jar")
+        self.refused(f"{plugin} is not a plugin of the Kotlin compiler")
         # The changed plugin lacks a method, as a plugin for another version of the compiler does.
         repack(PLUGIN[0], plugin, change=lambda name, data: data.replace(b"registerExtensions", b"registerExtensionz"))
         self.refused("the compiler plugin may be built for another version")

@@ -18,6 +18,17 @@ def test_the_index_of_a_jar_contains_the_parameters_of_its_programs(tmp_path: Pa
     assert projects.parameters(jar) == {"a\\b": {"width": ["1", "Width."]}, "c": {}}
 
 
+def test_a_damaged_jar_has_no_index(tmp_path: Path) -> None:
+    jar = tmp_path / "programs.jar"
+    with zipfile.ZipFile(jar, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("META-INF/collektive/programs/a.AKt", "program\ta\ta.SensorData\n" * 20)
+        start = len(archive.infolist()[0].FileHeader())
+    content = bytearray(jar.read_bytes())
+    content[start] ^= 0xFF
+    jar.write_bytes(content)
+    assert projects.parameters(jar) == {}
+
+
 @pytest.mark.parametrize("other", [
     '@org.collektive.api.Program("b")', '@[Program("b")]', '@Program("b" + "c")', '@Program("""b""")', "@Program(B)", '@Program(parameters = [], name = "b")',
     'typealias Behaviour = Program\n@Behaviour("b")', 'import org.collektive.api.Program as Behaviour\n@Behaviour("b")'])
