@@ -18,7 +18,10 @@ internal class OutputFolder(private val root: Path) {
     fun write(path: String, bytes: ByteArray) {
         written += path
         val file = root.resolve(path)
-        if (Files.isDirectory(file)) throw GeneratorException("cannot write $file: it is a folder")
+        // Reading a pipe would wait for its writer.
+        if (Files.exists(file) && !Files.isRegularFile(file)) {
+            throw GeneratorException("cannot write $file: it is ${if (Files.isDirectory(file)) "a folder" else "not a file"}")
+        }
         val old = if (Files.exists(file)) Files.readAllBytes(file) else null
         if (old.contentEquals(bytes)) return
         if (Files.isSymbolicLink(file)) throw GeneratorException("$file is a symbolic link: remove it, or choose another folder")
@@ -32,6 +35,8 @@ internal class OutputFolder(private val root: Path) {
                 throw GeneratorException("cannot write $file: $folder is behind a symbolic link; remove it, or choose another folder")
             }
             Files.createDirectories(file.parent)
+            // Writing to a hard link would also change its other names.
+            Files.deleteIfExists(file)
             Files.write(file, bytes)
         } catch (e: FileSystemException) {
             val reason = when (e) {

@@ -167,6 +167,22 @@ internal class GeneratedTextTest {
     }
 
     @Test
+    fun `a hard link to a generated file of another folder is replaced`() {
+        val text = "namespace a; struct SensorData { x: float; } struct ActuatorData { x: float; }"
+        val first = Fixture.generate(text)
+        val earlier = texts(first)
+        val second = Fixture.newFolder().resolve("second")
+        for (file in Fixture.files(first)) {
+            val copy = second.resolve(first.relativize(file))
+            Files.createDirectories(copy.parent)
+            Files.createLink(copy, file)
+        }
+        Fixture.generate(Files.writeString(Fixture.newFolder().resolve("user.fbs"), text.replace("x:", "y:")), second)
+        assertEquals(earlier, texts(first))
+        assertContains(texts(second).getValue("csharp/a/SensorData.cs"), "Y")
+    }
+
+    @Test
     fun `files that the generator has not written are kept, and links are not followed`() {
         val output = Fixture.newFolder()
         val schema = Fixture.testSchemas.resolve("globals.fbs")
