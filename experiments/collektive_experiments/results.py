@@ -107,7 +107,7 @@ def load(folder: str, labels: dict[str, str] | None = None) -> Results:
     columns = list(results.runs.columns)
     # Figures would combine the runs with different values of a key that is missing in the settings.
     if (not needed <= set(columns) or {*columns[1:columns.index("status")]} != {*results.keys, "seed"}
-            or not {"run", "second", "links"} <= set(results.series.columns)):
+            or not {"run", "second", "links"} <= set(results.series.columns) or not results.runs["run"].is_unique):
         raise ExperimentError(f"the tables of '{folder}' are damaged or from an earlier version: write them again with ./collektive sweep EXPERIMENT.json "
                               f"--out {folder} --resume")
     if len({content for _, content in read.values()}) > 1:

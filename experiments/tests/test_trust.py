@@ -410,6 +410,15 @@ def test_tables_without_columns_are_a_one_line_error(lamps: Project, tmp_path: P
         assert "are damaged or from an earlier version: write them again" in capsys.readouterr().err
 
 
+def test_a_table_with_a_run_twice_is_a_one_line_error(lamps: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for path in [lamps.folder / "out/sweep.json", *(lamps.folder / "out").glob("*.parquet")]:
+        shutil.copy(path, tmp_path)
+    runs = lamps.table(name="runs")
+    pd.concat([runs, runs[:1]], ignore_index=True).to_parquet(tmp_path / "runs.parquet")
+    assert main(["plot", str(tmp_path)]) == 1
+    assert "are damaged or from an earlier version: write them again" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("edited", [{"keys": []}, {"keys": [1]}, {"keys": None}, {"measure": ["lit"]}, {"labels": {"lit": 1}}], ids=json.dumps)
 def test_edited_settings_are_a_one_line_error(lamps: Project, tmp_path: Path, capsys: pytest.CaptureFixture[str], edited: dict[str, object]) -> None:
     for path in (lamps.folder / "out").glob("*.parquet"):
