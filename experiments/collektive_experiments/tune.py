@@ -20,7 +20,7 @@ from .figure_options import CONVERGED
 from .files import write
 from .positions import ExperimentError
 from .search import Search, check_search, is_int
-from .store import Store
+from .store import PART, Store
 from .sweep import MAX_EQUAL_FAILURES, Pool, drive
 
 STUDY = "tune"
@@ -45,10 +45,13 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     prepare(experiment.scenario, store.bundle, options.trust_jvm, experiment.runtimes)
     check_search(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
+    folders = {name.removesuffix(PART) for name in os.listdir(store.runs)}
+    others = folders - {run.name for trial in _trials(study, search) for run in _runs(experiment, trial)}
     for trial in _trials(study, search, TrialState.COMPLETE):
-        # SQLite has no checksums. Runs of finished trials may have been deleted, and are not repeated.
+        # SQLite has no checksums. Runs of finished trials may have been deleted, and are not repeated. Runs with other names show that values have changed.
         runs = _runs(experiment, trial)
-        if all(map(store.is_intact, runs)) and trial.value != _mean(search, store, runs):
+        is_changed = bool(others) and not any(run.name in folders for run in runs)
+        if is_changed or (all(map(store.is_intact, runs)) and trial.value != _mean(search, store, runs)):
             raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' differs from the runs of trial {trial.number}: delete study.db and "
                                   "continue with --resume")
     store.write_settings()

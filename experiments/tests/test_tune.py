@@ -18,6 +18,7 @@ from optuna.storages import RDBStorage
 from collektive_experiments import ExperimentError, load, read
 from collektive_experiments import search as searching
 from collektive_experiments import tune as tuning
+from collektive_experiments.experiment import Run
 from collektive_experiments.search import check_search, read_search
 from collektive_experiments.store import Store
 from collektive_experiments.worker import Outcome
@@ -94,6 +95,7 @@ def test_a_storage_of_a_search_with_other_inputs_is_refused(project: Project) ->
 
 @pytest.mark.parametrize(("change", "message"), [
     ("update trial_values set value = value + 1", "study.db' differs from the runs of trial 0: delete study.db and continue"),
+    ("update trial_params set param_value = param_value / 2", "study.db' differs from the runs of trial 0: delete study.db and continue"),
     pytest.param("update trial_params set distribution_json = '{'", "study.db' cannot be read or written: ", marks=pytest.mark.slow)])
 def test_a_damaged_storage_is_an_error(project: Project, change: str, message: str) -> None:
     first = tune(project, "--trials", "1")
@@ -229,8 +231,8 @@ def test_a_killed_search_continues_with_the_same_trials(project: Project, monkey
     experiment = read(project.experiment(vary={"seed": "1-2"}, tune={**TUNE, "trials": 12, "parameters": {"network.loss": {"from": 0, "to": 1}, "x": steps}}))
     options = argparse.Namespace(resume=True, trust_jvm=False, trials=None, jobs=3, keep_going=False)
 
-    def drive(store: Store, *_: Any) -> int:
-        for folder in (store.bundle, os.path.join(store.runs, "run")):
+    def drive(store: Store, total: int, todo: list[tuple[Run, bool]], *_: Any) -> int:
+        for folder in (store.bundle, *(os.path.join(store.runs, run.name) for run, _ in todo)):
             os.makedirs(folder, exist_ok=True)
         return 0
 
