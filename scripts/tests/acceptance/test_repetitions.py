@@ -50,6 +50,10 @@ class Repetitions(Project):
         self.assertEqual(result.returncode, 1)
         for key in edited:
             self.assertRegex(last_error(result), f"{key} is .*, previously ")
+        del manifest["errors"]
+        with open(file, "w", encoding="utf-8") as stream:
+            json.dump(manifest, stream)
+        self.assertIn("the key 'errors' is missing", last_error(self.repeat()))
 
     @pytest.mark.slow
     def test_a_moved_project_is_found_with_the_folder_option(self) -> None:

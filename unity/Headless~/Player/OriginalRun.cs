@@ -22,9 +22,8 @@ namespace Collektive.Headless
                 + ": the run was not completed and has no results to compare with: choose the manifest of a complete run");
             Ticks = file.Required<int>(manifest, "ticks");
             file.Required<string>(manifest, "digest");
-            file.Required<JObject>(manifest, "end");
-            file.Required<JObject>(manifest, "inputs");
-            file.Required<JObject>(manifest, "versions");
+            foreach (var key in new[] { "nodes", "errors" }) file.Required<long>(manifest, key);
+            foreach (var key in new[] { "start", "end", "converged", "inputs", "versions" }) file.Required<JObject>(manifest, key);
             if (Ticks < 1) throw new ScenarioException(path + ": the run has no ticks to repeat: choose the manifest of a complete run");
         }
 
@@ -43,8 +42,6 @@ namespace Collektive.Headless
             var differences = new List<string>();
             foreach (var key in new[] { "ticks", "digest", "nodes", "errors", "start", "end", "converged" })
             {
-                // Manifests of earlier versions do not contain all keys.
-                if (manifest[key] == null) continue;
                 // The values are compared as text, because NaN is a string in files.
                 if (Text(manifest[key]) != Text(now.Root[key])) differences.Add(key + " is " + Text(now.Root[key]) + ", previously " + Text(manifest[key]));
             }
