@@ -1,4 +1,6 @@
 using System.Collections;
+using System.Threading;
+using System.Threading.Tasks;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.Headless;
@@ -45,6 +47,20 @@ namespace Collektive.Headless.Tests.Engine
                 Notes.Add("frame end");
                 yield return new WaitUntil(() => Open);
                 Notes.Add("open");
+            }
+        }
+
+        public class StartsAsync : MonoBehaviour
+        {
+            async void Start()
+            {
+                var main = Thread.CurrentThread;
+                for (var frame = 0; frame < 2; frame++)
+                {
+                    await Task.Yield();
+                    Notes.Add("frame " + frame + " " + (Thread.CurrentThread == main));
+                }
+                throw new System.InvalidOperationException("failed");
             }
         }
 
@@ -124,6 +140,19 @@ namespace Collektive.Headless.Tests.Engine
             Add<StartsAsCoroutine>();
             Frames(2);
             Assert.That(Events(), Is.EqualTo("first second"));
+        }
+
+        [Test]
+        public void An_async_method_continues_on_the_main_thread_once_per_frame()
+        {
+            Add<StartsAsync>();
+            Frames(1);
+            Assert.That(Events(), Is.EqualTo("frame 0 True"));
+            Frames(1);
+            Assert.That(Events(), Is.EqualTo("frame 0 True frame 1 True"));
+            Frames(1);
+            Assert.That(Errors, Is.EqualTo(new[] { "failed" }));
+            Assert.That(Loop.FailedCalls, Is.EqualTo(1));
         }
     }
 }

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Reflection;
+using System.Threading;
 
 namespace UnityEngine.Headless
 {
@@ -14,6 +15,7 @@ namespace UnityEngine.Headless
         };
 
         static bool started;
+        static MainThreadContext tasks;
         static int searched;
         static List<MethodInfo> found;
 
@@ -58,6 +60,7 @@ namespace UnityEngine.Headless
         {
             if (started) throw new InvalidOperationException("The player is already running: call Loop.Quit or Loop.Reset first.");
             started = true;
+            SynchronizationContext.SetSynchronizationContext(tasks = new MainThreadContext());
             Random.InitState(seed);
             var methods = InitializeMethods();
             foreach (var type in BeforeScene) Initialize(methods, type);
@@ -66,7 +69,7 @@ namespace UnityEngine.Headless
             Initialize(methods, RuntimeInitializeLoadType.AfterSceneLoad);
         }
 
-        /// Runs one frame of `deltaTime` seconds: the fixed steps that are due, Update, coroutines, LateUpdate and destruction.
+        /// Runs one frame of `deltaTime` seconds: the fixed steps that are due, Update, coroutines, async methods, LateUpdate and destruction.
         public static void Frame(float deltaTime)
         {
             if (!started) throw new InvalidOperationException("The player is not running: call Loop.Start first.");
@@ -83,6 +86,7 @@ namespace UnityEngine.Headless
             Lifecycle.RunUpdates();
             if (Physics.simulationMode == SimulationMode.Update && Time.deltaTime > 0f) PhysicsWorld.Step(Time.deltaTime);
             CoroutineScheduler.Run(CoroutinePhase.Update);
+            tasks.Run();
             Lifecycle.RunLateUpdates();
             CoroutineScheduler.Run(CoroutinePhase.EndOfFrame);
             Destruction.RunDue();
@@ -99,6 +103,7 @@ namespace UnityEngine.Headless
             Application.RaiseQuitting();
             Destruction.DestroyScene();
             SceneManagement.SceneManager.RaiseUnloaded(SceneManagement.Scene.Active);
+            SynchronizationContext.SetSynchronizationContext(null);
             started = false;
         }
 
