@@ -96,6 +96,15 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(log, Is.EqualTo(new[] { "Simulation stopped: enough" }));
         }
 
+        [TestCase(null)]
+        [TestCase("")]
+        public void Fail_without_a_message_is_a_failure(string message)
+        {
+            simulation.Fail(message);
+            Assert.That(simulation.Failure, Is.EqualTo("a script called Fail without a message"));
+            Assert.That(log, Is.EqualTo(new[] { "Simulation stopped: " + simulation.Failure }));
+        }
+
         [Test]
         public void An_ended_simulation_has_no_nodes_links_or_time_but_keeps_its_digest()
         {

@@ -259,8 +259,9 @@ namespace Collektive.Unity
         internal void Fail(string message, UnityEngine.Object context = null)
         {
             if (Failure.Length > 0) return;
-            Failure = message;
-            Debug.LogError(StopPrefix + message, context != null ? context : Manager);
+            // An empty text would mean that the simulation continues.
+            Failure = string.IsNullOrEmpty(message) ? "a script called Fail without a message" : message;
+            Debug.LogError(StopPrefix + Failure, context != null ? context : Manager);
             if (Manager != null) Manager.enabled = false;
             else End();
         }
