@@ -67,12 +67,16 @@ namespace Collektive.Headless
             Loop.PhysicsThreads = scenario.Settings.threads;
             // Loop.Start calls the initialisation methods of the loaded assemblies.
             Assembly.LoadFrom(options.Scripts);
-            Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)));
-            RunLog.Install();
-            // Allows frames as long as a tick, so that each frame runs one tick.
-            Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, scenario.Settings.deltaTime);
-            var manager = MakeManager();
-            var scene = MakeScene(manager);
+            SimulationManager manager = null;
+            SceneBuilder scene = null;
+            Loop.Start(unchecked((int)(scenario.Settings.seed ^ scenario.Settings.seed >> 32)), () =>
+            {
+                RunLog.Install();
+                // Allows frames as long as a tick, so that each frame runs one tick.
+                Time.maximumDeltaTime = Mathf.Max(Time.maximumDeltaTime, scenario.Settings.deltaTime);
+                manager = MakeManager();
+                scene = MakeScene(manager);
+            });
             manifest.Write();
             try
             {
