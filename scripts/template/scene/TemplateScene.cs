@@ -68,7 +68,11 @@ namespace template
 
         private void Move(SimulationManager manager)
         {
-            foreach (var wanderer in wanderers) wanderer.Move(manager.Settings.deltaTime);
+            foreach (var wanderer in wanderers)
+            {
+                // Destroyed nodes are equal to null.
+                if (wanderer != null) wanderer.Move(manager.Settings.deltaTime);
+            }
         }
 
         private GameObject AddNode(Vector3 place)

@@ -31,6 +31,15 @@ class NewTest(Folder):
         self.assertGreater(manifest["end"]["reached"], 0.5)
         self.assertTrue(os.path.exists(self.path("out", "replay.html")))
 
+    def test_the_other_nodes_of_a_new_project_continue_after_one_was_destroyed(self) -> None:
+        self.assertEqual(collektive("new", "herd", cwd=self.folder).returncode, 0)
+        with open(self.path("herd", "scene", "Remove.cs"), "w") as file:
+            file.write("public static class Remove { [UnityEngine.RuntimeInitializeOnLoadMethod] private static void Run() =>"
+                       " UnityEngine.Object.Destroy(Collektive.Unity.SimulationManager.Current.Nodes[0].gameObject); }")
+        ran = collektive("run", "herd/scenario.json", "--out", "out", "--set", "seconds=1", "--set", "outputs.replay=false", cwd=self.folder)
+        self.assertEqual(ran.returncode, 0, ran.stderr)
+        self.assertEqual(self.manifest(self.path("out"))["nodes"], 99)
+
     @pytest.mark.slow
     def test_the_kotlin_compiles_with_the_files_that_the_gradle_build_names(self) -> None:
         created = collektive("new", "herd", cwd=self.folder)
