@@ -6,10 +6,11 @@ namespace Collektive.Headless
     /// <remarks>Not thread-safe.</remarks>
     public sealed class PlaceExpression : IDisposable
     {
-        private const string Before = "SELECT (";
+        // These parameters precede those of the user's text, which would otherwise get their values.
+        private const string Before = "WITH place(id, time, x, y, z) AS (SELECT ?1, ?2, ?3, ?4, ?5) SELECT (";
         private const string Columns = "id, time, x, y, z";
         // This part begins on a new line, so that a comment at the end of the user's text cannot hide it.
-        private const string After = "\n) FROM (SELECT ?1 AS id, ?2 AS time, ?3 AS x, ?4 AS y, ?5 AS z)";
+        private const string After = "\n) FROM place";
 
         private readonly double[] values = new double[5];
         private readonly Sqlite database;
