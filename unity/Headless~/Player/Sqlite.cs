@@ -44,7 +44,7 @@ namespace Collektive.Headless
         // The database calls these delegates, so they must not be collected as garbage.
         private readonly Authorizer authorizer;
         private readonly ProgressHandler progress;
-        private readonly IntPtr database;
+        private IntPtr database;
         private readonly Stopwatch clock = new Stopwatch();
         private readonly int limitMs;
         private ISet<string> columnsRead;
@@ -68,7 +68,11 @@ namespace Collektive.Headless
             sqlite3_progress_handler(database, InstructionsPerCheck, progress, IntPtr.Zero);
         }
 
-        public void Dispose() => sqlite3_close_v2(database);
+        public void Dispose()
+        {
+            sqlite3_close_v2(database);
+            database = IntPtr.Zero;
+        }
 
         /// <summary>Executes trusted statements.</summary>
         internal void Execute(string sql) => Check(sqlite3_exec(database, Bytes(sql), IntPtr.Zero, IntPtr.Zero, IntPtr.Zero));
@@ -164,7 +168,7 @@ namespace Collektive.Headless
         internal sealed class Statement : IDisposable
         {
             private readonly Sqlite owner;
-            private readonly IntPtr handle;
+            private IntPtr handle;
 
             internal Statement(Sqlite owner, IntPtr handle)
             {
@@ -172,7 +176,11 @@ namespace Collektive.Headless
                 this.handle = handle;
             }
 
-            public void Dispose() => sqlite3_finalize(handle);
+            public void Dispose()
+            {
+                sqlite3_finalize(handle);
+                handle = IntPtr.Zero;
+            }
 
             /// <summary>Executes a statement without results. Its parameters are the first values of an array; NaN becomes NULL.</summary>
             internal void Execute(double[] values, int count)
@@ -183,6 +191,7 @@ namespace Collektive.Headless
             /// <summary>Sets the parameters; NaN becomes NULL.</summary>
             internal void Bind(double[] values)
             {
+                if (handle == IntPtr.Zero) throw new ObjectDisposedException("SQL expression");
                 if (collektive_bind(handle, values, values.Length) != Ok) throw new InvalidOperationException("SQLite: " + owner.Message);
             }
 
