@@ -79,6 +79,8 @@ class Table:
                 file.flush()
                 os.fsync(file.fileno())
         finally:
+            # After an interruption, `__del__` would print an error, because the file is closed.
+            self._writers[0].is_open = False
             for file in self._files:
                 file.close()
 

@@ -1,14 +1,18 @@
 """Tests the statistics of experiments."""
+import sys
 import tracemalloc
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 import pytest
 
 from collektive_experiments import Results, compare, draw, holm, interval, kaplan_meier, read_options
 from collektive_experiments.figures import _table, _title, at_end, over_time
 from collektive_experiments.statistics import paired_effect, unpaired_effect
+from collektive_experiments.tables import Table
 
 
 def results(shift: float, size: int = 20) -> Results:
@@ -240,3 +244,16 @@ def test_rounding_errors_are_not_effects() -> None:
     a, b = np.array([0.3, 0.6, 1e300]), np.array([0.1 + 0.2, 0.2 + 0.4, 1e300])
     assert (b > a).sum() == 2
     assert paired_effect(a, b)["delta"] == unpaired_effect(a, b)["delta"] == 0
+
+
+def test_an_interruption_while_a_table_is_written_prints_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    ignored: list[sys.UnraisableHookArgs] = []
+    monkeypatch.setattr(sys, "unraisablehook", ignored.append)
+
+    def interrupt(table: Table) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Table, "_flush", interrupt)
+    with pytest.raises(KeyboardInterrupt), Table(str(tmp_path / "runs"), pa.schema([("run", pa.string())]), True):
+        pass
+    assert not ignored
