@@ -37,7 +37,7 @@ def _add_run_arguments(parser: argparse.ArgumentParser, out: str) -> "argparse._
 def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive plot. The package checks their values, because experiment files can contain them, too."""
     parser.add_argument("folder", metavar="FOLDER", help="folder of a sweep")
-    parser.add_argument("--metric", nargs="+", metavar="NAME", help="draw only one figure of each of these metrics")
+    parser.add_argument("--metric", action="extend", nargs="+", metavar="NAME", help="draw only one figure of each of these metrics")
     parser.add_argument("--x", metavar="KEY", help="key of the horizontal axis, or time (default for the kind line: time)")
     parser.add_argument("--by", metavar="KEY", help="key shown by colours, markers and line styles, or by the vertical axis of a heat map")
     parser.add_argument("--kind", metavar="line|box|heat|ecdf", help="kind of figure (default: line)")

@@ -140,7 +140,7 @@ def test_limits_may_be_negative(out: Path, capsys: pytest.CaptureFixture[str]) -
     (["--metric", "eror", "--x", "network.loss"], "--metric is 'eror', which does not exist; existing metrics: error, converged.error, nodes"),
     (["--metric", "digest", "--x", "network.loss"], "--metric is 'digest', which does not exist"),
     (["--metric", "converged.error"], "--metric is 'converged.error', which has one value per run; name a key with x, or use the kind 'ecdf'"),
-    (["--metric", "error", "error"], "--metric contains 'error' twice"),
+    (["--metric", "error", "error"], "--metric contains 'error' twice"), (["--metric", "error", "--metric", "error"], "--metric contains 'error' twice"),
     (["--by", "program", "--size", "1x1"], "--size leaves too little space for labels: 1x1; enlarge it, or set shorter labels"),
     (["--experiment", "missing.json"], "'missing.json' cannot be read"),
 ])
