@@ -1,4 +1,10 @@
 """The command `./collektive`. Each of its commands is a module of the same name in the package `commands`."""
+import signal
+
+if __name__ == "__main__":
+    # Until `run_in_group` handles Ctrl-C, it ends the process without a traceback.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
 import argparse
 import errno
 import importlib
@@ -6,7 +12,6 @@ import os
 import re
 import resource
 import shutil
-import signal
 import sys
 from pathlib import Path
 from typing import NoReturn

@@ -5,6 +5,9 @@ import json
 import os
 import re
 import shutil
+import signal
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -123,6 +126,20 @@ def test_errors_of_copies_are_reported_in_one_line(tmp_path: Path, capsys: pytes
     for run, message in ((copy, "cannot write '{to}/o[a-z]+': .*No such file or directory.*"), (move, "Destination path '{to}/one' already exists")):
         assert collektive.run_command(argparse.Namespace(run=run)) == 1
         assert re.fullmatch(f"collektive: {message}\n".replace("{to}", re.escape(str(tmp_path / "to"))), capsys.readouterr().err)
+
+
+def test_ctrl_c_during_the_start_prints_nothing() -> None:
+    code = """
+import os, runpy, sys
+class Finder:
+    def find_spec(name, path, target=None):
+        if name == "resource":
+            os.kill(os.getpid(), 2)
+sys.meta_path.insert(0, Finder)
+runpy.run_path(sys.argv[1], run_name="__main__")
+"""
+    ended = subprocess.run([sys.executable, "-I", "-c", code, collektive.__file__], capture_output=True)
+    assert (ended.returncode, ended.stdout + ended.stderr) == (-signal.SIGINT, b"")
 
 
 def test_setup_rejects_unknown_tools() -> None:
