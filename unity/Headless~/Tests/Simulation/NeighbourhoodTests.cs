@@ -465,6 +465,31 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void Triggers_and_colliders_that_move_to_another_body_leave_each_other()
+        {
+            var bodies = new[] { MakeNode(2, id: 0), MakeNode(2, Vector3.right, id: 1), MakeNode(2, 9 * Vector3.forward, id: 2) };
+            foreach (var body in bodies) body.Node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            var zone = new GameObject("Zone").transform;
+            zone.SetParent(bodies[0].Node.transform, false);
+            AddZone(zone);
+            var arm = new GameObject("Arm").transform;
+            arm.SetParent(bodies[1].Node.transform, false);
+            arm.gameObject.AddComponent<SphereCollider>().radius = 0.1f;
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            zone.SetParent(bodies[2].Node.transform, false);
+            Play(2);
+            Assert.That(Links(), Is.Empty);
+            zone.SetParent(bodies[0].Node.transform, false);
+            Play(2);
+            Assert.That(Links(), Is.EqualTo("0>1 1>0"));
+            arm.SetParent(bodies[2].Node.transform, false);
+            Play(2);
+            Assert.That(Links(), Is.Empty);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void Searches_between_ticks_skip_nodes_that_left()
         {
             var line = MakeLine(0, 1, 2);
@@ -478,12 +503,12 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(found, Is.EqualTo(new[] { line[0].Node }));
         }
 
-        private static SphereCollider AddZone(Node node)
+        private static SphereCollider AddZone(Component owner)
         {
-            var trigger = node.gameObject.AddComponent<SphereCollider>();
+            var trigger = owner.gameObject.AddComponent<SphereCollider>();
             trigger.isTrigger = true;
             trigger.radius = 2;
-            node.gameObject.AddComponent<TriggerNeighbourhood>();
+            owner.gameObject.AddComponent<TriggerNeighbourhood>();
             return trigger;
         }
 

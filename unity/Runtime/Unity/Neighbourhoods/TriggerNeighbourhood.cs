@@ -27,6 +27,9 @@ namespace Collektive.Unity
             internal Node Owner;
             // The owner's number of deactivations when the collider entered. Unity sends no exit message for them, but another enter message afterwards.
             internal int Deactivations;
+            // The bodies of the collider and of the trigger. Unity sends no exit message when one of them changes, but another enter message afterwards.
+            internal Rigidbody Body;
+            internal Rigidbody OwnBody;
         }
 
         /// <inheritdoc/>
@@ -44,12 +47,14 @@ namespace Collektive.Unity
             if (visitors.Count > 0 && !HasTrigger()) visitors.Clear();
             var all = visitors.Items;
             var here = Node.Position;
+            var body = visitors.Count > 0 ? GetComponentInParent<Rigidbody>() : null;
             var remaining = 0;
             for (var i = 0; i < visitors.Count; i++)
             {
                 ref var visitor = ref all[i];
                 var owner = visitor.Owner;
                 if (visitor.Collider.IsGone() || !(owner is null) && visitor.Deactivations != owner.Deactivations) continue;
+                if (visitor.OwnBody != body || visitor.Body != visitor.Collider.attachedRigidbody) continue;
                 // Unity sends no message when a collider gets another parent or node.
                 if (owner == null || !owner.Owns(visitor.Collider)) owner = (visitor = VisitorOf(visitor.Collider)).Owner;
                 if (remaining < i) all[remaining] = visitor;
@@ -73,10 +78,14 @@ namespace Collektive.Unity
             visitors.Items[index] = VisitorOf(other);
         }
 
-        private static Visitor VisitorOf(Collider collider)
+        private Visitor VisitorOf(Collider collider)
         {
             var node = collider.GetComponentInParent<Node>();
-            return new Visitor { Collider = collider, Owner = node, Deactivations = node == null ? 0 : node.Deactivations };
+            return new Visitor
+            {
+                Collider = collider, Owner = node, Deactivations = node == null ? 0 : node.Deactivations, Body = collider.attachedRigidbody,
+                OwnBody = GetComponentInParent<Rigidbody>(),
+            };
         }
 
         private void OnTriggerExit(Collider other)
