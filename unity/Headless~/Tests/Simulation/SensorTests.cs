@@ -178,6 +178,18 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(sensor.Values, Is.Empty);
         }
 
+        [Test]
+        public void An_obstacle_that_moves_to_another_body_no_longer_touches_the_node()
+        {
+            var box = MakeBox(new Vector3(0, -0.5f, 0));
+            var sensor = MakeBall(new Vector3(0, 0.49f, 0)).gameObject.AddComponent<Contacts>();
+            Play(3);
+            Assert.That(sensor.Values.Count, Is.EqualTo(1));
+            box.transform.SetParent(MakeCarrier(), false);
+            Play(2);
+            Assert.That(sensor.Values, Is.Empty);
+        }
+
         [TestCase(1)]
         [TestCase(-1)]
         public void The_impulse_of_a_mesh_with_two_opposite_walls_points_away_from_the_pressed_wall(int side)
@@ -374,6 +386,31 @@ namespace Collektive.Headless.Tests.Simulation
             ball.transform.position = Vector3.zero;
             Play(3);
             Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "in", "in", "in", "left" }));
+        }
+
+        [TestCase(true)]
+        [TestCase(false)]
+        public void A_zone_or_collider_that_moves_to_another_body_is_left(bool movesZone)
+        {
+            var zone = MakeBox(Vector3.zero).GetComponent<Collider>();
+            zone.isTrigger = true;
+            MakeNode(0, Vector3.zero).Node.gameObject.AddComponent<Rigidbody>().isKinematic = true;
+            var arm = new GameObject("Arm");
+            arm.transform.SetParent(Manager.Nodes[0].transform, false);
+            arm.AddComponent<SphereCollider>();
+            arm.AddComponent<SphereCollider>();
+            var sensor = arm.AddComponent<Zones>();
+            var carrier = MakeCarrier();
+            if (!movesZone) carrier.gameObject.AddComponent<Node>();
+            var moved = movesZone ? zone.transform : arm.transform;
+            var before = moved.parent;
+            Play(2);
+            moved.SetParent(carrier, false);
+            Play(2);
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "left" }));
+            moved.SetParent(before, false);
+            Play(3);
+            Assert.That(sensor.Events, Is.EqualTo(new[] { "entered", "left", "entered", "in" }));
         }
 
         [Test]
@@ -772,6 +809,14 @@ namespace Collektive.Headless.Tests.Simulation
             var body = holder.AddComponent<Rigidbody>();
             body.useGravity = false;
             return body;
+        }
+
+        private static Transform MakeCarrier()
+        {
+            var body = new GameObject("Carrier").AddComponent<Rigidbody>();
+            body.isKinematic = true;
+            body.transform.position = 90 * Vector3.right;
+            return body.transform;
         }
 
         /// <summary>Creates a node of 2 kg with a radius of half a metre.</summary>

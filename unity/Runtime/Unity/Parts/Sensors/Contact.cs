@@ -6,10 +6,11 @@ namespace Collektive.Unity
     public readonly struct Contact
     {
         /// <summary>Creates a value.</summary>
-        internal Contact(Collider own, Collider collider, Vector3 point, Vector3 normal, Vector3 impulse)
+        internal Contact(Collider own, Collider collider, Rigidbody body, Vector3 point, Vector3 normal, Vector3 impulse)
         {
             Own = own;
             Collider = collider;
+            Body = body;
             Point = point;
             Normal = normal;
             Impulse = impulse;
@@ -22,7 +23,7 @@ namespace Collektive.Unity
         internal Collider Own { get; }
 
         /// <summary>The body that the collider belongs to; null for static colliders.</summary>
-        public Rigidbody Body => Collider.attachedRigidbody;
+        public Rigidbody Body { get; }
 
         /// <summary>Mean contact point in world space.</summary>
         public Vector3 Point { get; }
@@ -33,8 +34,14 @@ namespace Collektive.Unity
         /// <summary>Impulse on the node since its last round, in newton seconds. It points away from the other collider.</summary>
         public Vector3 Impulse { get; }
 
+        /// <summary>
+        /// Whether the touch ended without a message: Unity sends none when a collider is disabled, destroyed or moved to another body. If the collider then
+        /// still touches the node, another enter message follows.
+        /// </summary>
+        internal bool HasEnded => Own.IsGone() || Collider.IsGone() || Collider.attachedRigidbody != Body;
+
         internal bool IsOf(Collider own, Collider collider) => ReferenceEquals(Own, own) && ReferenceEquals(Collider, collider);
 
-        internal Contact WithImpulse(Vector3 impulse) => new Contact(Own, Collider, Point, Normal, impulse);
+        internal Contact WithImpulse(Vector3 impulse) => new Contact(Own, Collider, Body, Point, Normal, impulse);
     }
 }

@@ -89,7 +89,7 @@ namespace Collektive.Unity
             }
             ended.Items[index] = false;
             impulse += contacts.Items[index].Impulse;
-            contacts.Items[index] = new Contact(first.thisCollider, collision.collider, point / count, normal, impulse);
+            contacts.Items[index] = new Contact(first.thisCollider, collision.collider, collision.rigidbody, point / count, normal, impulse);
         }
 
         private void RemoveStale()
@@ -101,7 +101,7 @@ namespace Collektive.Unity
                 var contact = contacts.Items[i];
                 var hasEnded = ended.Items[i];
                 // The body also reports the contacts of nodes on its children.
-                if (contact.Collider.IsGone() || contact.Own.IsGone() || !Node.Owns(contact.Own)) continue;
+                if (contact.HasEnded || !Node.Owns(contact.Own)) continue;
                 var index = remaining++;
                 for (; index > 0; index--)
                 {

@@ -31,6 +31,11 @@ namespace Collektive.Unity
             // The physics step in which the last of the node's colliders left the zone; 0 outside of a simulation.
             internal ulong LeftIn;
             internal bool IsNew;
+            // The bodies of the zone and of the node. Unity sends no exit message when one of them changes, but another enter message afterwards.
+            internal Rigidbody Body;
+            internal Rigidbody OwnBody;
+
+            internal bool IsValid(Rigidbody ownBody) => !Zone.IsGone() && Zone.attachedRigidbody == Body && ownBody == OwnBody;
         }
 
         /// <summary>Layers of the detected zones. A change applies to zones that are entered afterwards.</summary>
@@ -59,12 +64,13 @@ namespace Collektive.Unity
             if (zones.Length < count) zones = new Zone[visits.Items.Length];
             var remaining = 0;
             var colliders = count > 0 ? CountColliders() : 0;
+            var body = count > 0 ? GetComponentInParent<Rigidbody>() : null;
             for (var i = 0; i < count; i++)
             {
                 var visit = visits.Items[i];
                 // Unity sends no message when a collider of the node or the zone is disabled.
                 visit.Entries = Math.Min(visit.Entries, colliders);
-                var left = visit.Entries == 0 || visit.Zone.IsGone();
+                var left = visit.Entries == 0 || !visit.IsValid(body);
                 zones[i] = new Zone(visit.Zone, visit.IsNew, left);
                 visit.IsNew = false;
                 if (!left) visits.Items[remaining++] = visit;
@@ -79,7 +85,8 @@ namespace Collektive.Unity
             for (var i = 0; i < visits.Count; i++)
             {
                 var visit = visits.Items[i];
-                if (visit.Entries > 0) visits.Items[remaining++] = new Visit { Zone = visit.Zone, Entries = visit.Entries, IsNew = true };
+                visit.IsNew = true;
+                if (visit.Entries > 0) visits.Items[remaining++] = visit;
             }
             visits.Truncate(remaining);
         }
@@ -101,6 +108,8 @@ namespace Collektive.Unity
             }
             if (index == visits.Count) visits.Add(new Visit { Zone = other, IsNew = true });
             ref var visit = ref visits.Items[index];
+            var body = GetComponentInParent<Rigidbody>();
+            if (!visit.IsValid(body)) (visit.Entries, visit.Body, visit.OwnBody) = (0, other.attachedRigidbody, body);
             visit.Entries++;
             // A zone that was disabled and enabled is entered again without having been left.
             if (visit.Entries > 1) visit.Entries = Math.Min(visit.Entries, CountColliders());
