@@ -14,8 +14,9 @@ import org.collektive.alignment.withPlace
  * `mapValues` and `alignedMap` run once per entry, neighbours first; primitives inside them are aligned on the entry's id. Two
  * fields are equal when they map the same ids, this device's included, to equal values.
  *
- * A branch is an arm of `if` or `when`, or the right side of `?:`, `&&` or `||`. Inside a branch or an `alignedOn` body, a field
- * created outside has only the neighbours that entered the same branch or body. Read values of all neighbours before branching:
+ * A branch is an arm of `if` or `when`, or the right side of `?:`, `&&` or `||`. Conditions are outside, also those of `else if`. Inside
+ * a branch or an `alignedOn` body, a field created outside has only the neighbours that entered the same branch or body. Read values of
+ * all neighbours before branching:
  *
  * ```
  * val near = seen.neighbors.values.list.min()
