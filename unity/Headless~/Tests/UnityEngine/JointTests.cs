@@ -5,6 +5,25 @@ namespace Collektive.Headless.Tests.Engine
 {
     public sealed class JointTests : PhysicsFixture
     {
+        [Test]
+        public void A_joint_of_a_copy_connects_the_copied_bodies()
+        {
+            var template = Ball(Vector3.zero);
+            var arm = Ball(new Vector3(0f, -2f, 0f));
+            arm.transform.SetParent(template.transform);
+            arm.gameObject.AddComponent<FixedJoint>().connectedBody = template;
+            template.useGravity = arm.useGravity = false;
+
+            var copy = Object.Instantiate(template, new Vector3(10f, 0f, 0f), Quaternion.identity);
+            copy.linearVelocity = new Vector3(1f, 0f, 0f);
+            Run(1f);
+
+            var joint = copy.GetComponentInChildren<FixedJoint>();
+            Assert.That(joint.connectedBody, Is.SameAs(copy));
+            Assert.That((joint.transform.position - copy.position).magnitude, Is.EqualTo(2f).Within(0.01f));
+            Assert.That(template.position, Is.EqualTo(Vector3.zero));
+        }
+
         public class Breaker : MonoBehaviour
         {
             void OnJointBreak(float force) => Notes.Add("breaks at " + force);

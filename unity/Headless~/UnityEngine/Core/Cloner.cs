@@ -46,7 +46,10 @@ namespace UnityEngine
             if (pose.HasValue) transform.Place(pose.Value.position, pose.Value.rotation);
             transform.SetParent(parent, worldPositionStays || pose.HasValue);
             foreach (var pair in copies)
+            {
                 if (pair.Key is MonoBehaviour script) CopyScript(script, pair.Value, typeof(MonoBehaviour));
+                else if (pair.Value is Joint joint) joint.connectedBody = (Rigidbody)CopyValue(joint.connectedBody, false);
+            }
             copy.SetActive(original.activeSelf);
             return copy;
         }
