@@ -101,6 +101,20 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void SetParent_keeps_the_world_scale_of_a_turned_child_of_a_stretched_parent()
+        {
+            var parent = new GameObject("parent").transform;
+            parent.localScale = new Vector3(2f, 1f, 1f);
+            var child = new GameObject("child").transform;
+            child.rotation = Quaternion.Euler(0f, 90f, 0f);
+            child.SetParent(parent);
+            Near(child.localScale, new Vector3(1f, 1f, 0.5f), 1e-5f);
+            Near(child.lossyScale, Vector3.one, 1e-5f);
+            child.SetParent(null);
+            Near(child.localScale, Vector3.one, 1e-5f);
+        }
+
+        [Test]
         public void World_values_match_known_values()
         {
             var parent = new GameObject("parent").transform;

@@ -332,8 +332,9 @@ namespace UnityEngine
                 return;
             }
             Follow();
-            Vector3 worldPosition = position, worldScale = lossyScale;
+            var worldPosition = position;
             var worldRotation = rotation;
+            Vector3 x = TransformVector(Vector3.right), y = TransformVector(Vector3.up), z = TransformVector(Vector3.forward);
             var scene = owner.scene;
             Detach();
             parentOrNull = parent;
@@ -342,8 +343,8 @@ namespace UnityEngine
             if (worldPositionStays)
             {
                 Place(worldPosition, worldRotation.normalized);
-                var above = parent is null ? Vector3.one : parent.lossyScale;
-                ownScale = new Vector3(worldScale.x / above.x, worldScale.y / above.y, worldScale.z / above.z);
+                ownScale = Vector3.one;
+                ownScale = new Vector3(InverseTransformVector(x).x, InverseTransformVector(y).y, InverseTransformVector(z).z);
             }
             owner.RefreshActivity();
             PhysicsWorld.HierarchyChanged(this);
