@@ -49,6 +49,17 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(first.FoundLast, Is.True);
         }
 
+        [Test]
+        public void FindObjectsByType_finds_game_objects()
+        {
+            GameObject parent = new GameObject("Parent"), child = new GameObject("Child"), hidden = new GameObject("Hidden");
+            child.transform.SetParent(parent.transform);
+            hidden.SetActive(false);
+            Assert.That(Object.FindObjectsByType<GameObject>(FindObjectsSortMode.None), Is.EquivalentTo(new[] { parent, child }));
+            Assert.That(Object.FindObjectsByType<GameObject>(FindObjectsInactive.Include, FindObjectsSortMode.None),
+                Is.EquivalentTo(new[] { parent, child, hidden }));
+        }
+
         private sealed class Watcher : MonoBehaviour
         {
             internal bool FoundLast { get; private set; }

@@ -123,7 +123,11 @@ namespace UnityEngine
             var inactiveToo = findObjectsInactive == FindObjectsInactive.Include;
             var found = new System.Collections.Generic.List<T>();
             foreach (var root in SceneManagement.Scene.AllRoots())
-                if (inactiveToo || root.activeInHierarchy) found.AddRange(root.GetComponentsInChildren<T>(inactiveToo));
+            {
+                if (!inactiveToo && !root.activeInHierarchy) continue;
+                if (typeof(T) != typeof(GameObject)) found.AddRange(root.GetComponentsInChildren<T>(inactiveToo));
+                else foreach (var transform in root.GetComponentsInChildren<Transform>(inactiveToo)) found.Add((T)(Object)transform.owner);
+            }
             return found.ToArray();
         }
 
