@@ -60,6 +60,19 @@ namespace Collektive.Headless.Tests.Engine
                 Is.EquivalentTo(new[] { parent, child, hidden }));
         }
 
+        [Test]
+        public void Find_follows_the_path_in_a_name()
+        {
+            GameObject robot = new GameObject("Robot"), arm = new GameObject("Arm"), hand = new GameObject("Hand");
+            arm.transform.SetParent(robot.transform);
+            hand.transform.SetParent(arm.transform);
+            foreach (var path in new[] { "Hand", "Arm/Hand", "Robot/Arm/Hand", "/Robot/Arm/Hand" })
+                Assert.That(GameObject.Find(path), Is.SameAs(hand), path);
+            foreach (var path in new[] { "/Hand", "/Arm/Hand", "Robot/Hand", "/" }) Assert.That(GameObject.Find(path), Is.Null, path);
+            hand.SetActive(false);
+            Assert.That(GameObject.Find("/Robot/Arm/Hand"), Is.Null);
+        }
+
         private sealed class Watcher : MonoBehaviour
         {
             internal bool FoundLast { get; private set; }

@@ -334,16 +334,22 @@ namespace UnityEngine
         public static GameObject Find(string name)
         {
             foreach (var root in Scene.AllRoots())
-                if (FindActive(root, name) is GameObject found) return found;
+                if (FindActive(root, name.TrimStart('/'), name.StartsWith("/", StringComparison.Ordinal)) is GameObject found) return found;
             return null;
         }
 
-        static GameObject FindActive(GameObject start, string name)
+        /// Finds an active object by its name or path. If `isHere`, the path begins at `start`, otherwise at `start` or a descendant.
+        static GameObject FindActive(GameObject start, string path, bool isHere)
         {
             if (!start.activeInHierarchy) return null;
-            if (start.NameImpl == name) return start;
+            var name = start.NameImpl;
+            if (name == path) return start;
+            var continues = path.Length > name.Length && path[name.Length] == '/' && path.StartsWith(name, StringComparison.Ordinal);
             foreach (var child in start.ownTransform.children)
-                if (FindActive(child.owner, name) is GameObject found) return found;
+            {
+                if (continues && FindActive(child.owner, path.Substring(name.Length + 1), true) is GameObject end) return end;
+                if (!isHere && FindActive(child.owner, path, false) is GameObject found) return found;
+            }
             return null;
         }
 
