@@ -131,6 +131,8 @@ namespace Collektive.Headless.Tests.Engine
             Near(child.position, new Vector3(4f, 2f, 3f), 1e-5f);
             child.LookAt(child.position + Vector3.back);
             Near(child.forward, Vector3.back, 1e-5f);
+            child.LookAt(child);
+            Near(child.forward, Vector3.back, 1e-5f);
         }
 
         [Test]

@@ -314,7 +314,13 @@ namespace UnityEngine
         public void LookAt(Transform target) => LookAt(target, Vector3.up);
         public void LookAt(Transform target, Vector3 worldUp) => LookAt(target.position, worldUp);
         public void LookAt(Vector3 worldPosition) => LookAt(worldPosition, Vector3.up);
-        public void LookAt(Vector3 worldPosition, Vector3 worldUp) => rotation = Quaternion.LookRotation(worldPosition - position, worldUp);
+
+        /// Turns the object towards a position. As in Unity, it keeps its rotation if it is at that position.
+        public void LookAt(Vector3 worldPosition, Vector3 worldUp)
+        {
+            var direction = worldPosition - position;
+            if (direction.normalized.sqrMagnitude > 0f) rotation = Quaternion.LookRotation(direction, worldUp);
+        }
 
         // ---- Hierarchy ------------------------------------------------------------------------------------------------
 
