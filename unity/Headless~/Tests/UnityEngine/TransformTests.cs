@@ -115,6 +115,19 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Local_coordinates_are_0_along_axes_with_a_scale_of_0()
+        {
+            var flat = new GameObject("flat").transform;
+            flat.localScale = new Vector3(2f, 0f, 1f);
+            Near(flat.InverseTransformPoint(Vector3.one), new Vector3(0.5f, 0f, 1f), 1e-5f);
+            var child = new GameObject("child").transform;
+            child.SetParent(flat);
+            child.position = Vector3.one;
+            Near(child.position, new Vector3(1f, 0f, 1f), 1e-5f);
+            Near(child.localScale, new Vector3(0.5f, 0f, 1f), 1e-5f);
+        }
+
+        [Test]
         public void World_values_match_known_values()
         {
             var parent = new GameObject("parent").transform;

@@ -273,7 +273,10 @@ namespace UnityEngine
             return Unscale(Quaternion.Inverse(ownRotation) * vector);
         }
 
-        Vector3 Unscale(Vector3 vector) => new Vector3(vector.x / ownScale.x, vector.y / ownScale.y, vector.z / ownScale.z);
+        /// Divides by the scale. As in Unity, the result is 0 along axes with a scale of 0.
+        Vector3 Unscale(Vector3 vector) => new Vector3(Unscale(vector.x, ownScale.x), Unscale(vector.y, ownScale.y), Unscale(vector.z, ownScale.z));
+
+        static float Unscale(float value, float scale) => scale == 0f ? 0f : value / scale;
 
         public Vector3 TransformPoint(float x, float y, float z) => TransformPoint(new Vector3(x, y, z));
         public Vector3 TransformVector(float x, float y, float z) => TransformVector(new Vector3(x, y, z));
