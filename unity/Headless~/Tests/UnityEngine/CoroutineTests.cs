@@ -39,6 +39,13 @@ namespace Collektive.Headless.Tests.Engine
                 Notes.Add("end");
             }
 
+            public IEnumerator DestroyAndWait(GameObject victim)
+            {
+                Destroy(victim);
+                yield return new WaitForEndOfFrame();
+                Notes.Add("gone " + (victim == null));
+            }
+
             public IEnumerator Phases()
             {
                 yield return new WaitForFixedUpdate();
@@ -120,6 +127,15 @@ namespace Collektive.Headless.Tests.Engine
             runner.Open = true;
             Frames(1);
             Assert.That(Notes, Has.Member("open"));
+        }
+
+        [Test]
+        public void Objects_are_destroyed_before_the_end_of_the_frame_is_awaited()
+        {
+            var runner = Add<Runner>();
+            runner.StartCoroutine(runner.DestroyAndWait(new GameObject()));
+            Frames(1);
+            Assert.That(Notes[Notes.Count - 1], Is.EqualTo("gone True"));
         }
 
         [Test]

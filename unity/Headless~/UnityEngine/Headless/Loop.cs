@@ -69,7 +69,8 @@ namespace UnityEngine.Headless
             Initialize(methods, RuntimeInitializeLoadType.AfterSceneLoad);
         }
 
-        /// Runs one frame of `deltaTime` seconds: the fixed steps that are due, Update, coroutines, async methods, LateUpdate and destruction.
+        /// Runs one frame of `deltaTime` seconds: the fixed steps that are due, Update, coroutines, async methods, LateUpdate, destruction and
+        /// the coroutines that wait for the end of the frame.
         public static void Frame(float deltaTime)
         {
             if (!started) throw new InvalidOperationException("The player is not running: call Loop.Start first.");
@@ -88,8 +89,8 @@ namespace UnityEngine.Headless
             CoroutineScheduler.Run(CoroutinePhase.Update);
             tasks.Run();
             Lifecycle.RunLateUpdates();
-            CoroutineScheduler.Run(CoroutinePhase.EndOfFrame);
             Destruction.RunDue();
+            CoroutineScheduler.Run(CoroutinePhase.EndOfFrame);
         }
 
         /// Leaves play mode. Calls OnApplicationQuit, raises `Application.quitting`, and destroys all objects.
