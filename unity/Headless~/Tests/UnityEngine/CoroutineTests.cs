@@ -46,6 +46,31 @@ namespace Collektive.Headless.Tests.Engine
                 Notes.Add("gone " + (victim == null));
             }
 
+            public IEnumerator Nothing()
+            {
+                Notes.Add("nothing");
+                yield break;
+            }
+
+            public IEnumerator Fixed()
+            {
+                yield return new WaitForFixedUpdate();
+                Notes.Add("fixed");
+            }
+
+            public IEnumerator Await(System.Func<Coroutine> inner)
+            {
+                yield return inner();
+                Notes.Add("continued");
+            }
+
+            public IEnumerator AwaitLater(System.Func<Coroutine> other)
+            {
+                yield return null;
+                yield return other();
+                Notes.Add("continued");
+            }
+
             public IEnumerator Phases()
             {
                 yield return new WaitForFixedUpdate();
@@ -136,6 +161,36 @@ namespace Collektive.Headless.Tests.Engine
             runner.StartCoroutine(runner.DestroyAndWait(new GameObject()));
             Frames(1);
             Assert.That(Notes[Notes.Count - 1], Is.EqualTo("gone True"));
+        }
+
+        [Test]
+        public void A_coroutine_continues_as_soon_as_the_awaited_one_ends()
+        {
+            var runner = Add<Runner>();
+            runner.StartCoroutine(runner.Await(() => runner.StartCoroutine(runner.Nothing())));
+            Assert.That(Events(), Is.EqualTo("nothing continued"));
+            Notes.Clear();
+            runner.StartCoroutine(runner.Await(() => runner.StartCoroutine(runner.Fixed())));
+            Frames(1);
+            Assert.That(Events(), Is.EqualTo("fixed continued Update LateUpdate"));
+            Notes.Clear();
+            Coroutine later = null;
+            runner.StartCoroutine(runner.AwaitLater(() => later));
+            later = runner.StartCoroutine(runner.Frames());
+            Frames(2);
+            Assert.That(Events(), Is.EqualTo("a Update b LateUpdate Update c continued LateUpdate"));
+        }
+
+        [Test]
+        public void A_coroutine_does_not_continue_if_the_awaited_one_is_stopped()
+        {
+            var runner = Add<Runner>();
+            var inner = runner.StartCoroutine(runner.Frames());
+            runner.StartCoroutine(runner.Await(() => inner));
+            Frames(1);
+            runner.StopCoroutine(inner);
+            Frames(3);
+            Assert.That(Notes, Has.No.Member("continued"));
         }
 
         [Test]

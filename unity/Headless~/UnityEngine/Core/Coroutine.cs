@@ -12,7 +12,8 @@ namespace UnityEngine
         CoroutinePhase phase;
         int yieldedAtFrame;
         double due;
-        Coroutine awaited;
+        bool awaitsOther;
+        Action ended;
 
         internal Coroutine(MonoBehaviour owner, IEnumerator routine)
         {
@@ -27,16 +28,16 @@ namespace UnityEngine
 
         internal void ResumeIfDue(CoroutinePhase now)
         {
-            if (IsDone || now != phase) return;
+            if (IsDone || awaitsOther || now != phase) return;
             if (now == CoroutinePhase.Update && (Time.frameCount == yieldedAtFrame || Time.timeAsDouble < due)) return;
-            if (awaited != null && !awaited.IsDone) return;
             Advance();
         }
 
-        /// Runs to the next yield. A nested routine starts immediately. When it ends, the outer routine continues immediately.
+        /// Runs to the next yield. A nested routine starts immediately. When it ends, the outer routine continues immediately. The same applies to a nested
+        /// coroutine. As in Unity, the outer one never continues if the nested one is stopped or throws an exception.
         internal void Advance()
         {
-            awaited = null;
+            awaitsOther = false;
             due = 0;
             phase = CoroutinePhase.Update;
             while (!IsDone)
@@ -56,9 +57,12 @@ namespace UnityEngine
                 if (!more)
                 {
                     nested.Pop();
-                    if (nested.Count == 0) IsDone = true;
-                    continue;
+                    if (nested.Count > 0) continue;
+                    IsDone = true;
+                    ended?.Invoke();
+                    return;
                 }
+                if (current.Current is Coroutine other && other.IsDone) continue;
                 if (!(current is CustomYieldInstruction) && current.Current is IEnumerator inner)
                 {
                     nested.Push(inner);
@@ -77,7 +81,10 @@ namespace UnityEngine
                 case WaitForSeconds wait: due = Time.timeAsDouble + wait.seconds; break;
                 case WaitForFixedUpdate _: phase = CoroutinePhase.FixedUpdate; break;
                 case WaitForEndOfFrame _: phase = CoroutinePhase.EndOfFrame; break;
-                case Coroutine other: awaited = other; break;
+                case Coroutine other:
+                    awaitsOther = true;
+                    other.ended += Advance;
+                    break;
             }
         }
     }
