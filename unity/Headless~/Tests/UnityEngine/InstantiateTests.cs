@@ -59,6 +59,18 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(copy.GetComponent<SphereCollider>().radius, Is.EqualTo(0.25f));
         }
 
+        [Test]
+        public void A_copy_with_a_pose_and_a_parent_keeps_its_local_scale()
+        {
+            var parent = new GameObject("parent").transform;
+            parent.position = Vector3.up;
+            parent.localScale = new Vector3(2f, 2f, 2f);
+            var copy = UnityEngine.Object.Instantiate(new GameObject("original"), Vector3.one, Quaternion.Euler(0f, 90f, 0f), parent).transform;
+            Assert.That(copy.position, Is.EqualTo(Vector3.one));
+            Assert.That(Quaternion.Angle(copy.rotation, Quaternion.Euler(0f, 90f, 0f)), Is.LessThan(0.1f));
+            Assert.That(copy.localScale, Is.EqualTo(Vector3.one));
+        }
+
         public class State
         {
             public int count;

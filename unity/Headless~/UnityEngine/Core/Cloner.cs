@@ -43,8 +43,8 @@ namespace UnityEngine
             var copy = CopyObjects(original);
             var transform = copy.transform;
             copy.name = original.name + "(Clone)";
+            transform.SetParent(parent, worldPositionStays);
             if (pose.HasValue) transform.Place(pose.Value.position, pose.Value.rotation);
-            transform.SetParent(parent, worldPositionStays || pose.HasValue);
             foreach (var pair in copies)
             {
                 if (pair.Key is MonoBehaviour script) CopyScript(script, pair.Value, typeof(MonoBehaviour));
