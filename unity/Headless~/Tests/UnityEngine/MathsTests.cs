@@ -8,6 +8,16 @@ namespace Collektive.Headless.Tests.Engine
         static void Near(Vector3 actual, Vector3 expected) => Assert.That((actual - expected).magnitude, Is.LessThan(1e-4f), $"{actual} is not {expected}");
 
         [Test]
+        public void Interpolated_strings_round_like_ToString()
+        {
+            var vector = new Vector3(1.2345f, 2f, -3f);
+            Assert.That($"{vector} {(Vector2)vector}", Is.EqualTo("(1.23, 2.00, -3.00) (1.23, 2.00)"));
+            Assert.That($"{Quaternion.identity} {Color.red}", Is.EqualTo("(0.00000, 0.00000, 0.00000, 1.00000) RGBA(1.000, 0.000, 0.000, 1.000)"));
+            Assert.That(new Bounds(Vector3.zero, Vector3.one).ToString(), Is.EqualTo("Center: (0.00, 0.00, 0.00), Extents: (0.50, 0.50, 0.50)"));
+            Assert.That($"{vector:F1}", Is.EqualTo("(1.2, 2.0, -3.0)"));
+        }
+
+        [Test]
         public void Rotations_are_left_handed()
         {
             Near(Quaternion.Euler(0f, 90f, 0f) * Vector3.forward, Vector3.right);

@@ -73,10 +73,16 @@ namespace UnityEngine
         public readonly bool Equals(Color other) => ((Vector4)this).Equals(other);
         public override readonly bool Equals(object other) => other is Color color && Equals(color);
         public override readonly int GetHashCode() => ((Vector4)this).GetHashCode();
-        public override readonly string ToString() => ToString("F3");
-        public readonly string ToString(string format) => ToString(format, CultureInfo.InvariantCulture);
-        public readonly string ToString(string format, IFormatProvider formatProvider) =>
-            $"RGBA({r.ToString(format, formatProvider)}, {g.ToString(format, formatProvider)}, "
-            + $"{b.ToString(format, formatProvider)}, {a.ToString(format, formatProvider)})";
+        public override readonly string ToString() => ToString(null);
+        public readonly string ToString(string format) => ToString(format, null);
+
+        /// As in Unity, the default format is F3 with a decimal point.
+        public readonly string ToString(string format, IFormatProvider formatProvider)
+        {
+            if (string.IsNullOrEmpty(format)) format = "F3";
+            formatProvider ??= CultureInfo.InvariantCulture;
+            return $"RGBA({r.ToString(format, formatProvider)}, {g.ToString(format, formatProvider)}, "
+                + $"{b.ToString(format, formatProvider)}, {a.ToString(format, formatProvider)})";
+        }
     }
 }

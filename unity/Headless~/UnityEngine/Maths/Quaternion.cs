@@ -219,10 +219,16 @@ namespace UnityEngine
         public readonly bool Equals(Quaternion other) => x.Equals(other.x) && y.Equals(other.y) && z.Equals(other.z) && w.Equals(other.w);
         public override readonly bool Equals(object other) => other is Quaternion quaternion && Equals(quaternion);
         public override readonly int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2) ^ (w.GetHashCode() >> 1);
-        public override readonly string ToString() => ToString("F5");
-        public readonly string ToString(string format) => ToString(format, CultureInfo.InvariantCulture);
-        public readonly string ToString(string format, IFormatProvider formatProvider) =>
-            $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)}, "
-            + $"{z.ToString(format, formatProvider)}, {w.ToString(format, formatProvider)})";
+        public override readonly string ToString() => ToString(null);
+        public readonly string ToString(string format) => ToString(format, null);
+
+        /// As in Unity, the default format is F5 with a decimal point.
+        public readonly string ToString(string format, IFormatProvider formatProvider)
+        {
+            if (string.IsNullOrEmpty(format)) format = "F5";
+            formatProvider ??= CultureInfo.InvariantCulture;
+            return $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)}, "
+                + $"{z.ToString(format, formatProvider)}, {w.ToString(format, formatProvider)})";
+        }
     }
 }

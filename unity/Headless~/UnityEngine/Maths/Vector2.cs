@@ -68,9 +68,15 @@ namespace UnityEngine
         public readonly bool Equals(Vector2 other) => x.Equals(other.x) && y.Equals(other.y);
         public override readonly bool Equals(object other) => other is Vector2 vector && Equals(vector);
         public override readonly int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2);
-        public override readonly string ToString() => ToString("F2");
-        public readonly string ToString(string format) => ToString(format, CultureInfo.InvariantCulture);
-        public readonly string ToString(string format, IFormatProvider formatProvider) =>
-            $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)})";
+        public override readonly string ToString() => ToString(null);
+        public readonly string ToString(string format) => ToString(format, null);
+
+        /// As in Unity, the default format is F2 with a decimal point.
+        public readonly string ToString(string format, IFormatProvider formatProvider)
+        {
+            if (string.IsNullOrEmpty(format)) format = "F2";
+            formatProvider ??= CultureInfo.InvariantCulture;
+            return $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)})";
+        }
     }
 }
