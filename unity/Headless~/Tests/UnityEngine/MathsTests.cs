@@ -8,6 +8,14 @@ namespace Collektive.Headless.Tests.Engine
         static void Near(Vector3 actual, Vector3 expected) => Assert.That((actual - expected).magnitude, Is.LessThan(1e-4f), $"{actual} is not {expected}");
 
         [Test]
+        public void NextPowerOfTwo_ends_above_the_largest_power()
+        {
+            Assert.That(Mathf.NextPowerOfTwo(5), Is.EqualTo(8));
+            Assert.That(Mathf.NextPowerOfTwo(1 << 30), Is.EqualTo(1 << 30));
+            Assert.That(Mathf.NextPowerOfTwo((1 << 30) + 1), Is.EqualTo(int.MinValue));
+        }
+
+        [Test]
         public void Interpolated_strings_round_like_ToString()
         {
             var vector = new Vector3(1.2345f, 2f, -3f);

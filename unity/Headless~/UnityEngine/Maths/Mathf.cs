@@ -103,7 +103,7 @@ namespace UnityEngine
         public static int NextPowerOfTwo(int value)
         {
             var power = 1;
-            while (power < value) power <<= 1;
+            while (power < value && power > 0) power <<= 1;
             return power;
         }
     }
