@@ -63,6 +63,27 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(holder == null, Is.True);
         }
 
+        [RequireComponent(typeof(Rigidbody), typeof(Collider))]
+        public class Mover : MonoBehaviour { }
+
+        [Test]
+        public void A_required_component_is_destroyed_only_after_its_dependents()
+        {
+            var mover = new GameObject("a", typeof(BoxCollider), typeof(SphereCollider), typeof(Mover)).GetComponent<Mover>();
+            Rigidbody body = mover.GetComponent<Rigidbody>();
+            Object.DestroyImmediate(mover.GetComponent<BoxCollider>());
+            Assert.That(Errors, Is.Empty);
+            Object.DestroyImmediate(mover.GetComponent<SphereCollider>());
+            Object.Destroy(body);
+            Loop.Frame(0.02f);
+            Assert.That(mover.GetComponent<SphereCollider>() != null && body != null, Is.True);
+            Assert.That(Errors.Count, Is.EqualTo(2));
+            Object.Destroy(mover);
+            Object.Destroy(body);
+            Loop.Frame(0.02f);
+            Assert.That(body == null, Is.True);
+        }
+
         [Test]
         public void A_destroyed_component_is_no_longer_found()
         {

@@ -174,7 +174,7 @@ namespace Collektive.Headless.Tests.Engine
             Run(0.1f);
             Object.DestroyImmediate(b.gameObject);
             Run(0.1f);
-            Object.DestroyImmediate(a);
+            Object.DestroyImmediate(a.gameObject);
             Run(0.1f);
             Assert.That(Errors, Is.Empty);
         }

@@ -64,6 +64,11 @@ namespace UnityEngine
 
         static void Destroy(Component component)
         {
+            if (component.owner.FindDependent(component) is Component dependent)
+            {
+                Debug.LogError($"Can't remove {component.GetType().Name} because {dependent.GetType().Name} depends on it.", component);
+                return;
+            }
             if (component.owner.activeInHierarchy) component.Deactivate();
             SendOnDestroy(component);
             component.owner.components.Remove(component);

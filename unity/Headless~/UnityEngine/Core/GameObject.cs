@@ -105,6 +105,16 @@ namespace UnityEngine
             if (type != null && !type.IsAbstract && FindComponent(type) is null) AddComponent(type);
         }
 
+        /// Returns a component with a [RequireComponent] that only the given component satisfies, or null.
+        internal Component FindDependent(Component component)
+        {
+            return components.Find(other => !ReferenceEquals(other, component)
+                && Array.Exists((RequireComponent[])other.GetType().GetCustomAttributes(typeof(RequireComponent), true),
+                    required => IsAlone(required.m_Type0) || IsAlone(required.m_Type1) || IsAlone(required.m_Type2)));
+
+            bool IsAlone(Type type) => type != null && type.IsInstanceOfType(component) && components.FindAll(type.IsInstanceOfType).Count == 1;
+        }
+
         internal void Own(Component component)
         {
             component.owner = this;
