@@ -203,6 +203,21 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("child.Update child.LateUpdate"));
         }
 
+        class FixedClock : MonoBehaviour
+        {
+            void FixedUpdate() => Notes.Add($"{Time.unscaledDeltaTime:0.00} {Time.unscaledTime:0.00}");
+            void Update() => Notes.Add($"{Time.unscaledDeltaTime:0.00} {Time.unscaledTime:0.00}");
+        }
+
+        [Test]
+        public void Unscaled_times_are_those_of_the_fixed_clock_in_FixedUpdate()
+        {
+            Time.timeScale = 0.5f;
+            Add<FixedClock>();
+            Loop.Frame(0.08f);
+            Assert.That(string.Join(", ", Notes), Is.EqualTo("0.04 0.04, 0.04 0.08, 0.08 0.08"));
+        }
+
         [TestCase(0.02f, 1)]
         [TestCase(0.1f, 5)]
         [TestCase(0.05f, 2)]

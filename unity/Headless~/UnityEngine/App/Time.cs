@@ -2,12 +2,12 @@ using System.Diagnostics;
 
 namespace UnityEngine
 {
-    /// Times in seconds. As in Unity, `time` and `deltaTime` return the fixed clock's values within a fixed step.
+    /// Times in seconds. As in Unity, times return the fixed clock's values within a fixed step.
     public class Time
     {
         static readonly Stopwatch Clock = Stopwatch.StartNew();
-        static double frameTime, fixedClock, unscaledClock, startOffset;
-        static float frameDelta;
+        static double frameTime, fixedClock, unscaledClock, fixedUnscaledClock, startOffset;
+        static float frameDelta, unscaledFrameDelta;
 
         static Time() => ResetState();
 
@@ -18,9 +18,9 @@ namespace UnityEngine
         public static float deltaTime => inFixedTimeStep ? fixedDeltaTime : frameDelta;
         public static float fixedTime => (float)fixedClock;
         public static double fixedTimeAsDouble => fixedClock;
-        public static float unscaledTime => (float)unscaledClock;
-        public static double unscaledTimeAsDouble => unscaledClock;
-        public static float unscaledDeltaTime { get; private set; }
+        public static float unscaledTime => (float)unscaledTimeAsDouble;
+        public static double unscaledTimeAsDouble => inFixedTimeStep ? fixedUnscaledClock : unscaledClock;
+        public static float unscaledDeltaTime => inFixedTimeStep ? fixedDeltaTime / timeScale : unscaledFrameDelta;
         public static float fixedDeltaTime { get; set; }
         public static float maximumDeltaTime { get; set; }
         public static float timeScale { get; set; }
@@ -33,8 +33,8 @@ namespace UnityEngine
 
         internal static void ResetState()
         {
-            frameTime = fixedClock = unscaledClock = 0;
-            frameDelta = unscaledDeltaTime = 0f;
+            frameTime = fixedClock = unscaledClock = fixedUnscaledClock = 0;
+            frameDelta = unscaledFrameDelta = 0f;
             frameCount = 0;
             fixedDeltaTime = 0.02f;
             maximumDeltaTime = 1f / 3f;
@@ -49,7 +49,7 @@ namespace UnityEngine
         {
             if (captureDeltaTime > 0f) seconds = captureDeltaTime;
             frameCount++;
-            unscaledDeltaTime = seconds;
+            unscaledFrameDelta = seconds;
             unscaledClock += seconds;
             frameDelta = Mathf.Min(seconds, maximumDeltaTime) * timeScale;
             frameTime += frameDelta;
@@ -61,6 +61,7 @@ namespace UnityEngine
             const double rounding = 1e-6;
             if (fixedClock + fixedDeltaTime > frameTime + rounding) return false;
             fixedClock += fixedDeltaTime;
+            fixedUnscaledClock += fixedDeltaTime / timeScale;
             return inFixedTimeStep = true;
         }
 
