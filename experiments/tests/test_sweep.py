@@ -229,6 +229,8 @@ def test_a_field_with_the_name_of_a_column_has_its_own_column(project: Project) 
         file.write_text(file.read_text().replace(before, after))
     result = project.sweep(vary={"seed": [1]}, set={"outputs.nodes.fields": ["node"]})
     assert result.returncode == 0, result.stderr
+    [table] = (project.folder / "out/runs").glob("*/nodes.csv")
+    assert table.read_text().startswith("second,node,field.node\n")
     last = project.table(name="nodes").tail(10)
     assert list(last["node"]) == list(range(10))
     assert set(last["field.node"]) == {10.0}

@@ -96,7 +96,9 @@ namespace Collektive.Headless
                 var names = PartsOf(type);
                 type = Nullable.GetUnderlyingType(type) ?? type;
                 parts = Array.ConvertAll(names, part => (MemberInfo)type.GetField(part, MemberFlags) ?? type.GetProperty(part, MemberFlags));
-                Names = names.Length == 0 ? new[] { name } : Array.ConvertAll(names, part => name + "." + part);
+                // The table's own columns have these names.
+                var only = name == "second" || name == "node" ? "field." + name : name;
+                Names = names.Length == 0 ? new[] { only } : Array.ConvertAll(names, part => name + "." + part);
                 Type = names.Length > 0 ? "float64" : TypeName(type);
             }
 
