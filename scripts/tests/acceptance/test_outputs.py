@@ -178,9 +178,11 @@ class Outputs(Project):
         self.assertTrue(os.path.exists(self.path("elsewhere", "profiled", "profile.jfr")))
 
     def test_a_player_killed_by_a_shell_limit_is_reported_in_one_line(self) -> None:
+        # Compiles the project, which the limit would prevent.
+        self.assertEqual(collektive("check", self.path("project", "lamps.json")).returncode, 0)
         command = ["bash", "-c", 'ulimit -f 1; exec "$@"', "bash", COLLEKTIVE, "run", self.path("project", "lamps.json"), "--out", self.path("out")]
         result = subprocess.run(command, capture_output=True, text=True)
-        self.assertEqual(result.returncode, 128 + signal.SIGXFSZ)
+        self.assertEqual(result.returncode, 128 + signal.SIGXFSZ, result.stderr)
         self.assertIn("the player was ended by SIGXFSZ", last_error(result))
 
     def test_a_run_whose_pictures_fail_is_incomplete(self) -> None:
