@@ -110,4 +110,3 @@ public fun Aggregate<Int>.trouble(sensors: SensorData): ActuatorData {
 }
 
 private fun recurse(depth: Int): Int = if (depth < 0) 0 else recurse(depth + 1) + 1
-// 16175
