@@ -101,7 +101,7 @@ def test_digests_do_not_depend_on_the_number_of_workers_or_processes(lamps: Proj
 
 def test_scripts_are_initialised_as_in_a_single_run(project: Project, tmp_path: Path) -> None:
     scene = project.folder / "project/scene/Lamps.cs"
-    method = """[RuntimeInitializeOnLoadMethod] private static void Initialise() => added++;
+    method = """[RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSceneLoad)] private static void Initialise() => added++;
         private static int added;
         protected override void Build(SimulationManager manager)
         {
