@@ -1,5 +1,4 @@
 using System;
-using System.Globalization;
 
 namespace UnityEngine
 {
@@ -75,14 +74,7 @@ namespace UnityEngine
         public override readonly int GetHashCode() => ((Vector4)this).GetHashCode();
         public override readonly string ToString() => ToString(null);
         public readonly string ToString(string format) => ToString(format, null);
-
-        /// As in Unity, the default format is F3 with a decimal point.
-        public readonly string ToString(string format, IFormatProvider formatProvider)
-        {
-            if (string.IsNullOrEmpty(format)) format = "F3";
-            formatProvider ??= CultureInfo.InvariantCulture;
-            return $"RGBA({r.ToString(format, formatProvider)}, {g.ToString(format, formatProvider)}, "
-                + $"{b.ToString(format, formatProvider)}, {a.ToString(format, formatProvider)})";
-        }
+        public readonly string ToString(string format, IFormatProvider formatProvider) =>
+            "RGBA" + ValueText.Of("F3", format, formatProvider, r, g, b, a);
     }
 }

@@ -1,5 +1,4 @@
 using System;
-using System.Globalization;
 
 namespace UnityEngine
 {
@@ -221,14 +220,7 @@ namespace UnityEngine
         public override readonly int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2) ^ (w.GetHashCode() >> 1);
         public override readonly string ToString() => ToString(null);
         public readonly string ToString(string format) => ToString(format, null);
-
-        /// As in Unity, the default format is F5 with a decimal point.
-        public readonly string ToString(string format, IFormatProvider formatProvider)
-        {
-            if (string.IsNullOrEmpty(format)) format = "F5";
-            formatProvider ??= CultureInfo.InvariantCulture;
-            return $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)}, "
-                + $"{z.ToString(format, formatProvider)}, {w.ToString(format, formatProvider)})";
-        }
+        public readonly string ToString(string format, IFormatProvider formatProvider) =>
+            ValueText.Of("F5", format, formatProvider, x, y, z, w);
     }
 }

@@ -1,5 +1,4 @@
 using System;
-using System.Globalization;
 
 namespace UnityEngine
 {
@@ -134,13 +133,7 @@ namespace UnityEngine
         public override readonly int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2);
         public override readonly string ToString() => ToString(null);
         public readonly string ToString(string format) => ToString(format, null);
-
-        /// As in Unity, the default format is F2 with a decimal point.
-        public readonly string ToString(string format, IFormatProvider formatProvider)
-        {
-            if (string.IsNullOrEmpty(format)) format = "F2";
-            formatProvider ??= CultureInfo.InvariantCulture;
-            return $"({x.ToString(format, formatProvider)}, {y.ToString(format, formatProvider)}, {z.ToString(format, formatProvider)})";
-        }
+        public readonly string ToString(string format, IFormatProvider formatProvider) =>
+            ValueText.Of("F2", format, formatProvider, x, y, z);
     }
 }
