@@ -27,7 +27,7 @@ namespace Collektive.Unity
             internal Node Owner;
             // The owner's number of deactivations when the collider entered. Unity sends no exit message for them, but another enter message afterwards.
             internal int Deactivations;
-            // The bodies of the collider and of the trigger. Unity sends no exit message when one of them changes, but another enter message afterwards.
+            // The bodies of the collider and of the trigger when the collider entered.
             internal Rigidbody Body;
             internal Rigidbody OwnBody;
         }
@@ -53,8 +53,8 @@ namespace Collektive.Unity
             {
                 ref var visitor = ref all[i];
                 var owner = visitor.Owner;
-                if (visitor.Collider.IsGone() || !(owner is null) && visitor.Deactivations != owner.Deactivations) continue;
-                if (visitor.OwnBody != body || visitor.Body != visitor.Collider.attachedRigidbody) continue;
+                if (visitor.Collider.HasLeft(visitor.Body) || visitor.OwnBody != body) continue;
+                if (!(owner is null) && visitor.Deactivations != owner.Deactivations) continue;
                 // Unity sends no message when a collider gets another parent or node.
                 if (owner == null || !owner.Owns(visitor.Collider)) owner = (visitor = VisitorOf(visitor.Collider)).Owner;
                 if (remaining < i) all[remaining] = visitor;

@@ -13,6 +13,12 @@ namespace Collektive.Unity
             collider == null || !collider.enabled || !collider.gameObject.activeInHierarchy;
 
         /// <summary>
+        /// Returns whether a collider is gone or belongs to another body than <paramref name="body"/>. Unity sends no exit message when the body changes, but
+        /// another enter message if the colliders still touch.
+        /// </summary>
+        internal static bool HasLeft(this Collider collider, Rigidbody body) => collider.IsGone() || collider.attachedRigidbody != body;
+
+        /// <summary>
         /// Returns the point of a collider that is closest to <paramref name="point"/>. Unity can compute it for boxes, spheres, capsules and convex meshes
         /// only, and logs an error at each call with another collider. For other colliders, the closest point of their bounds is returned.
         /// </summary>

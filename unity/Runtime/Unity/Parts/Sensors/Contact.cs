@@ -34,11 +34,8 @@ namespace Collektive.Unity
         /// <summary>Impulse on the node since its last round, in newton seconds. It points away from the other collider.</summary>
         public Vector3 Impulse { get; }
 
-        /// <summary>
-        /// Whether the touch ended without a message: Unity sends none when a collider is disabled, destroyed or moved to another body. If the collider then
-        /// still touches the node, another enter message follows.
-        /// </summary>
-        internal bool HasEnded => Own.IsGone() || Collider.IsGone() || Collider.attachedRigidbody != Body;
+        /// <summary>Whether the touch ended without a message.</summary>
+        internal bool HasEnded => Own.IsGone() || Collider.HasLeft(Body);
 
         internal bool IsOf(Collider own, Collider collider) => ReferenceEquals(Own, own) && ReferenceEquals(Collider, collider);
 

@@ -31,11 +31,11 @@ namespace Collektive.Unity
             // The physics step in which the last of the node's colliders left the zone; 0 outside of a simulation.
             internal ulong LeftIn;
             internal bool IsNew;
-            // The bodies of the zone and of the node. Unity sends no exit message when one of them changes, but another enter message afterwards.
+            // The bodies of the zone and of the node when the node entered.
             internal Rigidbody Body;
             internal Rigidbody OwnBody;
 
-            internal bool IsValid(Rigidbody ownBody) => !Zone.IsGone() && Zone.attachedRigidbody == Body && ownBody == OwnBody;
+            internal bool IsValid(Rigidbody ownBody) => !Zone.HasLeft(Body) && ownBody == OwnBody;
         }
 
         /// <summary>Layers of the detected zones. A change applies to zones that are entered afterwards.</summary>
