@@ -46,10 +46,12 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
     check_search(experiment, search, store, options.trust_jvm)
     study = _study(search, store)
     folders = {name.removesuffix(PART) for name in os.listdir(store.runs)}
-    others = folders - {run.name for trial in _trials(study, search) for run in _runs(experiment, trial)}
-    for trial in _trials(study, search, TrialState.COMPLETE):
+    proposed = [(trial, _runs(experiment, trial)) for trial in _trials(study, search)]
+    others = folders - {run.name for _, runs in proposed for run in runs}
+    for trial, runs in proposed:
+        if trial.state != TrialState.COMPLETE:
+            continue
         # SQLite has no checksums. Runs of finished trials may have been deleted, and are not repeated. Runs with other names show that values have changed.
-        runs = _runs(experiment, trial)
         is_changed = bool(others) and not any(run.name in folders for run in runs)
         if is_changed or (all(map(store.is_intact, runs)) and trial.value != _mean(search, store, runs)):
             raise ExperimentError(f"'{os.path.join(store.folder, 'study.db')}' differs from the runs of trial {trial.number}: delete study.db and "

@@ -343,8 +343,9 @@ namespace UnityEngine
 
         public static GameObject Find(string name)
         {
+            var path = name.TrimStart('/');
             foreach (var root in Scene.AllRoots())
-                if (FindActive(root, name.TrimStart('/'), name.StartsWith("/", StringComparison.Ordinal)) is GameObject found) return found;
+                if (FindActive(root, path, path.Length < name.Length) is GameObject found) return found;
             return null;
         }
 
