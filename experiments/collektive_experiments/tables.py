@@ -286,7 +286,7 @@ class _Columns:
 
     def _node_column(self, field: str) -> str:
         """Returns the column of a field. If another column has the field's name, adds the prefix `field.` to it."""
-        taken = {"run", "second", "node", *(name for name, _ in self.parameters)}
+        taken = {"run", *(name for name, _ in self.parameters)}
         return "field." + field if field in taken else field
 
     def _manifest(self, run: Run) -> dict[str, Any]:
