@@ -119,7 +119,7 @@ namespace Collektive.Standard
         /// <summary>Number of neighbours, for Nearest.</summary>
         public int count = 8;
 
-        /// <summary>Change in metres above which the length of a link is measured again.</summary>
+        /// <summary>Change in metres above which programs receive the new length of a link.</summary>
         public float lengthTolerance = 0.25f;
     }
 
