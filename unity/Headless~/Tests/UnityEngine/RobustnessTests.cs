@@ -136,7 +136,7 @@ namespace Collektive.Headless.Tests.Engine
         {
             Floor();
             var bodies = new List<Rigidbody>();
-            foreach (var type in new[] { PrimitiveType.Cube, PrimitiveType.Sphere, PrimitiveType.Capsule, PrimitiveType.Cylinder, PrimitiveType.Plane })
+            foreach (var type in new[] { PrimitiveType.Cube, PrimitiveType.Sphere, PrimitiveType.Capsule, PrimitiveType.Cylinder })
             {
                 var parent = new GameObject("parent");
                 parent.transform.position = new Vector3(3f * bodies.Count, 2f, 0f);

@@ -68,7 +68,7 @@ namespace Collektive.Headless.Tests.Engine
             hand.transform.SetParent(arm.transform);
             foreach (var path in new[] { "Hand", "Arm/Hand", "Robot/Arm/Hand", "/Robot/Arm/Hand" })
                 Assert.That(GameObject.Find(path), Is.SameAs(hand), path);
-            foreach (var path in new[] { "/Hand", "/Arm/Hand", "Robot/Hand", "/" }) Assert.That(GameObject.Find(path), Is.Null, path);
+            foreach (var path in new[] { "/Hand", "/Arm/Hand", "Robot/Hand", "/", "", null }) Assert.That(GameObject.Find(path), Is.Null, path);
             hand.SetActive(false);
             Assert.That(GameObject.Find("/Robot/Arm/Hand"), Is.Null);
         }

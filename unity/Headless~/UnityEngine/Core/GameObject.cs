@@ -96,6 +96,7 @@ namespace UnityEngine
             }
             var component = (Component)Activator.CreateInstance(componentType, true);
             Own(component);
+            if (component is Collider collider && GetComponent<MeshFilter>()?.sharedMesh is Mesh mesh && mesh && mesh.vertexCount > 0) collider.Fit(mesh);
             if (activeInHierarchy) component.Activate();
             return component;
         }
@@ -343,6 +344,7 @@ namespace UnityEngine
 
         public static GameObject Find(string name)
         {
+            if (string.IsNullOrEmpty(name)) return null;
             var path = name.TrimStart('/');
             foreach (var root in Scene.AllRoots())
                 if (FindActive(root, path, path.Length < name.Length) is GameObject found) return found;
@@ -364,7 +366,7 @@ namespace UnityEngine
             return null;
         }
 
-        /// Creates an object whose collider fits Unity's mesh of the primitive. The collider of a plane is a flat box of 10 x 10 m.
+        /// Creates an object with Unity's mesh and collider of the primitive.
         public static GameObject CreatePrimitive(PrimitiveType type)
         {
             var primitive = new GameObject(type.ToString());
@@ -377,16 +379,14 @@ namespace UnityEngine
                     break;
                 case PrimitiveType.Capsule:
                 case PrimitiveType.Cylinder:
-                    primitive.AddComponent<CapsuleCollider>().height = 2f;
+                    primitive.AddComponent<CapsuleCollider>();
                     break;
                 case PrimitiveType.Cube:
                     primitive.AddComponent<BoxCollider>();
                     break;
                 case PrimitiveType.Plane:
-                    primitive.AddComponent<BoxCollider>().size = new Vector3(10f, 0f, 10f);
-                    break;
                 case PrimitiveType.Quad:
-                    primitive.AddComponent<BoxCollider>().size = new Vector3(1f, 1f, 0f);
+                    primitive.AddComponent<MeshCollider>();
                     break;
             }
             return primitive;

@@ -25,6 +25,12 @@ namespace UnityEngine
             }
         }
 
+        internal override void Fit(Mesh mesh)
+        {
+            ownCenter = mesh.bounds.center;
+            ownSize = mesh.bounds.size;
+        }
+
         internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
             var half = Vector3.Scale(ownSize, scale) * 0.5f;

@@ -56,6 +56,14 @@ namespace UnityEngine
             }
         }
 
+        internal override void Fit(Mesh mesh)
+        {
+            var size = mesh.bounds.size;
+            ownCenter = mesh.bounds.center;
+            ownRadius = Mathf.Max(size.x, size.z) * 0.5f;
+            ownHeight = size.y;
+        }
+
         internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
             var wide = Mathf.Max(Mathf.Abs(scale[(ownDirection + 1) % 3]), Mathf.Abs(scale[(ownDirection + 2) % 3]));

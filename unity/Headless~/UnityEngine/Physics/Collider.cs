@@ -102,6 +102,9 @@ namespace UnityEngine
 
         public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) => Queries.RaycastOne(this, ray, out hitInfo, maxDistance);
 
+        /// Sets the size of a new collider of an object with a mesh.
+        internal virtual void Fit(Mesh mesh) { }
+
         /// Sets the scaled geometry and its pose in this object's frame. Returns false if the collider has no shape.
         internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
             throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");

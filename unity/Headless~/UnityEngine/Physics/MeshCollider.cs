@@ -43,6 +43,8 @@ namespace UnityEngine
             ShapeChanged();
         }
 
+        internal override void Fit(Mesh mesh) => ownMesh = mesh;
+
         internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
             if (!ownMesh || ownMesh.vertexCount == 0) return false;

@@ -25,6 +25,13 @@ namespace UnityEngine
             }
         }
 
+        internal override void Fit(Mesh mesh)
+        {
+            var half = mesh.bounds.extents;
+            ownCenter = mesh.bounds.center;
+            ownRadius = Mathf.Max(half.x, Mathf.Max(half.y, half.z));
+        }
+
         internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
             shape.Geometry.Kind = Physx.Kind.Sphere;

@@ -118,18 +118,7 @@ namespace UnityEngine
 
         internal static void ResetState() => Array.Clear(Primitives, 0, Primitives.Length);
 
-        /// Returns a mesh with the name and size of Unity's mesh for a primitive, but without vertices.
-        internal static Mesh Primitive(PrimitiveType type)
-        {
-            var size = type switch
-            {
-                PrimitiveType.Capsule => new Vector3(1f, 2f, 1f),
-                PrimitiveType.Cylinder => new Vector3(1f, 2f, 1f),
-                PrimitiveType.Plane => new Vector3(10f, 0f, 10f),
-                PrimitiveType.Quad => new Vector3(1f, 1f, 0f),
-                _ => Vector3.one,
-            };
-            return Primitives[(int)type] = Primitives[(int)type] ?? new Mesh { name = type.ToString(), bounds = new Bounds(Vector3.zero, size) };
-        }
+        /// Returns the mesh that all primitives of a type share.
+        internal static Mesh Primitive(PrimitiveType type) => Primitives[(int)type] = Primitives[(int)type] ?? PrimitiveMesh.Create(type);
     }
 }
