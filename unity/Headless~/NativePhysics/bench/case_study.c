@@ -109,7 +109,7 @@ int main(int argument_count, char **arguments) {
         commands[i] = (physics_command){.actor = actors[i], .kind = PHYSICS_FREEZE, .value = {56}};
         searches[i] = (clk_search){clk_neighbours_add_rule(neighbours), i, -1, 0, RANGE, 0.25f, 0};
         require(clk_neighbours_know(neighbours, i, 1) == 0, "the registration of a node");
-        filters[i] = (physics_filter){~(1u << IGNORE_RAYCAST_LAYER), 0};
+        filters[i] = (physics_filter){~(1u << IGNORE_RAYCAST_LAYER), 0, 0};
     }
     physics_apply(world, commands, count);
 

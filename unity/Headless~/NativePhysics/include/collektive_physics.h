@@ -26,8 +26,10 @@
 extern "C" {
 #endif
 
-#define PHYSICS_VERSION 4
+#define PHYSICS_VERSION 5
 #define PHYSICS_NONE (-1)
+#define PHYSICS_BACK_FACES 1
+#define PHYSICS_ALL_FACES 2
 
 typedef struct physics_world physics_world;
 typedef struct physics_mesh physics_mesh;
@@ -213,9 +215,14 @@ typedef struct {
 } physics_contact;
 
 typedef struct {
+    int32_t joint; /* it no longer exists */
+    float force;   /* that the joint applied to its body in the step, N */
+} physics_break;
+
+typedef struct {
     const physics_touch *touches; /* by identities */
     const physics_contact *contacts;
-    const int32_t *broken; /* joints that broke in this step and no longer exist */
+    const physics_break *broken; /* joints that broke in this step */
     int32_t touch_count, contact_count, broken_count;
 } physics_result;
 
@@ -234,6 +241,7 @@ PHYSICS_API int32_t physics_step(physics_world *world, const physics_command *co
 typedef struct {
     uint32_t layers;
     int32_t triggers;
+    int32_t faces; /* of meshes, for rays: 0 or a sum of PHYSICS_BACK_FACES and PHYSICS_ALL_FACES */
 } physics_filter;
 
 typedef struct {
@@ -257,7 +265,7 @@ typedef struct {
 PHYSICS_API void physics_raycast(physics_world *world, const physics_ray *rays, const physics_filter *filters, int32_t count,
                                  physics_hit *hits);
 
-/* All shapes that a ray hits, in no particular order; returns their number, at most `capacity`. */
+/* All shapes that a ray hits, or all faces with PHYSICS_ALL_FACES, in no particular order; returns their number, at most `capacity`. */
 PHYSICS_API int32_t physics_raycast_all(physics_world *world, const physics_ray *ray, const physics_filter *filter, physics_hit *hits,
                                         int32_t capacity);
 
@@ -277,8 +285,9 @@ PHYSICS_API void physics_begin_overlaps(physics_world *world, const physics_sphe
 /* Processes the remaining spheres and returns when all results are complete. */
 PHYSICS_API void physics_finish_overlaps(physics_world *world);
 
-/* Moves a geometry along a ray from its pose. Shapes that it overlaps at the start are not hit. Returns the number of hits: the nearest one with a
- * capacity of 1, otherwise all in no particular order. `point` is the point of contact. */
+/* Moves a geometry along a ray from its pose. Returns the number of hits. With a capacity of 0, writes the nearest hit, without shapes that the geometry
+ * overlaps at the start. Otherwise writes all hits in no particular order; a hit with an overlap at the start has distance 0, point 0 and the reversed
+ * direction as its normal. `point` is the point of contact. */
 PHYSICS_API int32_t physics_sweep(physics_world *world, const physics_geometry *geometry, const physics_pose *pose,
                                   const physics_vector *direction, float distance, const physics_filter *filter, physics_hit *hits,
                                   int32_t capacity);

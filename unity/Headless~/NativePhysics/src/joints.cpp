@@ -61,7 +61,7 @@ void physics_world::drop_joints_of(int32_t actor) {
 void physics_world::onConstraintBreak(PxConstraintInfo *constraints, PxU32 count) {
     for (PxU32 index = 0; index < count; index++) {
         const PxJoint *joint = static_cast<PxJoint *>(constraints[index].externalReference);
-        broken.push_back(int32_t(intptr_t(joint->userData)));
+        broken.push_back({int32_t(intptr_t(joint->userData)), 0.0f});
     }
 }
 

@@ -9,9 +9,17 @@ namespace {
 
 const float FARTHEST = 1e8f; // metres, the limit of PhysX for sweeps
 const PxHitFlags HIT = PxHitFlag::ePOSITION | PxHitFlag::eNORMAL;
+const PxHitFlags SWEEP = HIT | PxHitFlag::ePRECISE_SWEEP;
+
+PxHitFlags ray_flags(const physics_filter &filter) {
+    PxHitFlags flags = HIT;
+    if (filter.faces & PHYSICS_BACK_FACES) flags |= PxHitFlag::eMESH_BOTH_SIDES;
+    if (filter.faces & PHYSICS_ALL_FACES) flags |= PxHitFlag::eMESH_MULTIPLE;
+    return flags;
+}
 
 // Ignores shapes that contain the start of a ray or sweep, and one actor. With eNO_BLOCK, PhysX keeps hits that postFilter ignores, so
-// `found` is a touch for rays that request all hits.
+// `found` is a touch for queries that request all hits.
 struct Outside final : PxQueryFilterCallback {
     const PxRigidActor *self = nullptr;
     PxQueryHitType::Enum found = PxQueryHitType::eBLOCK;
@@ -26,8 +34,9 @@ struct Outside final : PxQueryFilterCallback {
 
 physics_hit to_hit(const PxLocationHit &from, const PxShape &shape) {
     const bool mesh = shape.getGeometry().getType() == PxGeometryType::eTRIANGLEMESH;
-    return {int32_t(intptr_t(shape.userData)), mesh ? int32_t(from.faceIndex) : PHYSICS_NONE, vec(from.position), vec(from.normal),
-            from.distance};
+    // PhysX sets no position for an overlap at the start of a sweep.
+    return {int32_t(intptr_t(shape.userData)), mesh ? int32_t(from.faceIndex) : PHYSICS_NONE,
+            from.hadInitialOverlap() ? physics_vector{0, 0, 0} : vec(from.position), vec(from.normal), from.distance};
 }
 
 template <typename Hit> physics_hit to_hit(const Hit &from) { return to_hit(from, *from.shape); }
@@ -46,16 +55,18 @@ int32_t sweep(physics_world *world, const PxGeometry &geometry, const PxTransfor
               const physics_filter &filter, const PxRigidActor *self, physics_hit *hits, int32_t capacity) {
     Outside outside;
     outside.self = self;
-    const PxQueryFlags flags = ALL | PxQueryFlag::ePOSTFILTER | (self ? PxQueryFlag::ePREFILTER : PxQueryFlag::Enum(0));
+    const PxQueryFlags flags = ALL | (self ? PxQueryFlag::ePREFILTER : PxQueryFlag::Enum(0));
     distance = std::min(distance, FARTHEST);
-    if (capacity == 1) {
+    if (capacity == 0) {
         PxSweepBuffer found;
-        if (!world->scene->sweep(geometry, from, direction, distance, found, HIT, query_filter(filter, flags), &outside)) return 0;
+        if (!world->scene->sweep(geometry, from, direction, distance, found, SWEEP, query_filter(filter, flags | PxQueryFlag::ePOSTFILTER),
+                                 &outside))
+            return 0;
         hits[0] = to_hit(found.block);
         return 1;
     }
     PxSweepBuffer found(room<PxSweepHit>(capacity), PxU32(capacity));
-    world->scene->sweep(geometry, from, direction, distance, found, HIT, query_filter(filter, flags | PxQueryFlag::eNO_BLOCK), &outside);
+    world->scene->sweep(geometry, from, direction, distance, found, SWEEP, query_filter(filter, flags | PxQueryFlag::eNO_BLOCK), &outside);
     for (PxU32 index = 0; index < found.nbTouches; index++) hits[index] = to_hit(found.touches[index]);
     return int32_t(found.nbTouches);
 }
@@ -81,8 +92,9 @@ void physics_raycast(physics_world *world, const physics_ray *rays, const physic
         for (int index = first; index < end; index++) {
             const physics_ray &ray = rays[index];
             PxRaycastBuffer found;
-            const bool hit = world->scene->raycast(vec(ray.origin), vec(ray.direction), std::min(ray.distance, FARTHEST), found, HIT,
-                                                   query_filter(filters[index], ALL | PxQueryFlag::ePOSTFILTER), &outside);
+            const physics_filter &filter = filters[index];
+            const bool hit = world->scene->raycast(vec(ray.origin), vec(ray.direction), std::min(ray.distance, FARTHEST), found,
+                                                   ray_flags(filter), query_filter(filter, ALL | PxQueryFlag::ePOSTFILTER), &outside);
             hits[index] = hit ? to_hit(found.block) : NOTHING;
         }
     });
@@ -93,7 +105,7 @@ int32_t physics_raycast_all(physics_world *world, const physics_ray *ray, const 
     Outside outside;
     outside.found = PxQueryHitType::eTOUCH;
     PxRaycastBuffer found(room<PxRaycastHit>(capacity), PxU32(capacity));
-    world->scene->raycast(vec(ray->origin), vec(ray->direction), std::min(ray->distance, FARTHEST), found, HIT,
+    world->scene->raycast(vec(ray->origin), vec(ray->direction), std::min(ray->distance, FARTHEST), found, ray_flags(*filter),
                           query_filter(*filter, ALL | PxQueryFlag::ePOSTFILTER), &outside);
     for (PxU32 index = 0; index < found.nbTouches; index++) hits[index] = to_hit(found.touches[index]);
     return int32_t(found.nbTouches);
@@ -151,21 +163,21 @@ int32_t physics_sweep_actor(physics_world *world, int32_t handle, const physics_
                             physics_hit *hits, int32_t capacity) {
     Actor *actor = world->actor(handle);
     if (!actor) return 0;
-    const physics_filter filter = {~0u, triggers};
+    const physics_filter filter = {~0u, triggers, 0};
     std::vector<PxShape *> own(actor->rigid->getNbShapes());
     actor->rigid->getShapes(own.data(), PxU32(own.size()));
     int32_t count = 0;
     for (PxShape *each : own) {
         if (each->getQueryFilterData().word0 == 0 || each->getGeometry().getType() == PxGeometryType::eTRIANGLEMESH) continue;
         const PxTransform from = PxShapeExt::getGlobalPose(*each, *actor->rigid);
-        if (capacity > 1) {
+        if (capacity > 0) {
             if (count < capacity)
                 count += sweep(world, each->getGeometry(), from, vec(*direction), distance, filter, actor->rigid, hits + count,
                                capacity - count);
             continue;
         }
         physics_hit nearer;
-        if (sweep(world, each->getGeometry(), from, vec(*direction), distance, filter, actor->rigid, &nearer, 1) &&
+        if (sweep(world, each->getGeometry(), from, vec(*direction), distance, filter, actor->rigid, &nearer, 0) &&
             (count == 0 || nearer.distance < hits[0].distance)) {
             hits[0] = nearer;
             count = 1;

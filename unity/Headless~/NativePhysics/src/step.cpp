@@ -370,7 +370,12 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
         const uint32_t a0 = world->shapes[a.a].identity, b0 = world->shapes[b.a].identity;
         return a0 != b0 ? a0 < b0 : world->shapes[a.b].identity < world->shapes[b.b].identity;
     });
-    for (const int32_t joint : world->broken) world->drop_joint(joint);
+    for (physics_break &broken : world->broken) {
+        PxVec3 force, torque;
+        world->joints[broken.joint].joint->getConstraint()->getForce(force, torque);
+        broken.force = force.magnitude();
+        world->drop_joint(broken.joint);
+    }
     *result = {world->touches.data(),          world->contacts.data(),          world->broken.data(),
                int32_t(world->touches.size()), int32_t(world->contacts.size()), int32_t(world->broken.size())};
     return 1;

@@ -184,7 +184,7 @@ void physics_world::refresh_mass(Actor &actor) {
                                }),
                 solid.end());
     PxTransform center(PxIdentity);
-    PxVec3 inertia(actor.mass);
+    PxVec3 inertia(1.0f); // without solid shapes, as in Unity
     if (!solid.empty()) {
         const PxMassProperties total = PxRigidBodyExt::computeMassPropertiesFromShapes(solid.data(), PxU32(solid.size()));
         center.p = total.centerOfMass;

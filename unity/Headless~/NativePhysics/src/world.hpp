@@ -138,7 +138,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
 
     std::vector<physics_touch> touches;
     std::vector<physics_contact> contacts;
-    std::vector<int32_t> broken;
+    std::vector<physics_break> broken;
 
     collektive::Actor *actor(int32_t handle) {
         return handle >= 0 && size_t(handle) < actors.size() && actors[handle].rigid ? &actors[handle] : nullptr;

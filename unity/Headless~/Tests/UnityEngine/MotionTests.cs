@@ -121,6 +121,14 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_body_without_colliders_has_an_inertia_of_1()
+        {
+            var body = new GameObject().AddComponent<Rigidbody>();
+            body.mass = 5f;
+            Assert.That(body.inertiaTensor, Is.EqualTo(Vector3.one));
+        }
+
+        [Test]
         public void Centre_of_mass_and_inertia_are_computed_from_colliders_unless_set()
         {
             var box = Box(Vector3.zero, new Vector3(1f, 2f, 3f)).gameObject.AddComponent<Rigidbody>();

@@ -325,6 +325,37 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_ray_of_a_batch_can_hit_back_faces_and_all_faces_of_a_mesh()
+        {
+            var mesh = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            UnityEngine.Object.DestroyImmediate(mesh.GetComponent<Collider>());
+            mesh.AddComponent<MeshCollider>();
+            Assert.That(DistancesOf(1, false, false), Is.EqualTo(new[] { 1.5f }), "near side");
+            Assert.That(DistancesOf(4, false, false), Is.EqualTo(new[] { 1.5f }));
+            Assert.That(DistancesOf(4, true, false), Is.EqualTo(new[] { 1.5f }), "the far side is a back face");
+            Assert.That(DistancesOf(4, true, true), Is.EqualTo(new[] { 1.5f, 2.5f }));
+            mesh.transform.position = Vector3.left * 2f;
+            Physics.SyncTransforms();
+            Assert.That(DistancesOf(1, false, false), Is.Empty, "from the inside");
+            Assert.That(DistancesOf(1, false, true), Is.EqualTo(new[] { 0.5f }));
+
+            float[] DistancesOf(int maxHits, bool allFaces, bool backFaces)
+            {
+                using (var commands = new NativeArray<RaycastCommand>(1, Allocator.TempJob))
+                using (var hits = new NativeArray<RaycastHit>(maxHits, Allocator.TempJob))
+                {
+                    var query = new QueryParameters(Physics.AllLayers, allFaces, QueryTriggerInteraction.Ignore, backFaces);
+                    commands.AsSpan()[0] = new RaycastCommand(new Vector3(-2f, 0.1f, 0.2f), Vector3.right, query);
+                    RaycastCommand.ScheduleBatch(commands, hits, 1, maxHits).Complete();
+                    var found = Array.FindAll(hits.AsSpan().ToArray(), hit => hit.collider);
+                    var distances = Array.ConvertAll(found, hit => Mathf.Round(hit.distance * 1e4f) / 1e4f);
+                    Array.Sort(distances);
+                    return distances;
+                }
+            }
+        }
+
+        [Test]
         public void A_direction_of_a_batch_has_length_1()
         {
             using (var commands = new NativeArray<RaycastCommand>(1, Allocator.TempJob))

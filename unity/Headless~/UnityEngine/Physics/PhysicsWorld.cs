@@ -257,7 +257,7 @@ namespace UnityEngine
                 var broken = BrokenJoints(result);
                 Touching.Send(result);
                 if (broken != null)
-                    foreach (var joint in broken) Break(joint);
+                    foreach (var (joint, force) in broken) Break(joint, force);
             }
             finally
             {
@@ -265,26 +265,26 @@ namespace UnityEngine
             }
         }
 
-        /// Returns the joints that broke in a step, or null if none broke.
-        static List<Joint> BrokenJoints(in Physx.Result result)
+        /// Returns the joints that broke in a step with their forces, or null if none broke.
+        static List<(Joint, float)> BrokenJoints(in Physx.Result result)
         {
-            List<Joint> broken = null;
+            List<(Joint, float)> broken = null;
             for (var index = 0; index < result.BrokenCount; index++)
                 foreach (var joint in Joints)
                 {
-                    if (joint.Handle != result.Broken[index]) continue;
+                    if (joint.Handle != result.Broken[index].Joint) continue;
                     joint.Handle = Physx.None;
-                    (broken = broken ?? new List<Joint>()).Add(joint);
+                    (broken = broken ?? new List<(Joint, float)>()).Add((joint, result.Broken[index].Force));
                 }
             return broken;
         }
 
-        static void Break(Joint joint)
+        static void Break(Joint joint, float force)
         {
             if (!joint) return;
             var target = joint.owner;
             for (var index = 0; index < target.components.Count; index++)
-                if (target.components[index] is MonoBehaviour script && script.didAwake) Messages.Send(script.messages.OnJointBreak, script, joint.breakForce);
+                if (target.components[index] is MonoBehaviour script && script.didAwake) Messages.Send(script.messages.OnJointBreak, script, force);
             Object.Destroy(joint);
         }
 

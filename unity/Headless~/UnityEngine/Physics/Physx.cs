@@ -6,7 +6,7 @@ namespace UnityEngine
     /// The C interface of the library collektive_physics. Its header, NativePhysics/include/collektive_physics.h, documents it.
     static unsafe class Physx
     {
-        public const int Version = 4;
+        public const int Version = 5;
         public const int None = -1;
 
         const string Library = "collektive_physics";
@@ -47,6 +47,14 @@ namespace UnityEngine
             Enter = 0,
             Stay = 1,
             Exit = 2,
+        }
+
+        /// The faces of meshes that rays hit. Without a flag: the front face nearest to the origin.
+        [Flags]
+        public enum Faces
+        {
+            Back = 1,
+            All = 2,
         }
 
         [Flags]
@@ -156,11 +164,17 @@ namespace UnityEngine
             public float Separation;
         }
 
+        public struct Break
+        {
+            public int Joint;
+            public float Force;
+        }
+
         public struct Result
         {
             public Touch* Touches;
             public Contact* Contacts;
-            public int* Broken;
+            public Break* Broken;
             public int TouchCount, ContactCount, BrokenCount;
         }
 
@@ -177,6 +191,7 @@ namespace UnityEngine
         {
             public int Layers;
             public int Triggers;
+            public Faces Faces;
         }
 
         public struct RayLine

@@ -23,6 +23,13 @@ namespace UnityEngine
         internal static Physx.Filter Filter(int layerMask, QueryTriggerInteraction triggers) =>
             new Physx.Filter { Layers = layerMask, Triggers = HitsTriggers(triggers) ? 1 : 0 };
 
+        static Physx.Filter Filter(in QueryParameters query)
+        {
+            var filter = Filter(query.layerMask, query.hitTriggers);
+            if (query.hitBackfaces) filter.Faces |= Physx.Faces.Back;
+            return filter;
+        }
+
         static bool HitsTriggers(QueryTriggerInteraction triggers) =>
             triggers == QueryTriggerInteraction.Collide || triggers == QueryTriggerInteraction.UseGlobal && Physics.queriesHitTriggers;
 
@@ -71,7 +78,7 @@ namespace UnityEngine
             {
                 ref var command = ref commands[index];
                 var asks = UnitLine(command.from, command.direction, command.distance, out lines[index]);
-                filters[index] = asks ? Filter(command.queryParameters.layerMask, command.queryParameters.hitTriggers) : default;
+                filters[index] = asks ? Filter(command.queryParameters) : default;
                 if (!asks) lines[index] = new Physx.RayLine { Direction = Vector3.right, Distance = 1f };
             }
             fixed (Physx.RayLine* rays = lines)
@@ -82,16 +89,20 @@ namespace UnityEngine
 
         /// Fills the array up to its length, and returns the number of results.
         public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
-            QueryTriggerInteraction triggers) => UnitRaycastAll(origin, direction.normalized, results, maxDistance, layerMask, triggers);
+            QueryTriggerInteraction triggers) => UnitRaycastAll(origin, direction.normalized, results, maxDistance, Filter(layerMask, triggers));
 
-        /// Like `RaycastAll`, for a direction of length 1.
-        public static int UnitRaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
-            QueryTriggerInteraction triggers)
+        public static int RaycastAll(in RaycastCommand command, RaycastHit[] results)
+        {
+            var filter = Filter(command.queryParameters);
+            if (command.queryParameters.hitMultipleFaces) filter.Faces |= Physx.Faces.All;
+            return UnitRaycastAll(command.from, command.direction, results, command.distance, filter);
+        }
+
+        static int UnitRaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, Physx.Filter filter)
         {
             Headless.QueryLog.Rays++;
             if (!UnitLine(origin, direction, maxDistance, out var line)) return 0;
             Reserve(ref hits, results.Length);
-            var filter = Filter(layerMask, triggers);
             int count;
             fixed (Physx.Hit* found = hits) count = Physx.physics_raycast_all(World, &line, &filter, found, results.Length);
             return Take(results, count);
@@ -116,16 +127,16 @@ namespace UnityEngine
             if (!Line(pose.Position, direction, maxDistance, out var line)) return false;
             var filter = Filter(layerMask, triggers);
             Physx.Hit hit;
-            if (Physx.physics_sweep(World, &geometry, &pose, &line.Direction, line.Distance, &filter, &hit, 1) == 0) return false;
+            if (Physx.physics_sweep(World, &geometry, &pose, &line.Direction, line.Distance, &filter, &hit, 0) == 0) return false;
             nearest = new RaycastHit(hit);
             return true;
         }
 
+        /// Includes shapes that the geometry overlaps at its start.
         public static int SweepAll(Physx.Geometry geometry, Physx.Pose pose, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
-            if (results.Length == 1) return Sweep(geometry, pose, direction, out results[0], maxDistance, layerMask, triggers) ? 1 : 0;
-            if (!Line(pose.Position, direction, maxDistance, out var line)) return 0;
+            if (results.Length == 0 || !Line(pose.Position, direction, maxDistance, out var line)) return 0;
             Reserve(ref hits, results.Length);
             var filter = Filter(layerMask, triggers);
             int count;
@@ -139,7 +150,7 @@ namespace UnityEngine
             nearest = default;
             if (!body.Registered || !Line(body.position, direction, maxDistance, out var line)) return false;
             Physx.Hit hit;
-            if (Physx.physics_sweep_actor(World, body.Handle, &line.Direction, line.Distance, HitsTriggers(triggers) ? 1 : 0, &hit, 1) == 0) return false;
+            if (Physx.physics_sweep_actor(World, body.Handle, &line.Direction, line.Distance, HitsTriggers(triggers) ? 1 : 0, &hit, 0) == 0) return false;
             nearest = new RaycastHit(hit);
             return true;
         }

@@ -72,10 +72,7 @@ namespace UnityEngine
             if (found.Length < maxHits) found = new RaycastHit[maxHits];
             for (var index = 0; index < all.Length; index++)
             {
-                ref var command = ref all[index];
-                var query = command.queryParameters;
-                var count = Queries.UnitRaycastAll(command.from, command.direction, found, command.distance, query.layerMask, query.hitTriggers);
-                count = Math.Min(maxHits, count);
+                var count = Math.Min(maxHits, Queries.RaycastAll(all[index], found));
                 var hits = results.AsSpan().Slice(index * maxHits, maxHits);
                 new Span<RaycastHit>(found, 0, count).CopyTo(hits);
                 // A hit without a collider marks the end of a ray's hits. Results after it are not written.
