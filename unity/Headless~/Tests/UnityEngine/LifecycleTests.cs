@@ -257,5 +257,24 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(holder.AddComponent<DerivedSingle>() == null, Is.True);
             Assert.That(Errors.Count, Is.EqualTo(2));
         }
+
+        public class NeverPaused : MonoBehaviour
+        {
+            void OnApplicationPause(bool isPaused) => Notes.Add("paused");
+            void OnApplicationFocus() => Notes.Add("focused");
+        }
+
+        [Test]
+        public void Messages_that_are_never_sent_are_logged_once_per_type()
+        {
+            Add<NeverPaused>();
+            Add<NeverPaused>();
+            Loop.Frame(0.02f);
+            Assert.That(Events(), Is.Empty);
+            Assert.That(Errors, Is.EqualTo(new[]
+            {
+                "NeverPaused.OnApplicationFocus is never called without Unity.", "NeverPaused.OnApplicationPause is never called without Unity.",
+            }));
+        }
     }
 }

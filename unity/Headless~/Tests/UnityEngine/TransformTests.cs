@@ -164,5 +164,36 @@ namespace Collektive.Headless.Tests.Engine
             root.DetachChildren();
             Assert.That(root.childCount, Is.EqualTo(0));
         }
+
+        public class Parent : MonoBehaviour
+        {
+            void OnTransformChildrenChanged() => Notes.Add(name + " " + transform.childCount);
+        }
+
+        [Test]
+        public void A_parent_receives_a_message_when_its_children_change()
+        {
+            Transform a = Add<Parent>("a").transform, b = Add<Parent>("b").transform;
+            Transform first = new GameObject("first").transform, second = new GameObject("second").transform;
+            first.SetParent(a);
+            second.parent = a;
+            second.SetSiblingIndex(0);
+            second.SetSiblingIndex(0);
+            first.SetParent(b);
+            Object.DestroyImmediate(first.gameObject);
+            Object.Instantiate(second.gameObject, b);
+            b.gameObject.SetActive(false);
+            second.SetParent(b);
+            Assert.That(Events(), Is.EqualTo("a 1 a 2 a 2 a 1 b 1 b 0 b 1 a 0"));
+        }
+
+        [Test]
+        public void A_rotation_towards_a_zero_vector_is_logged()
+        {
+            var thing = new GameObject().transform;
+            thing.forward = Vector3.zero;
+            Assert.That(thing.rotation, Is.EqualTo(Quaternion.identity));
+            Assert.That(Errors, Is.EqualTo(new[] { "Look rotation viewing vector is zero" }));
+        }
     }
 }

@@ -88,6 +88,7 @@ namespace UnityEngine
                 foreach (var component in one.components) component.destroyed = true;
                 one.destroyed = true;
             }
+            gameObject.TransformUnchecked.parentOrNull?.ChildrenChanged();
         }
 
         static void SendOnDestroy(Component component)

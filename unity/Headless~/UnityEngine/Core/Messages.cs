@@ -13,7 +13,7 @@ namespace UnityEngine
 
         public readonly int Order;
         public readonly Action<Object> Awake, OnEnable, Start, FixedUpdate, Update, LateUpdate, OnDisable, OnDestroy, OnApplicationQuit;
-        public readonly Action<Object> OnTransformParentChanged;
+        public readonly Action<Object> OnTransformParentChanged, OnTransformChildrenChanged;
         public readonly Action<Object, Collider> OnTriggerEnter, OnTriggerStay, OnTriggerExit;
         public readonly Action<Object, Collision> OnCollisionEnter, OnCollisionStay, OnCollisionExit;
 
@@ -34,6 +34,7 @@ namespace UnityEngine
             OnDestroy = Compile(type, nameof(OnDestroy));
             OnApplicationQuit = Compile(type, nameof(OnApplicationQuit));
             OnTransformParentChanged = Compile(type, nameof(OnTransformParentChanged));
+            OnTransformChildrenChanged = Compile(type, nameof(OnTransformChildrenChanged));
             OnTriggerEnter = Compile<Collider>(type, nameof(OnTriggerEnter));
             OnTriggerStay = Compile<Collider>(type, nameof(OnTriggerStay));
             OnTriggerExit = Compile<Collider>(type, nameof(OnTriggerExit));
@@ -41,6 +42,8 @@ namespace UnityEngine
             OnCollisionStay = Compile<Collision>(type, nameof(OnCollisionStay));
             OnCollisionExit = Compile<Collision>(type, nameof(OnCollisionExit));
             OnJointBreak = Compile<float>(type, nameof(OnJointBreak));
+            WarnIfNeverSent(type, "OnApplicationFocus");
+            WarnIfNeverSent(type, "OnApplicationPause");
             if (OnTriggerEnter != null || OnTriggerExit != null) Touches |= TouchMessages.TriggerChange;
             if (OnTriggerStay != null) Touches |= TouchMessages.TriggerStay;
             if (OnCollisionEnter != null || OnCollisionExit != null) Touches |= TouchMessages.CollisionChange;
@@ -100,6 +103,11 @@ namespace UnityEngine
         {
             var method = Find(type, name, typeof(T));
             return method == null ? null : (Action<Object, T>)Emit(method, typeof(Action<Object, T>), typeof(Object), typeof(T));
+        }
+
+        static void WarnIfNeverSent(Type type, string name)
+        {
+            if (Find(type, name, typeof(bool)) != null) Debug.LogWarning($"{type.Name}.{name} is never called without Unity.");
         }
 
         /// Returns the method with the given name in the most derived class. It may be private, and may lack the argument.

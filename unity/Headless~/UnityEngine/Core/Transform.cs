@@ -345,6 +345,7 @@ namespace UnityEngine
             var worldRotation = rotation;
             Vector3 x = TransformVector(Vector3.right), y = TransformVector(Vector3.up), z = TransformVector(Vector3.forward);
             var scene = owner.scene;
+            var previous = parentOrNull;
             Detach();
             parentOrNull = parent;
             owner.sceneOfRoot = scene;
@@ -359,6 +360,15 @@ namespace UnityEngine
             PhysicsWorld.HierarchyChanged(this);
             Changed();
             foreach (var script in owner.GetComponentsInChildren<MonoBehaviour>()) Messages.Send(script.messages.OnTransformParentChanged, script);
+            previous?.ChildrenChanged();
+            parent?.ChildrenChanged();
+        }
+
+        /// Sends OnTransformChildrenChanged to this object's scripts.
+        internal void ChildrenChanged()
+        {
+            if (!owner.activeInHierarchy) return;
+            foreach (var script in owner.GetComponents<MonoBehaviour>()) Messages.Send(script.messages.OnTransformChildrenChanged, script);
         }
 
         /// Removes the object from its parent's children or from the scene's roots.
@@ -405,8 +415,10 @@ namespace UnityEngine
 
         public void SetSiblingIndex(int index)
         {
+            var before = GetSiblingIndex();
             Detach();
             Attach(index);
+            if (GetSiblingIndex() != before) parentOrNull?.ChildrenChanged();
         }
 
         public IEnumerator GetEnumerator() => children.GetEnumerator();

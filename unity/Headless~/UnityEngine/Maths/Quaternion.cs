@@ -111,7 +111,11 @@ namespace UnityEngine
         public static Quaternion LookRotation(Vector3 forward, Vector3 upwards)
         {
             var axisZ = forward.normalized;
-            if (axisZ.sqrMagnitude == 0f) return identity;
+            if (axisZ.sqrMagnitude == 0f)
+            {
+                Debug.Log("Look rotation viewing vector is zero");
+                return identity;
+            }
             var axisX = Vector3.Cross(upwards, axisZ).normalized;
             return axisX.sqrMagnitude == 0f
                 ? FromToRotation(Vector3.forward, axisZ)
