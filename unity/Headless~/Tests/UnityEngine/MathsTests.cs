@@ -91,6 +91,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Vector3.Angle(Vector3.right, Vector3.up), Is.EqualTo(90f).Within(1e-4f));
             Assert.That(Vector3.SignedAngle(Vector3.forward, Vector3.right, Vector3.up), Is.EqualTo(90f).Within(1e-4f));
             Assert.That(new Vector3(1f, 2f, 3f).ToString(), Is.EqualTo("(1.00, 2.00, 3.00)"));
+            Assert.That($"{new Vector4(1f, 2f, 3f, 4f)}", Is.EqualTo("(1.00, 2.00, 3.00, 4.00)"));
         }
 
         [Test]

@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    public struct Vector4 : IEquatable<Vector4>
+    public struct Vector4 : IEquatable<Vector4>, IFormattable
     {
         public float x;
         public float y;
@@ -31,5 +31,8 @@ namespace UnityEngine
         public bool Equals(Vector4 other) => x.Equals(other.x) && y.Equals(other.y) && z.Equals(other.z) && w.Equals(other.w);
         public override bool Equals(object other) => other is Vector4 vector && Equals(vector);
         public override int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2) ^ (w.GetHashCode() >> 1);
+        public override string ToString() => ToString(null);
+        public string ToString(string format) => ToString(format, null);
+        public string ToString(string format, IFormatProvider formatProvider) => ValueText.Of("F2", format, formatProvider, x, y, z, w);
     }
 }
