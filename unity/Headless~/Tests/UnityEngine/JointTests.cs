@@ -30,6 +30,24 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_joint_connects_bodies_where_their_transforms_are()
+        {
+            var parent = new GameObject("parent");
+            var a = Ball(Vector3.zero);
+            var b = Ball(Vector3.up);
+            a.transform.SetParent(parent.transform);
+            a.useGravity = b.useGravity = false;
+            Physics.SyncTransforms();
+            parent.transform.position = new Vector3(5f, 0f, 0f);
+            b.transform.position = new Vector3(7f, 0f, 0f);
+            a.gameObject.AddComponent<FixedJoint>().connectedBody = b;
+            b.gameObject.AddComponent<HingeJoint>();
+            Run(0.5f);
+            Assert.That((a.position - new Vector3(5f, 0f, 0f)).magnitude, Is.LessThan(1e-3f));
+            Assert.That((b.position - new Vector3(7f, 0f, 0f)).magnitude, Is.LessThan(1e-3f));
+        }
+
+        [Test]
         public void A_fixed_joint_holds_a_body_in_the_world()
         {
             var ball = Ball(new Vector3(0f, 5f, 0f));

@@ -21,6 +21,9 @@ namespace UnityEngine
         /// Whether this transform is in the list of transforms that changed since the last physics sync.
         internal bool awaitsSync;
 
+        /// Whether this transform or one of its parents changed since the last physics sync.
+        internal bool IsBeforeSync => awaitsSync || !(parentOrNull is null) && parentOrNull.IsBeforeSync;
+
         Vector3 placed = Vector3.zero;
         Quaternion turned = Quaternion.identity;
         Vector3 ownScale = Vector3.one;

@@ -94,20 +94,19 @@ namespace UnityEngine
         {
             var turn = Quaternion.FromToRotation(Vector3.right, ownAxis.Equals(Vector3.zero) ? Vector3.right : ownAxis);
             var point = Vector3.Scale(ownAnchor, owner.TransformUnchecked.lossyScale);
-            var otherPosition = Vector3.zero;
-            var otherRotation = Quaternion.identity;
+            var pose = body.NextPose;
+            var otherPose = new Physx.Pose(Vector3.zero, Quaternion.identity);
             var otherScale = Vector3.one;
             if (!(ownConnectedBody is null))
             {
-                otherPosition = ownConnectedBody.position;
-                otherRotation = ownConnectedBody.rotation;
+                otherPose = ownConnectedBody.NextPose;
                 otherScale = ownConnectedBody.owner.TransformUnchecked.lossyScale;
             }
-            var inverseRotation = Quaternion.Inverse(otherRotation);
-            var otherAnchor = inverseRotation * (body.position + body.rotation * point - otherPosition);
+            var inverseRotation = Quaternion.Inverse(otherPose.Rotation);
+            var otherAnchor = inverseRotation * (pose.Position + pose.Rotation * point - otherPose.Position);
             if (ownAutoConfigure) ownConnectedAnchor = new Vector3(otherAnchor.x / otherScale.x, otherAnchor.y / otherScale.y, otherAnchor.z / otherScale.z);
             else otherAnchor = Vector3.Scale(ownConnectedAnchor, otherScale);
-            return (new Physx.Pose(point, turn), new Physx.Pose(otherAnchor, (inverseRotation * body.rotation * turn).normalized));
+            return (new Physx.Pose(point, turn), new Physx.Pose(otherAnchor, (inverseRotation * pose.Rotation * turn).normalized));
         }
 
         /// Disconnects the bodies.

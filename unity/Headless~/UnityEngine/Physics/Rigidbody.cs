@@ -548,6 +548,9 @@ namespace UnityEngine
             foreach (var collider in Colliders) collider.Refresh();
         }
 
+        /// The pose that the body will have after the next sync.
+        internal Physx.Pose NextPose => activeTransform.IsBeforeSync ? new Physx.Pose(activeTransform.position, activeTransform.rotation) : Motion.Pose;
+
         /// Copies the transform's pose if it differs.
         internal void TakePose()
         {
