@@ -121,6 +121,19 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Quaternion.Angle(ball.rotation, Quaternion.Euler(0f, 30f, 0f)), Is.LessThan(2f));
         }
 
+        [TestCase(0f)]
+        [TestCase(30f)]
+        public void Equal_limits_lock_a_hinge_at_their_angle(float angle)
+        {
+            var ball = Ball(Vector3.zero);
+            var hinge = VerticalHinge(ball);
+            hinge.limits = new JointLimits { min = angle, max = angle };
+            hinge.useLimits = true;
+            ball.AddTorque(new Vector3(0f, 1f, 0f), ForceMode.VelocityChange);
+            Run(2f);
+            Assert.That(Quaternion.Angle(ball.rotation, Quaternion.Euler(0f, angle, 0f)), Is.LessThan(1f));
+        }
+
         [Test]
         public void Limits_stop_a_hinge_whose_motor_is_set_in_each_step()
         {

@@ -55,7 +55,7 @@ namespace UnityEngine
         internal override void Describe(ref Physx.Joint joint)
         {
             joint.Kind = Physx.JointKind.Hinge;
-            joint.UseLimits = ownUseLimits && ownLimits.min < ownLimits.max ? 1 : 0;
+            joint.UseLimits = ownUseLimits && ownLimits.min <= ownLimits.max ? 1 : 0;
             joint.Least = Mathf.Clamp(ownLimits.min, -179f, 179f) * Mathf.Deg2Rad;
             joint.Most = Mathf.Clamp(ownLimits.max, -179f, 179f) * Mathf.Deg2Rad;
             joint.UseMotor = ownUseMotor ? 1 : 0;
