@@ -193,6 +193,20 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_moving_kinematic_body_keeps_its_velocity_when_it_becomes_dynamic()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            ball.isKinematic = true;
+            ball.MovePosition(new Vector3(0.1f, 0f, 0f));
+            Physics.Simulate(Step);
+            ball.isKinematic = false;
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(5f).Within(1e-3f));
+            Physics.Simulate(Step);
+            Assert.That(ball.linearVelocity.x, Is.EqualTo(5f).Within(1e-3f));
+        }
+
+        [Test]
         public void Child_colliders_belong_to_the_body_and_determine_its_centre_of_mass()
         {
             var body = new GameObject("body");

@@ -197,7 +197,8 @@ namespace UnityEngine
             {
                 if (kinematic == value) return;
                 kinematic = value;
-                Motion.Velocity = Motion.Spin = Vector3.zero;
+                // A body that becomes dynamic keeps the velocity of its last kinematic motion.
+                if (value) Motion.Velocity = Motion.Spin = Vector3.zero;
                 Motion.Asleep = 0;
                 // Only kinematic bodies can have some kinds of shapes. Such shapes must be removed before the body becomes dynamic, and added after it
                 // became kinematic.
