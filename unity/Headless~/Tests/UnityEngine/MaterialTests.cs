@@ -97,6 +97,22 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Colliders_with_the_same_material_have_their_own_copies()
+        {
+            var rubber = new PhysicsMaterial("rubber");
+            Collider a = Floor(), b = Floor();
+            a.material = b.material = rubber;
+            Assert.That(a.sharedMaterial, Is.SameAs(rubber));
+            a.material.bounciness = 1f;
+            Assert.That(a.material, Is.SameAs(a.material));
+            Assert.That(a.sharedMaterial, Is.SameAs(a.material));
+            Assert.That(a.material.name, Is.EqualTo("rubber (Instance)"));
+            Assert.That(b.material.bounciness, Is.EqualTo(0f));
+            a.material = a.material;
+            Assert.That(a.material.name, Is.EqualTo("rubber (Instance)"));
+        }
+
+        [Test]
         public void A_changed_material_takes_effect_at_the_next_step()
         {
             var material = WithFriction(0.8f);

@@ -9,8 +9,7 @@ namespace UnityEngine
 
         bool ownEnabled = true;
         bool ownIsTrigger;
-        PhysicsMaterial assignedMaterial;
-        bool ownsMaterial;
+        PhysicsMaterial assignedMaterial, ownMaterial;
 
         internal bool Registered { get; private set; }
         /// Number of times that the collider was registered. Information with a lower number is stale.
@@ -68,28 +67,20 @@ namespace UnityEngine
             set
             {
                 assignedMaterial = value;
-                ownsMaterial = false;
                 Refresh();
             }
         }
 
-        /// This collider's copy of the shared material, created on the first access.
+        /// This collider's copy of the assigned material, created when it is read.
         public PhysicsMaterial material
         {
             get
             {
-                if (ownsMaterial) return assignedMaterial;
+                if (ownMaterial && ReferenceEquals(ownMaterial, assignedMaterial)) return ownMaterial;
                 var name = assignedMaterial ? assignedMaterial.name : "Default";
-                assignedMaterial = new PhysicsMaterial(name + " (Instance)") { Values = MaterialValues };
-                ownsMaterial = true;
-                return assignedMaterial;
+                return assignedMaterial = ownMaterial = new PhysicsMaterial(name + " (Instance)") { Values = MaterialValues };
             }
-            set
-            {
-                assignedMaterial = value;
-                ownsMaterial = value;
-                Refresh();
-            }
+            set => sharedMaterial = value;
         }
 
         Physx.Material MaterialValues => assignedMaterial ? assignedMaterial.Values : PhysicsMaterial.Defaults;
