@@ -98,6 +98,18 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_concave_trigger_is_rejected()
+        {
+            var collider = AddMeshCollider(Ramp(), false);
+            collider.isTrigger = true;
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("Triggers on concave MeshColliders are not supported"));
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f), Is.False);
+            collider.convex = true;
+            Assert.That(Physics.CheckSphere(Vector3.zero, 1f), Is.True);
+        }
+
+        [Test]
         public void A_mesh_without_a_convex_hull_is_reported_by_name()
         {
             AddMeshCollider(Ramp(), true);

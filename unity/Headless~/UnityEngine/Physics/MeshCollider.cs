@@ -55,6 +55,11 @@ namespace UnityEngine
                     + $"Object '{NameImpl}' has no shape.", this);
                 return false;
             }
+            if (!ownConvex && isTrigger)
+            {
+                Debug.LogError($"Triggers on concave MeshColliders are not supported. Object '{NameImpl}' has no shape.", this);
+                return false;
+            }
             if (cooked.Handle != IntPtr.Zero && (cookedVersion != ownMesh.Version || !cookedScale.Equals(scale)))
             {
                 DropShape(); // a new mesh can have the address of the old one

@@ -33,6 +33,11 @@ namespace UnityEngine
                 Debug.LogError($"A TerrainCollider cannot be part of a Rigidbody that is not kinematic. Object '{NameImpl}' has no shape.", this);
                 return false;
             }
+            if (isTrigger)
+            {
+                Debug.LogError($"A TerrainCollider cannot be a trigger. Object '{NameImpl}' has no shape.", this);
+                return false;
+            }
             if (cooked.Handle != IntPtr.Zero && cookedVersion != ownData.Version)
             {
                 DropShape(); // a new mesh can have the address of the old one
