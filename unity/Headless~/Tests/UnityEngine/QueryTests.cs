@@ -193,6 +193,29 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Physics.CheckSphere(Vector3.zero, 1f), Is.False);
         }
 
+        [TestCase(typeof(BoxCollider))]
+        [TestCase(typeof(SphereCollider))]
+        [TestCase(typeof(CapsuleCollider))]
+        public void The_centre_of_a_collider_is_a_point_of_its_transform(System.Type type)
+        {
+            var parent = new GameObject("parent").transform;
+            var child = new GameObject("child").transform;
+            child.SetParent(parent, false);
+            child.localRotation = Quaternion.Euler(0f, 45f, 0f);
+            var collider = (Collider)child.gameObject.AddComponent(type);
+            parent.position = new Vector3(5f, 0f, 0f);
+            parent.localScale = new Vector3(4f, 1f, 1f);
+            var centre = new Vector3(2f, 0f, 0f);
+            if (collider is BoxCollider box) box.center = centre;
+            else if (collider is SphereCollider sphere) sphere.center = centre;
+            else ((CapsuleCollider)collider).center = centre;
+            Physics.SyncTransforms();
+            Assert.That((collider.bounds.center - child.TransformPoint(centre)).magnitude, Is.LessThan(1e-4f));
+            var body = parent.gameObject.AddComponent<Rigidbody>();
+            body.isKinematic = true;
+            Assert.That((collider.bounds.center - child.TransformPoint(centre)).magnitude, Is.LessThan(1e-4f));
+        }
+
         [Test]
         public void Closest_points_match_known_values()
         {

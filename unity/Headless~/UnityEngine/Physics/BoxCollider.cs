@@ -36,7 +36,7 @@ namespace UnityEngine
             var half = Vector3.Scale(ownSize, scale) * 0.5f;
             shape.Geometry.Kind = Physx.Kind.Box;
             shape.Geometry.Half = new Vector3(Mathf.Abs(half.x), Mathf.Abs(half.y), Mathf.Abs(half.z));
-            shape.Pose = new Physx.Pose(Vector3.Scale(ownCenter, scale), Quaternion.identity);
+            shape.Pose = new Physx.Pose(ScaledCenter(ownCenter, scale), Quaternion.identity);
             return true;
         }
 

@@ -73,7 +73,7 @@ namespace UnityEngine
             shape.Geometry.Kind = halfLength > 0f ? Physx.Kind.Capsule : Physx.Kind.Sphere;
             shape.Geometry.Radius = scaledRadius;
             shape.Geometry.Half = new Vector3(halfLength, 0f, 0f);
-            shape.Pose = new Physx.Pose(Vector3.Scale(ownCenter, scale), Turns[ownDirection]);
+            shape.Pose = new Physx.Pose(ScaledCenter(ownCenter, scale), Turns[ownDirection]);
             return true;
         }
 

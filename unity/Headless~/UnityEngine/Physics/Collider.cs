@@ -100,6 +100,14 @@ namespace UnityEngine
         internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
             throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
 
+        /// Returns the centre relative to this object's pose. Under parents with different scales along their axes, the rotation matters too.
+        internal Vector3 ScaledCenter(Vector3 center, Vector3 scale)
+        {
+            var transform = owner.TransformUnchecked;
+            if (transform.parentOrNull is null || center.Equals(Vector3.zero)) return Vector3.Scale(center, scale);
+            return Quaternion.Inverse(transform.rotation) * transform.TransformVector(center);
+        }
+
         /// Returns the pose that the geometry has when this object has the given pose.
         internal Physx.Pose GeometryAt(Vector3 position, Quaternion rotation)
         {

@@ -36,7 +36,7 @@ namespace UnityEngine
         {
             shape.Geometry.Kind = Physx.Kind.Sphere;
             shape.Geometry.Radius = Mathf.Abs(ownRadius) * Mathf.Max(Mathf.Abs(scale.x), Mathf.Max(Mathf.Abs(scale.y), Mathf.Abs(scale.z)));
-            shape.Pose = new Physx.Pose(Vector3.Scale(ownCenter, scale), Quaternion.identity);
+            shape.Pose = new Physx.Pose(ScaledCenter(ownCenter, scale), Quaternion.identity);
             return true;
         }
 
