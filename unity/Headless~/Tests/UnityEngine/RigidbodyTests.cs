@@ -42,6 +42,17 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(ball.linearVelocity.x, Is.EqualTo(Mathf.Pow(0.98f, 10f)).Within(1e-4f));
         }
 
+        [Test]
+        public void Infinite_damping_stops_a_body()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.linearVelocity = Vector3.right;
+            ball.linearDamping = float.PositiveInfinity;
+            Physics.Simulate(Step);
+            Assert.That(ball.linearVelocity == Vector3.zero, Is.True);
+            Assert.That(Errors, Is.Empty);
+        }
+
         [TestCase(ForceMode.Force, 0.01f)]
         [TestCase(ForceMode.Acceleration, 0.02f)]
         [TestCase(ForceMode.Impulse, 0.5f)]

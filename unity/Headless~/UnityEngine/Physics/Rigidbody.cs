@@ -478,7 +478,8 @@ namespace UnityEngine
             if (Registered) PhysicsWorld.Order(Handle, order, position, rotation);
         }
 
-        void SendDamping() => Order(Physx.Order.Damping, new Vector3(ownLinearDamping, ownAngularDamping, 0f));
+        // PhysX rejects infinite damping, which stops a body in Unity.
+        void SendDamping() => Order(Physx.Order.Damping, new Vector3(Mathf.Min(ownLinearDamping, 1e16f), Mathf.Min(ownAngularDamping, 1e16f), 0f));
         void SendLimits() => Order(Physx.Order.Limits, new Vector3(ownMaxLinear, ownMaxAngular, ownDepenetration));
 
         void SendCenter() => OrderPose(Physx.Order.MassCenter, ownCenter ?? Vector3.zero, new Quaternion(ownCenter == null ? 0f : 1f, 0f, 0f, 0f));
