@@ -147,6 +147,17 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void An_inertia_that_is_not_positive_is_rejected()
+        {
+            var ball = Ball(Vector3.zero);
+            var before = ball.inertiaTensor;
+            ball.inertiaTensor = new Vector3(1f, 0f, 1f);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(ball.inertiaTensor == before, Is.True);
+            Assert.That(ball.automaticInertiaTensor, Is.True);
+        }
+
+        [Test]
         public void Bodies_separate_no_faster_than_the_depenetration_velocity()
         {
             Ball(Vector3.zero).useGravity = false;

@@ -311,6 +311,11 @@ namespace UnityEngine
             set
             {
                 if (!Finite.Accepts(value, "Rigidbody.inertiaTensor", this)) return;
+                if (Mathf.Min(value.x, Mathf.Min(value.y, value.z)) <= 0f)
+                {
+                    Debug.LogError($"Inertia tensor must be larger than zero in all coordinates. Input is {value}.", this);
+                    return;
+                }
                 Inertia(out ownInertiaRotation);
                 ownInertia = value;
                 SendInertia();
