@@ -214,9 +214,10 @@ void physics_world::onContact(const PxContactPairHeader &header, const PxContact
         if (pair.flags & (PxContactPairFlag::eREMOVED_SHAPE_0 | PxContactPairFlag::eREMOVED_SHAPE_1)) continue;
         const int32_t a = int32_t(intptr_t(pair.shapes[0]->userData)), b = int32_t(intptr_t(pair.shapes[1]->userData));
         const bool flip = shapes[a].identity > shapes[b].identity;
-        const int32_t phase = pair.events & PxPairFlag::eNOTIFY_TOUCH_LOST    ? PHYSICS_EXIT
-                              : pair.events & PxPairFlag::eNOTIFY_TOUCH_FOUND ? PHYSICS_ENTER
-                                                                              : PHYSICS_STAY;
+        int32_t phase = pair.events & PxPairFlag::eNOTIFY_TOUCH_LOST    ? PHYSICS_EXIT
+                        : pair.events & PxPairFlag::eNOTIFY_TOUCH_FOUND ? PHYSICS_ENTER
+                                                                        : PHYSICS_STAY;
+        if (phase == PHYSICS_ENTER && resumed.count(Ignored::key(shapes[a].identity, shapes[b].identity))) phase = PHYSICS_STAY;
         add_touch(flip ? b : a, flip ? a : b, phase, false);
         if (phase == PHYSICS_EXIT) continue;
         physics_touch &touch = touches.back();
@@ -228,6 +229,18 @@ void physics_world::onContact(const PxContactPairHeader &header, const PxContact
             contacts.push_back({vec(point.position), vec(point.normal * sign), vec(point.impulse * sign), point.separation});
         }
         touch.contact_count = int32_t(found);
+    }
+}
+
+// Collects the contacts of the last step that continue although PhysX filters them again.
+void physics_world::resume_contacts() {
+    resumed.clear();
+    if (!resumes) return;
+    resumes = false;
+    for (const physics_touch &touch : touches) {
+        const Shape &a = shapes[touch.a], &b = shapes[touch.b];
+        if (!touch.trigger && touch.phase != PHYSICS_EXIT && a.shape && b.shape && a.born != steps && b.born != steps)
+            resumed.insert(Ignored::key(a.identity, b.identity));
     }
 }
 
@@ -355,6 +368,8 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
         return 0;
     }
     world->placed = 0;
+    world->resume_contacts();
+    world->steps++;
     world->touches.clear();
     world->contacts.clear();
     world->broken.clear();

@@ -237,7 +237,8 @@ physics_world *physics_world_create(int32_t threads) {
 
 void physics_world_destroy(physics_world *world) { delete world; }
 
-static void filter_again(physics_world *world, const Shape &shape) {
+static void filter_again(physics_world *world, Shape &shape) {
+    shape.born = world->steps;
     PxRigidActor &actor = *world->actors[shape.actor].rigid;
     if (!actor.getScene()) return;
     world->removal = physics_world::ENDS;
@@ -249,7 +250,7 @@ void physics_ignore_layers(physics_world *world, const uint32_t rows[32]) {
     uint32_t changed = 0;
     for (int layer = 0; layer < 32; layer++) changed |= uint32_t(world->ignored.layers[layer] != rows[layer]) << layer;
     std::memcpy(world->ignored.layers, rows, sizeof world->ignored.layers);
-    for (const Shape &each : world->shapes)
+    for (Shape &each : world->shapes)
         if (each.shape && changed >> (each.shape->getSimulationFilterData().word0 & LAYER) & 1) filter_again(world, each);
 }
 
@@ -257,7 +258,7 @@ void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other
     const bool changed = ignore ? world->ignored.pairs.insert(Ignored::key(identity, other)).second
                                 : world->ignored.pairs.erase(Ignored::key(identity, other)) > 0;
     if (!changed) return;
-    for (const Shape &each : world->shapes)
+    for (Shape &each : world->shapes)
         if (each.shape && (each.identity == identity || each.identity == other)) filter_again(world, each);
 }
 
@@ -356,6 +357,7 @@ int32_t physics_shape_create(physics_world *world, int32_t owner, const physics_
     slot.actor = owner;
     slot.identity = from->identity;
     slot.trigger = from->trigger != 0;
+    slot.born = world->steps;
     return handle;
 }
 
@@ -381,6 +383,10 @@ int32_t physics_shape_change(physics_world *world, int32_t handle, const physics
     const PxU32 difference = before.word0 ^ shape->shape->getSimulationFilterData().word0;
     if (difference) {
         PxShape *changed = shape->shape;
+        if (difference & LAYER)
+            shape->born = world->steps;
+        else
+            world->resumes = true;
         world->removal = difference & LAYER ? physics_world::ENDS : physics_world::CONTINUES;
         world->scene->resetFiltering(*actor.rigid, &changed, 1);
         world->removal = physics_world::REMOVED;

@@ -57,6 +57,7 @@ struct Shape {
     int32_t actor = PHYSICS_NONE;
     uint32_t identity = 0;
     bool trigger = false;
+    int32_t born = 0; // the step before which it was created or its pairs ended
 };
 
 struct Joint {
@@ -136,6 +137,11 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     // Why PhysX removes a pair. Touches of removed shapes are dropped. Touches of pairs that are filtered again continue or end.
     enum { REMOVED, CONTINUES, ENDS } removal = REMOVED;
 
+    int32_t steps = 0;
+    // Whether pairs are filtered again that continue to touch, and the keys of those that touch. PhysX reports the latter as found.
+    bool resumes = false;
+    std::unordered_set<uint64_t> resumed;
+
     std::vector<physics_touch> touches;
     std::vector<physics_contact> contacts;
     std::vector<physics_break> broken;
@@ -159,6 +165,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     void collect_motions(int32_t step, physics_motion *motions);
     void reset_body(int32_t handle, physics_motion &motion);
     void collect_overlaps();
+    void resume_contacts();
     void add_touch(int32_t a, int32_t b, int32_t phase, bool trigger);
 
     // PxSimulationEventCallback, all on the stepping thread

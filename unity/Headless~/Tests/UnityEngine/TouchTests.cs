@@ -118,6 +118,34 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("zone stay mover"));
         }
 
+        public class HitListener : MonoBehaviour
+        {
+            void OnCollisionEnter() => Notes.Add("hit");
+            void OnCollisionExit() => Notes.Add("leave");
+        }
+
+        [TestCase(false)]
+        [TestCase(true)]
+        public void Another_script_or_detection_mode_does_not_repeat_a_collision(bool changesDetection)
+        {
+            Floor();
+            var ball = Ball(new Vector3(0f, 0.5f, 0f));
+            ball.gameObject.AddComponent<HitListener>();
+            Run(0.1f);
+            Assert.That(Events(), Is.EqualTo("hit"));
+            if (changesDetection) ball.collisionDetectionMode = CollisionDetectionMode.Continuous;
+            else ball.gameObject.AddComponent<Listener>();
+            Notes.Clear();
+            Run(0.1f);
+            Assert.That(Events(), Is.EqualTo(""));
+            var collider = ball.GetComponent<Collider>();
+            ball.collisionDetectionMode = CollisionDetectionMode.Discrete;
+            collider.enabled = false;
+            collider.enabled = true;
+            Run(0.1f);
+            Assert.That(Events().StartsWith("hit"), Is.True, Events());
+        }
+
         [TestCase(true, true)]
         [TestCase(true, false)]
         [TestCase(false, true)]
