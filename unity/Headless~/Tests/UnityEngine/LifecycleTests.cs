@@ -53,6 +53,8 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [RequireComponent(typeof(Rigidbody), typeof(SphereCollider))] public class RequiresComponents : MonoBehaviour { }
+        [RequireComponent(typeof(RequiresBack))] public class RequiresOther : MonoBehaviour { }
+        [RequireComponent(typeof(RequiresOther))] public class RequiresBack : MonoBehaviour { }
         [DisallowMultipleComponent] public class Single : MonoBehaviour { }
         public class DerivedSingle : Single { }
 
@@ -248,6 +250,10 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(holder.GetComponent<Rigidbody>(), Is.Not.Null);
             Assert.That(holder.GetComponent<Collider>(), Is.InstanceOf<SphereCollider>());
         }
+
+        [Test]
+        public void Components_can_require_each_other() =>
+            Assert.That(Add<RequiresOther>().GetComponents<MonoBehaviour>().Length, Is.EqualTo(2));
 
         [Test]
         public void DisallowMultipleComponent_applies_to_the_type_and_its_subclasses()

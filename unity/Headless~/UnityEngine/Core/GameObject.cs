@@ -88,12 +88,14 @@ namespace UnityEngine
                 Debug.LogError($"'{NameImpl}' already has a {single.Name} and may have only one ([DisallowMultipleComponent]).", this);
                 return null;
             }
+            Adding.Add((this, componentType));
             foreach (RequireComponent required in componentType.GetCustomAttributes(typeof(RequireComponent), true))
             {
                 Require(required.m_Type0);
                 Require(required.m_Type1);
                 Require(required.m_Type2);
             }
+            Adding.RemoveAt(Adding.Count - 1);
             var component = (Component)Activator.CreateInstance(componentType, true);
             Own(component);
             if (component is Collider collider && GetComponent<MeshFilter>()?.sharedMesh is Mesh mesh && mesh && mesh.vertexCount > 0) collider.Fit(mesh);
@@ -101,9 +103,13 @@ namespace UnityEngine
             return component;
         }
 
+        /// The components whose required components are being added. They satisfy the requirements of those, because classes can require each other.
+        static readonly List<(GameObject Owner, Type Type)> Adding = new List<(GameObject, Type)>();
+
         void Require(Type type)
         {
-            if (type != null && !type.IsAbstract && FindComponent(type) is null) AddComponent(type);
+            if (type != null && !type.IsAbstract && FindComponent(type) is null
+                && !Adding.Exists(added => ReferenceEquals(added.Owner, this) && type.IsAssignableFrom(added.Type))) AddComponent(type);
         }
 
         /// Returns a component with a [RequireComponent] that only the given component satisfies, or null.
