@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using NUnit.Framework;
+using Unity.Collections;
 using UnityEngine;
 
 namespace Collektive.Headless.Tests.Engine
@@ -188,6 +189,71 @@ namespace Collektive.Headless.Tests.Engine
             original.position = new Vector3(1f, 0f, 0f);
             Assert.That(UnityEngine.Object.Instantiate(original, parent).position, Is.EqualTo(new Vector3(11f, 0f, 0f)));
             Assert.That(UnityEngine.Object.Instantiate(original, Vector3.up, Quaternion.identity, parent).position, Is.EqualTo(Vector3.up));
+        }
+
+        [Serializable]
+        public class Animal
+        {
+            public int legs;
+            public Animal mother;
+
+            public Animal(int legs) => this.legs = legs;
+        }
+
+        [Serializable]
+        public class Dog : Animal
+        {
+            public Dog() : base(4) { }
+        }
+
+        public class Zoo : MonoBehaviour
+        {
+            public string label;
+            public List<int> numbers;
+            public Vector3[] places;
+            public Animal animal;
+            public NativeArray<int> native;
+        }
+
+        [Test]
+        public void Null_is_copied_as_an_empty_value()
+        {
+            var copy = UnityEngine.Object.Instantiate(Add<Zoo>());
+            Assert.That(copy.label, Is.EqualTo(""));
+            Assert.That(copy.numbers, Is.Not.Null.And.Empty);
+            Assert.That(copy.places, Is.Not.Null.And.Empty);
+            Assert.That(copy.animal, Is.Not.Null);
+        }
+
+        [Test]
+        public void Objects_are_copied_with_the_type_of_their_field()
+        {
+            var original = Add<Zoo>();
+            original.animal = new Dog();
+            var copy = UnityEngine.Object.Instantiate(original);
+            Assert.That(copy.animal.GetType(), Is.EqualTo(typeof(Animal)));
+            Assert.That(copy.animal.legs, Is.EqualTo(4));
+        }
+
+        [Test]
+        public void Copies_of_objects_that_contain_themselves_end_at_a_depth_limit()
+        {
+            var original = Add<Zoo>();
+            original.animal = new Dog();
+            original.animal.mother = original.animal;
+            var depth = 0;
+            for (var animal = UnityEngine.Object.Instantiate(original).animal; animal != null; animal = animal.mother) depth++;
+            Assert.That(depth, Is.EqualTo(10));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Native_arrays_are_not_copied()
+        {
+            var original = Add<Zoo>();
+            original.native = new NativeArray<int>(3, Allocator.Persistent);
+            Assert.That(UnityEngine.Object.Instantiate(original).native.IsCreated, Is.False);
+            original.native.Dispose();
         }
     }
 }

@@ -3,6 +3,7 @@ using System.Collections;
 using System.Collections.Generic;
 using System.Reflection;
 using System.Runtime.CompilerServices;
+using System.Runtime.Serialization;
 
 namespace UnityEngine
 {
@@ -10,6 +11,8 @@ namespace UnityEngine
     /// All other references are kept.
     sealed class Cloner
     {
+        const int MaxDepth = 10;
+
         readonly Dictionary<Object, Object> copies = new Dictionary<Object, Object>();
 
         /// The copies of the values of fields with `SerializeReference`. As in Unity, fields of one script that share a value share its copy.
@@ -48,7 +51,7 @@ namespace UnityEngine
             foreach (var pair in copies)
             {
                 if (pair.Key is MonoBehaviour script) CopyScript(script, pair.Value, typeof(MonoBehaviour));
-                else if (pair.Value is Joint joint) joint.connectedBody = (Rigidbody)CopyValue(joint.connectedBody, false);
+                else if (pair.Value is Joint joint) joint.connectedBody = (Rigidbody)CopyValue(joint.connectedBody, typeof(Rigidbody), false, 0);
             }
             copy.SetActive(original.activeSelf);
             return copy;
@@ -81,17 +84,21 @@ namespace UnityEngine
         void CopyScript(Object original, Object copy, Type stopAt)
         {
             references.Clear();
-            CopyFields(original, copy, stopAt);
+            CopyFields(original, copy, original.GetType(), stopAt, 0);
         }
 
-        void CopyFields(object original, object copy, Type stopAt)
+        void CopyFields(object original, object copy, Type type, Type stopAt, int depth)
         {
             if (original is ISerializationCallbackReceiver serialized) Headless.Loop.InvokeAll(serialized.OnBeforeSerialize);
-            for (var level = original.GetType(); level != stopAt && level != typeof(object); level = level.BaseType)
+            for (var level = type; level != stopAt && level != typeof(object); level = level.BaseType)
                 foreach (var field in level.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
-                    if (IsSerialized(field)) field.SetValue(copy, CopyValue(field.GetValue(original), field.IsDefined(typeof(SerializeReference))));
+                    if (IsSerialized(field))
+                        field.SetValue(copy, CopyValue(field.GetValue(original), field.FieldType, field.IsDefined(typeof(SerializeReference)), depth));
             if (copy is ISerializationCallbackReceiver deserialized) Headless.Loop.InvokeAll(deserialized.OnAfterDeserialize);
         }
+
+        static Type ListElement(Type type) =>
+            type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>) ? type.GetGenericArguments()[0] : null;
 
         static bool IsSerialized(FieldInfo field) =>
             !field.IsInitOnly && !field.IsNotSerialized
@@ -102,42 +109,57 @@ namespace UnityEngine
         static bool IsSerialized(Type type, bool mayBeList)
         {
             if (type.IsPrimitive || type.IsEnum || type == typeof(string) || typeof(Object).IsAssignableFrom(type)) return true;
-            var element = type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>) ? type.GetGenericArguments()[0] : type.GetElementType();
+            var element = ListElement(type) ?? type.GetElementType();
             if (element != null) return mayBeList && (!type.IsArray || type.GetArrayRank() == 1) && IsSerialized(element, false);
-            if (type.Assembly == typeof(Object).Assembly) return type.IsValueType;
+            if (type.Assembly == typeof(Object).Assembly) return type.IsValueType && type.Namespace == nameof(UnityEngine);
             var library = type.Assembly.GetName().Name;
-            return type.IsSerializable && !typeof(Delegate).IsAssignableFrom(type) && library != "mscorlib" && library != "System"
+            return type.IsSerializable && !type.IsAbstract && !typeof(Delegate).IsAssignableFrom(type) && library != "mscorlib" && library != "System"
                 && !library.StartsWith("System.", StringComparison.Ordinal);
         }
 
-        object CopyValue(object value, bool byReference)
+        /// As in Unity, copies of null are empty, and objects have the declared type, except for references. Values in each other end at a depth limit.
+        object CopyValue(object value, Type type, bool byReference, int depth)
         {
-            switch (value)
+            if (value is Object reference) return copies.TryGetValue(reference, out var copied) ? copied : reference;
+            if (type == typeof(string)) return value ?? "";
+            if (type.IsArray)
             {
-                case null:
-                case string _:
-                    return value;
-                case Object reference:
-                    return copies.TryGetValue(reference, out var copied) ? copied : reference;
-                case Array array:
-                    var elements = Array.CreateInstance(array.GetType().GetElementType(), array.Length);
-                    for (var index = 0; index < array.Length; index++) elements.SetValue(CopyValue(array.GetValue(index), byReference), index);
-                    return elements;
-                case IList list when value.GetType().IsGenericType:
-                    var items = (IList)Activator.CreateInstance(value.GetType());
-                    foreach (var item in list) items.Add(CopyValue(item, byReference));
-                    return items;
+                var element = type.GetElementType();
+                var array = (Array)value ?? Array.CreateInstance(element, 0);
+                var elements = Array.CreateInstance(element, array.Length);
+                for (var index = 0; index < array.Length; index++) elements.SetValue(CopyValue(array.GetValue(index), element, byReference, depth), index);
+                return elements;
             }
-            var type = value.GetType();
-            if (type.IsPrimitive || type.IsEnum) return value;
+            if (ListElement(type) is Type item)
+            {
+                var items = (IList)Activator.CreateInstance(type);
+                if (value != null)
+                    foreach (var one in (IList)value) items.Add(CopyValue(one, item, byReference, depth));
+                return items;
+            }
+            if (byReference && value != null) type = value.GetType();
+            if (value == null && (byReference || typeof(Object).IsAssignableFrom(type)) || type.IsPrimitive || type.IsEnum) return value;
             if (!type.IsSerializable && !byReference) return value;
             if (byReference && references.TryGetValue(value, out var shared)) return shared;
+            if (!byReference && depth == MaxDepth)
+            {
+                if (value != null && !type.IsValueType)
+                    Debug.LogWarning($"Serialization depth limit {MaxDepth} exceeded at '{type.Name}'. There may be an object composition cycle.");
+                return type.IsValueType ? value : null;
+            }
+            value ??= Create(type);
             // A struct with callbacks must not share the objects that they restore.
-            var copy = type.IsValueType && !(value is ISerializationCallbackReceiver) ? value : Activator.CreateInstance(type, true);
+            var copy = type.IsValueType && !(value is ISerializationCallbackReceiver) ? value : Create(type);
             if (byReference) references.Add(value, copy);
-            CopyFields(value, copy, typeof(object));
+            CopyFields(value, copy, type, typeof(object), byReference ? 0 : depth + 1);
             return copy;
         }
+
+        /// As in Unity, classes need no constructor without parameters.
+        static object Create(Type type) =>
+            type.IsValueType || type.GetConstructor(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic, null, Type.EmptyTypes, null) != null
+                ? Activator.CreateInstance(type, true)
+                : FormatterServices.GetUninitializedObject(type);
 
         sealed class Identity : IEqualityComparer<object>
         {
