@@ -255,5 +255,15 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(UnityEngine.Object.Instantiate(original).native.IsCreated, Is.False);
             original.native.Dispose();
         }
+
+        [Test]
+        public void A_copy_has_a_normalised_rotation_and_a_finite_position()
+        {
+            var copy = UnityEngine.Object.Instantiate(new GameObject(), new Vector3(float.NaN, 0f, 0f), Quaternion.identity).transform;
+            Assert.That(copy.position, Is.EqualTo(Vector3.zero));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            copy = UnityEngine.Object.Instantiate(new GameObject(), Vector3.zero, new Quaternion(0f, 0f, 0f, 2f)).transform;
+            Assert.That(copy.rotation.w, Is.EqualTo(1f));
+        }
     }
 }

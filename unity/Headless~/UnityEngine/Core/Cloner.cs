@@ -47,7 +47,7 @@ namespace UnityEngine
             var transform = copy.transform;
             copy.name = original.name + "(Clone)";
             transform.SetParent(parent, worldPositionStays);
-            if (pose.HasValue) transform.Place(pose.Value.position, pose.Value.rotation);
+            if (pose.HasValue) transform.SetPositionAndRotation(pose.Value.position, pose.Value.rotation);
             foreach (var pair in copies)
             {
                 if (pair.Key is MonoBehaviour script) CopyScript(script, pair.Value, typeof(MonoBehaviour));
