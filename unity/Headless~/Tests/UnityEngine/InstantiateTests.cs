@@ -265,5 +265,22 @@ namespace Collektive.Headless.Tests.Engine
             copy = UnityEngine.Object.Instantiate(new GameObject(), Vector3.zero, new Quaternion(0f, 0f, 0f, 2f)).transform;
             Assert.That(copy.rotation.w, Is.EqualTo(1f));
         }
+
+        public class Asset : ScriptableObject
+        {
+            public int number;
+            void Awake() => Notes.Add($"Awake({number})");
+            void OnEnable() => Notes.Add("OnEnable");
+        }
+
+        [Test]
+        public void Copies_of_scriptable_objects_receive_messages()
+        {
+            var asset = ScriptableObject.CreateInstance<Asset>();
+            asset.number = 7;
+            Notes.Clear();
+            UnityEngine.Object.Instantiate(asset);
+            Assert.That(Events(), Is.EqualTo("Awake(7) OnEnable"));
+        }
     }
 }

@@ -33,6 +33,7 @@ namespace UnityEngine
                     var copy = (ScriptableObject)Activator.CreateInstance(script.GetType(), true);
                     copy.name = script.name + "(Clone)";
                     cloner.CopyScript(script, copy, typeof(ScriptableObject));
+                    copy.Awaken();
                     return copy;
                 case Material material:
                     return new Material(material) { name = material.name + "(Clone)" };

@@ -9,10 +9,15 @@ namespace UnityEngine
         public static ScriptableObject CreateInstance(Type type)
         {
             var instance = (ScriptableObject)Activator.CreateInstance(type, true);
-            var messages = Messages.Of(type);
-            Messages.Send(messages.Awake, instance);
-            Messages.Send(messages.OnEnable, instance);
+            instance.Awaken();
             return instance;
+        }
+
+        internal void Awaken()
+        {
+            var messages = Messages.Of(GetType());
+            Messages.Send(messages.Awake, this);
+            Messages.Send(messages.OnEnable, this);
         }
     }
 }
