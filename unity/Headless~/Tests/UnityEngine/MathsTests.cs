@@ -125,5 +125,9 @@ namespace Collektive.Headless.Tests.Engine
             Color.RGBToHSV(Color.blue, out var hue, out var saturation, out var value);
             Assert.That(new Vector3(hue, saturation, value) == new Vector3(2f / 3f, 1f, 1f), Is.True);
         }
+
+        [Test]
+        public void Euler_angles_just_below_0_stay_near_0() =>
+            Assert.That(Quaternion.Euler(0f, -1e-3f, 0f).eulerAngles.y, Is.EqualTo(-1e-3f).Within(1e-5f));
     }
 }

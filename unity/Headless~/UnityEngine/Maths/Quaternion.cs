@@ -101,10 +101,13 @@ namespace UnityEngine
                         Mathf.Asin(sineX),
                         Mathf.Atan2(2f * (q.x * q.z + q.w * q.y), 1f - 2f * (q.x * q.x + q.y * q.y)),
                         Mathf.Atan2(2f * (q.x * q.y + q.w * q.z), 1f - 2f * (q.x * q.x + q.z * q.z))) * Mathf.Rad2Deg;
-                return new Vector3(Mathf.Repeat(angles.x, 360f), Mathf.Repeat(angles.y, 360f), Mathf.Repeat(angles.z, 360f));
+                return new Vector3(Positive(angles.x), Positive(angles.y), Positive(angles.z));
             }
             set => this = Euler(value);
         }
+
+        /// Returns an angle from 0 to 360. As in Unity, angles that are negative by rounding are kept.
+        static float Positive(float angle) => angle < -0.0001f * Mathf.Rad2Deg ? angle + 360f : angle;
 
         public static Quaternion LookRotation(Vector3 forward) => LookRotation(forward, Vector3.up);
 
