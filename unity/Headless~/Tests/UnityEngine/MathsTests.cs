@@ -129,5 +129,17 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void Euler_angles_just_below_0_stay_near_0() =>
             Assert.That(Quaternion.Euler(0f, -1e-3f, 0f).eulerAngles.y, Is.EqualTo(-1e-3f).Within(1e-5f));
+
+        [Test]
+        public void Vectors_and_matrices_with_NaN_are_not_equal_to_themselves()
+        {
+            var vector = new Vector3(float.NaN, 0f, 0f);
+            Assert.That(vector.Equals(vector), Is.False);
+            Assert.That(((Vector2)vector).Equals(vector), Is.False);
+            Assert.That(((Vector4)vector).Equals(vector), Is.False);
+            Matrix4x4 matrix = Matrix4x4.Translate(vector), same = matrix;
+            Assert.That(matrix == same, Is.False);
+            Assert.That(matrix.Equals(same), Is.False);
+        }
     }
 }

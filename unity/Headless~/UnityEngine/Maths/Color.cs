@@ -69,7 +69,7 @@ namespace UnityEngine
         public static implicit operator Vector4(Color c) => new Vector4(c.r, c.g, c.b, c.a);
         public static implicit operator Color(Vector4 v) => new Color(v.x, v.y, v.z, v.w);
 
-        public readonly bool Equals(Color other) => ((Vector4)this).Equals(other);
+        public readonly bool Equals(Color other) => r.Equals(other.r) && g.Equals(other.g) && b.Equals(other.b) && a.Equals(other.a);
         public override readonly bool Equals(object other) => other is Color color && Equals(color);
         public override readonly int GetHashCode() => ((Vector4)this).GetHashCode();
         public override readonly string ToString() => ToString(null);

@@ -74,6 +74,8 @@ namespace UnityEngine
             }
         }
 
+        public readonly Vector4 GetColumn(int index) => new Vector4(this[0, index], this[1, index], this[2, index], this[3, index]);
+
         public static Matrix4x4 Scale(Vector3 vector) => new Matrix4x4 { m00 = vector.x, m11 = vector.y, m22 = vector.z, m33 = 1f };
 
         public static Matrix4x4 Translate(Vector3 vector)
@@ -188,8 +190,8 @@ namespace UnityEngine
 
         public static bool operator ==(Matrix4x4 lhs, Matrix4x4 rhs)
         {
-            for (var index = 0; index < 16; index++)
-                if (Mathf.Abs(lhs[index] - rhs[index]) >= Vector3.kEpsilon) return false;
+            for (var column = 0; column < 4; column++)
+                if (lhs.GetColumn(column) != rhs.GetColumn(column)) return false;
             return true;
         }
 
@@ -198,7 +200,7 @@ namespace UnityEngine
         public readonly bool Equals(Matrix4x4 other)
         {
             for (var index = 0; index < 16; index++)
-                if (!this[index].Equals(other[index])) return false;
+                if (this[index] != other[index]) return false;
             return true;
         }
 

@@ -64,7 +64,7 @@ namespace UnityEngine
         public static implicit operator Vector2(Vector3 v) => new Vector2(v.x, v.y);
         public static implicit operator Vector3(Vector2 v) => new Vector3(v.x, v.y, 0f);
 
-        public readonly bool Equals(Vector2 other) => x.Equals(other.x) && y.Equals(other.y);
+        public readonly bool Equals(Vector2 other) => x == other.x && y == other.y;
         public override readonly bool Equals(object other) => other is Vector2 vector && Equals(vector);
         public override readonly int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2);
         public override readonly string ToString() => ToString(null);

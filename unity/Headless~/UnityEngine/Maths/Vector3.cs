@@ -128,7 +128,7 @@ namespace UnityEngine
         public static bool operator ==(Vector3 lhs, Vector3 rhs) => (lhs - rhs).sqrMagnitude < kEpsilon * kEpsilon;
         public static bool operator !=(Vector3 lhs, Vector3 rhs) => !(lhs == rhs);
 
-        public readonly bool Equals(Vector3 other) => x.Equals(other.x) && y.Equals(other.y) && z.Equals(other.z);
+        public readonly bool Equals(Vector3 other) => x == other.x && y == other.y && z == other.z;
         public override readonly bool Equals(object other) => other is Vector3 vector && Equals(vector);
         public override readonly int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2);
         public override readonly string ToString() => ToString(null);

@@ -28,7 +28,7 @@ namespace UnityEngine
 
         public static bool operator !=(Vector4 a, Vector4 b) => !(a == b);
 
-        public bool Equals(Vector4 other) => x.Equals(other.x) && y.Equals(other.y) && z.Equals(other.z) && w.Equals(other.w);
+        public bool Equals(Vector4 other) => x == other.x && y == other.y && z == other.z && w == other.w;
         public override bool Equals(object other) => other is Vector4 vector && Equals(vector);
         public override int GetHashCode() => x.GetHashCode() ^ (y.GetHashCode() << 2) ^ (z.GetHashCode() >> 2) ^ (w.GetHashCode() >> 1);
         public override string ToString() => ToString(null);
