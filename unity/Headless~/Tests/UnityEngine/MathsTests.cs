@@ -141,5 +141,18 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(matrix == same, Is.False);
             Assert.That(matrix.Equals(same), Is.False);
         }
+
+        [Test]
+        public void Min_and_Max_of_several_values_skip_NaN()
+        {
+            Assert.That(Mathf.Max(1f, float.NaN, 0.5f, 0.2f), Is.EqualTo(1f));
+            Assert.That(Mathf.Min(1f, float.NaN, 2f, 3f), Is.EqualTo(1f));
+        }
+
+        [Test]
+        public void SmoothStep_ends_at_its_end() => Assert.That(Mathf.SmoothStep(1000f, 0.17f, 1f), Is.EqualTo(0.17f));
+
+        [Test]
+        public void Zero_counts_as_a_power_of_two() => Assert.That(Mathf.IsPowerOfTwo(0), Is.True);
     }
 }

@@ -41,28 +41,28 @@ namespace UnityEngine
         public static float Min(params float[] values)
         {
             var result = values.Length == 0 ? 0f : values[0];
-            foreach (var value in values) result = Min(result, value);
+            foreach (var value in values) result = Min(value, result);
             return result;
         }
 
         public static int Min(params int[] values)
         {
             var result = values.Length == 0 ? 0 : values[0];
-            foreach (var value in values) result = Min(result, value);
+            foreach (var value in values) result = Min(value, result);
             return result;
         }
 
         public static float Max(params float[] values)
         {
             var result = values.Length == 0 ? 0f : values[0];
-            foreach (var value in values) result = Max(result, value);
+            foreach (var value in values) result = Max(value, result);
             return result;
         }
 
         public static int Max(params int[] values)
         {
             var result = values.Length == 0 ? 0 : values[0];
-            foreach (var value in values) result = Max(result, value);
+            foreach (var value in values) result = Max(value, result);
             return result;
         }
 
@@ -85,7 +85,8 @@ namespace UnityEngine
         public static float SmoothStep(float from, float to, float t)
         {
             t = Clamp01(t);
-            return from + (to - from) * (t * t * (3f - 2f * t));
+            t = t * t * (3f - 2f * t);
+            return to * t + from * (1f - t);
         }
 
         public static bool Approximately(float a, float b) => Abs(b - a) < Max(1E-06f * Max(Abs(a), Abs(b)), Epsilon * 8f);
@@ -98,7 +99,7 @@ namespace UnityEngine
             return delta > 180f ? delta - 360f : delta;
         }
 
-        public static bool IsPowerOfTwo(int value) => value > 0 && (value & (value - 1)) == 0;
+        public static bool IsPowerOfTwo(int value) => (value & (value - 1)) == 0;
 
         public static int NextPowerOfTwo(int value)
         {
