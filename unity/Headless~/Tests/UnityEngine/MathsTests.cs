@@ -122,6 +122,7 @@ namespace Collektive.Headless.Tests.Engine
         public void HSV_conversions_match_known_values()
         {
             Assert.That(Color.HSVToRGB(1f / 3f, 1f, 1f) == Color.green, Is.True);
+            Assert.That(Color.HSVToRGB(2f, 1f, 1f), Is.EqualTo(Color.black));
             Color.RGBToHSV(Color.blue, out var hue, out var saturation, out var value);
             Assert.That(new Vector3(hue, saturation, value) == new Vector3(2f / 3f, 1f, 1f), Is.True);
         }

@@ -38,6 +38,7 @@ namespace UnityEngine
 
         public static Color HSVToRGB(float H, float S, float V)
         {
+            if (S != 0f && !(H * 6f >= -1f && H * 6f < 7f)) return black; // as in Unity
             return new Color(Channel(5f), Channel(3f), Channel(1f));
 
             float Channel(float offset)
