@@ -155,5 +155,14 @@ namespace Collektive.Headless.Tests.Engine
 
         [Test]
         public void Zero_counts_as_a_power_of_two() => Assert.That(Mathf.IsPowerOfTwo(0), Is.True);
+
+        [Test]
+        public void Matrices_and_rectangles_have_texts()
+        {
+            Assert.That($"{Matrix4x4.Translate(new Vector3(0.5f, 0f, 0f))}", Is.EqualTo(
+                "1.00000\t0.00000\t0.00000\t0.50000\n0.00000\t1.00000\t0.00000\t0.00000\n0.00000\t0.00000\t1.00000\t0.00000\n"
+                + "0.00000\t0.00000\t0.00000\t1.00000\n"));
+            Assert.That($"{new Rect(1f, 2f, 3f, 4f)}", Is.EqualTo("(x:1.00, y:2.00, width:3.00, height:4.00)"));
+        }
     }
 }

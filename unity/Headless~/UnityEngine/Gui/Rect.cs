@@ -1,3 +1,5 @@
+using System;
+
 namespace UnityEngine
 {
     public struct Rect
@@ -17,5 +19,6 @@ namespace UnityEngine
 
         public float yMax => y + height;
         public readonly bool Contains(Vector2 point) => point.x >= x && point.x < x + width && point.y >= y && point.y < y + height;
+        public override readonly string ToString() => FormattableString.Invariant($"(x:{x:F2}, y:{y:F2}, width:{width:F2}, height:{height:F2})");
     }
 }

@@ -3,7 +3,7 @@ using System;
 namespace UnityEngine
 {
     /// A matrix for column vectors: `m03, m13, m23` is the translation, and `a * b` applies b first.
-    public struct Matrix4x4 : IEquatable<Matrix4x4>
+    public struct Matrix4x4 : IEquatable<Matrix4x4>, IFormattable
     {
         public float m00;
         public float m10;
@@ -211,6 +211,20 @@ namespace UnityEngine
             var hash = 0;
             for (var index = 0; index < 16; index++) hash = hash * 31 + this[index].GetHashCode();
             return hash;
+        }
+
+        public override readonly string ToString() => ToString(null);
+        public readonly string ToString(string format) => ToString(format, null);
+
+        public readonly string ToString(string format, IFormatProvider formatProvider)
+        {
+            var text = "";
+            for (var row = 0; row < 4; row++)
+            {
+                var values = ValueText.Of("F5", format, formatProvider, this[row, 0], this[row, 1], this[row, 2], this[row, 3]);
+                text += values.Trim('(', ')').Replace(", ", "\t") + "\n";
+            }
+            return text;
         }
     }
 }
