@@ -233,6 +233,7 @@ namespace Collektive.Headless
             part.Target.GetPropertyBlock(block);
             if (block.isEmpty) return double.NaN;
             var colour = block.GetColor("_Color");
+            if (float.IsNaN(colour.r + colour.g + colour.b)) return double.NaN;
             return Byte(colour.r) << 16 | Byte(colour.g) << 8 | Byte(colour.b);
         }
 

@@ -149,6 +149,19 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void A_colour_that_is_not_a_number_is_a_missing_value()
+        {
+            var node = MakeNode(1, default, 7).Node;
+            var renderer = node.gameObject.AddComponent<MeshRenderer>();
+            node.gameObject.AddComponent<ColourOf>().Target = renderer;
+            var block = new MaterialPropertyBlock();
+            block.SetColor("_Color", new Color(1, 0, float.NaN));
+            renderer.SetPropertyBlock(block);
+            var header = Record(recorder => recorder.Record(0));
+            Assert.That((bool)header["fields"][1]["someWithout"], Is.True);
+        }
+
+        [Test]
         public void Optional_answers_are_columns_and_colourings()
         {
             Manager.Settings.schema = "test.features.FeaturesSchema";
