@@ -8,7 +8,7 @@ namespace Collektive.Headless
     /// <summary>Kinds of fields, which determine how values are stored and shown.</summary>
     public enum ReplayFieldKind
     {
-        /// <summary>Numbers on a scale. They are rounded to 65,534 steps of their range in a segment.</summary>
+        /// <summary>Numbers on a scale. They are rounded to 65,534 steps of their range in a segment, unless all are whole.</summary>
         Number,
 
         /// <summary>Integers that identify a category, such as ids. Each has its own colour and is stored exactly.</summary>

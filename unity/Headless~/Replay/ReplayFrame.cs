@@ -87,9 +87,10 @@ namespace Collektive.Headless
             return links;
         }
 
-        /// <summary>Extends a range to include the frame's values of a field.</summary>
-        internal void Widen(int field, ref double min, ref double max)
+        /// <summary>Extends a range to include the frame's values of a field. Returns whether all values are whole numbers.</summary>
+        internal bool Widen(int field, ref double min, ref double max)
         {
+            var isWhole = true;
             for (var slot = 0; slot < Slots; slot++)
             {
                 if (!present[slot]) continue;
@@ -97,7 +98,9 @@ namespace Collektive.Headless
                 // Both comparisons are false for NaN.
                 if (value < min) min = value;
                 if (value > max) max = value;
+                isWhole &= value == Math.Floor(value) || double.IsNaN(value);
             }
+            return isWhole;
         }
 
         /// <summary>Converts a field's values to steps. Steps of numbers start at the smallest value.</summary>
@@ -108,7 +111,7 @@ namespace Collektive.Headless
             {
                 if (!present[slot]) continue;
                 var value = values[field][slot];
-                Steps[field][slot] = double.IsNaN(value) ? 0 : isNumber ? 1 + (int)((value - min) * scale + 0.5) : 1 + Signed((int)value);
+                Steps[field][slot] = double.IsNaN(value) ? 0 : isNumber ? (int)(long)((value - min) * scale + 1.5) : 1 + Signed((int)value);
             }
         }
 

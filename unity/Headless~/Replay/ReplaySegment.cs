@@ -8,6 +8,7 @@ namespace Collektive.Headless
     {
         private const int Axes = 3;
         private const int NumberSteps = 65534;
+        private const long MaxExactInteger = 1L << 52;
         private const int MaxBytesPerNumber = 5;
 
         private readonly ReplayFrame[] frames = new ReplayFrame[ReplayWriter.FramesPerSegment];
@@ -95,8 +96,11 @@ namespace Collektive.Headless
         {
             if (fields[field].Kind != ReplayFieldKind.Number) return;
             double min = double.PositiveInfinity, max = double.NegativeInfinity;
-            for (var i = 0; i < Count; i++) frames[i].Widen(field, ref min, ref max);
+            var isWhole = true;
+            for (var i = 0; i < Count; i++) isWhole &= frames[i].Widen(field, ref min, ref max);
             if (min > max) min = max = 0;
+            // Small numbers beside Int.MAX_VALUE, for example, would otherwise become equal.
+            if (isWhole && max - min < uint.MaxValue && Math.Abs(min) < MaxExactInteger) max = min + NumberSteps;
             Reserve(16);
             WriteDouble(min);
             WriteDouble(max);

@@ -61,6 +61,14 @@ test('categories of a live run have an order, which defines their colours', () =
   assert.deepEqual(recording.fields[0].order, [3, 13]);
 });
 
+test('a number has up to 2^32 - 1 codes', () => {
+  const recording = Object.assign(live(), { fields: [{ name: 'hops', kind: 'number' }] });
+  const range = [...new Uint8Array(new Float64Array([0, 65534]).buffer)];
+  const node = [...number(1), ...signed(7), ...number(1), 1, ...signed(0), ...signed(0), ...signed(0), ...signed(-1), 0, 0, 0];
+  recording.add({ time: 0, poses: [] }, Uint8Array.from([...range, ...node]).buffer);
+  assert.equal(valueOf(recording, 'hops'), 2 ** 32 - 2);
+});
+
 test('two compared runs have the range of the frame if that of one run is unknown', () => {
   const recorded = { name: 'neighbours', kind: 'number', least: 2, greatest: 6 };
   const derived = { name: 'neighbours', kind: 'number' };

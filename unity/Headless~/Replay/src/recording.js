@@ -115,13 +115,13 @@ export class Segment {
     this.bytes = new Uint8Array(buffer);
     const data = new DataView(buffer);
     this.at = 0;
-    // For each field, a function that converts a positive code to a value.
+    // For each field, a function that converts a code other than 0 to a value.
     this.decoders = recording.fields.map(({ kind }) => {
       if (kind !== 'number') return (code) => ((code - 1) >>> 1) ^ -((code - 1) & 1);
       const [min, max] = [data.getFloat64(this.at, true), data.getFloat64(this.at + 8, true)];
       const step = (max - min) / 65534;
       this.at += 16;
-      return (code) => min + (code - 1) * step;
+      return (code) => min + ((code >>> 0) - 1) * step;
     });
     const columns = 3 + recording.fields.length;
     this.recording = recording;

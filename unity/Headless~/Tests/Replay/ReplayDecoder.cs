@@ -92,7 +92,7 @@ namespace Collektive.Headless.Tests
                         var q = last[3 + field, slot];
                         var (min, max) = ranges[field];
                         var isNumber = (string)fields[field]["kind"] == "number";
-                        values[field] = q == 0 ? double.NaN : isNumber ? min + (q - 1) * (max - min) / 65534 : (q - 1) >> 1 ^ -((q - 1) & 1);
+                        values[field] = q == 0 ? double.NaN : isNumber ? min + ((uint)q - 1) * (max - min) / 65534 : (q - 1) >> 1 ^ -((q - 1) & 1);
                     }
                     float Metres(int axis) => (float)(last[axis, slot] * step);
                     frame.Nodes.Add(ids[slot], new Node { X = Metres(0), Y = Metres(1), Z = Metres(2), Scalar = (float)values[0], Values = values });

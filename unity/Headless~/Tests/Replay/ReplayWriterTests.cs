@@ -211,6 +211,30 @@ namespace Collektive.Headless.Tests
             for (var id = 0; id < 5; id++) Assert.AreEqual(1e9 + id, replay.Frames[0].Nodes[id].Values[0], 4.0 / 65534);
         }
 
+        /// <summary>For example hops, with Int.MAX_VALUE at nodes without a path.</summary>
+        [TestCase(int.MaxValue)]
+        [TestCase(int.MinValue)]
+        [TestCase(uint.MaxValue - 1)]
+        public void WholeNumbersAreExact(double outlier)
+        {
+            var replay = Record(writer =>
+            {
+                for (var time = 0; time < 3; time++)
+                {
+                    writer.BeginFrame(time);
+                    writer.Node(1, 0, 0, 0, outlier);
+                    for (var id = 2; id < 7; id++) writer.Node(id, 0, 0, 0, time == 0 ? double.NaN : id * time - 2);
+                    writer.EndFrame();
+                }
+            });
+            for (var time = 1; time < 3; time++)
+            {
+                Assert.AreEqual(outlier, replay.Frames[time].Nodes[1].Values[0]);
+                for (var id = 2; id < 7; id++) Assert.AreEqual(id * time - 2, replay.Frames[time].Nodes[id].Values[0]);
+            }
+            Assert.IsNaN(replay.Frames[0].Nodes[2].Values[0]);
+        }
+
         [Test]
         public void ANodeFarOutsideTheArenaDoesNotReduceThePrecisionOfOthers()
         {
