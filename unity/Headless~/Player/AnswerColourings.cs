@@ -27,13 +27,15 @@ namespace Collektive.Headless
             var name = char.ToLowerInvariant(field.Name[0]) + field.Name.Substring(1);
             var colouring = new NodeColouring(name, node => node.Answer is object answer && field.Read(answer) is object value ? convert(value) : double.NaN);
             if (field.Type == typeof(bool)) (colouring.IsCategory, colouring.Categories) = (true, new[] { "false", "true" });
-            else if (field.Type.IsEnum) (colouring.IsCategory, colouring.Categories) = (true, Enum.GetNames(field.Type));
+            else if (field.Type.IsEnum) (colouring.IsCategory, colouring.Categories) = (true, NamesOf(field.Type));
             return colouring;
         }
 
-        private static Func<object, double> Converter(Type type)
+        /// <summary>Returns a function that converts values of a type to those of a colouring; null for types that cannot colour nodes.</summary>
+        internal static Func<object, double> Converter(Type type)
         {
             if (type == typeof(bool)) return value => (bool)value ? 1 : 0;
+            if (IsFlags(type)) return Convert.ToDouble;
             if (type.IsEnum)
             {
                 // The values are in the same order as the names.
@@ -42,6 +44,19 @@ namespace Collektive.Headless
             }
             if (type.IsPrimitive && type != typeof(char)) return value => Convert.ToDouble(value);
             return null;
+        }
+
+        private static bool IsFlags(Type type) => type.IsDefined(typeof(FlagsAttribute), false);
+
+        /// <summary>Returns the names of an enum's values, or of all sets of flags. The page shows numbers if there are more than 256 sets.</summary>
+        internal static string[] NamesOf(Type type)
+        {
+            if (!IsFlags(type)) return Enum.GetNames(type);
+            ulong all = 0;
+            foreach (var flag in Enum.GetValues(type)) all |= Convert.ToUInt64(flag);
+            var names = new string[all < 256 ? (int)all + 1 : 0];
+            for (var set = 0; set < names.Length; set++) names[set] = Enum.ToObject(type, set).ToString();
+            return names;
         }
     }
 }

@@ -175,6 +175,14 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void Sets_of_flags_are_categories()
+        {
+            Assert.That(AnswerColourings.NamesOf(typeof(test.features.Flags)), Is.EqualTo(new[] { "0", "Red", "Green", "Red, Green" }));
+            var convert = AnswerColourings.Converter(typeof(test.features.Flags));
+            Assert.That(convert(test.features.Flags.Red | test.features.Flags.Green), Is.EqualTo(3));
+        }
+
+        [Test]
         public void A_field_is_a_column_only_once()
         {
             var fields = new[] { "maybe_speed", "position", "maybeSpeed" };
