@@ -204,6 +204,9 @@ namespace Collektive.Headless
 
         private void Add(List<ReplayField> fields, NodeColouring colouring)
         {
+            // The page would show the first one for both.
+            if (fields.Exists(field => field.Name == colouring.Name))
+                throw new ScenarioException("two colourings are named '" + colouring.Name + "': rename one of the scene's Colourings");
             var kind = colouring.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
             fields.Add(new ReplayField(colouring.Name, kind) { Unit = colouring.Unit, Categories = colouring.Categories });
             // Values that the page cannot store count as missing, such as an infinite distance, or Int.MAX_VALUE without a leader.

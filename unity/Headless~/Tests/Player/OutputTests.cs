@@ -175,6 +175,13 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void Colourings_have_different_names()
+        {
+            var error = Assert.Throws<ScenarioException>(() => Record<TwinScene>(recorder => { }));
+            Assert.That(error.Message, Is.StringContaining("two colourings are named 'distance': rename one"));
+        }
+
+        [Test]
         public void Sets_of_flags_are_categories()
         {
             Assert.That(AnswerColourings.NamesOf(typeof(test.features.Flags)), Is.EqualTo(new[] { "0", "Red", "Green", "Red, Green" }));
@@ -281,7 +288,7 @@ namespace Collektive.Headless.Tests.Player
                 }
                 return step == steps.Length;
             }
-            var (scenario, scene, runMetrics) = Prepare();
+            var (scenario, scene, runMetrics) = Prepare<LeaderScene>();
             using (var metrics = new MetricsTable(null, runMetrics, Manager))
             {
                 var run = new LiveRun(scenario, scene, runMetrics, metrics, Manager, new LiveChannel((int)player.Handle));
@@ -294,9 +301,11 @@ namespace Collektive.Headless.Tests.Player
         }
 
         /// <summary>Returns the header of a recording of these frames.</summary>
-        private JObject Record(Action<ReplayRecorder> addFrames)
+        private JObject Record(Action<ReplayRecorder> addFrames) => Record<LeaderScene>(addFrames);
+
+        private JObject Record<TScene>(Action<ReplayRecorder> addFrames) where TScene : SceneBuilder
         {
-            var (scenario, scene, metrics) = Prepare();
+            var (scenario, scene, metrics) = Prepare<TScene>();
             ReplayWriter writer = null;
             using (var recorder = new ReplayRecorder(
                 scenario, scene, metrics, Manager, metadata => writer = new ReplayWriter(metadata, (bytes, count) => { })))
@@ -306,13 +315,13 @@ namespace Collektive.Headless.Tests.Player
             return writer.Header();
         }
 
-        private (Scenario Scenario, SceneBuilder Scene, RunMetrics Metrics) Prepare()
+        private (Scenario Scenario, SceneBuilder Scene, RunMetrics Metrics) Prepare<TScene>() where TScene : SceneBuilder
         {
             var path = Path.Combine(folder, "scenario.json");
             File.WriteAllText(path, "{\"version\": 1, \"scene\": \"Scene\", \"scripts\": \".\", \"schema\": \"scenario.json\", \"programs\": \".\", "
                 + "\"program\": \"double\", \"seconds\": 1}");
             var scenario = Scenario.Read(path, null, false);
-            var scene = new GameObject("Scene").AddComponent<LeaderScene>();
+            var scene = new GameObject("Scene").AddComponent<TScene>();
             return (scenario, scene, new RunMetrics(scene, scenario.MakeMetrics(), scenario.Functions));
         }
 
@@ -335,6 +344,17 @@ namespace Collektive.Headless.Tests.Player
         private sealed class ColourOf : MonoBehaviour, IColours
         {
             public Renderer Target { get; set; }
+        }
+
+        /// <summary>A scene whose two colourings have the same name.</summary>
+        public sealed class TwinScene : SceneBuilder
+        {
+            public override IReadOnlyList<NodeColouring> Colourings =>
+                new[] { new NodeColouring("distance", node => 1), new NodeColouring("distance", node => 2) };
+
+            protected override void Build(SimulationManager manager)
+            {
+            }
         }
 
         /// <summary>A scene that colours nodes by a category. Node 0 has no leader.</summary>
