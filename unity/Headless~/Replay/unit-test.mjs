@@ -9,12 +9,13 @@ const modules = process.env.COLLEKTIVE_NODE_MODULES;
 const { buildSync } = createRequire(join(modules, 'x.js'))('esbuild');
 const { outputFiles: [{ text }] } = buildSync({
   stdin: {
-    contents: ['fields', 'legend', 'live-recording', 'view'].map((name) => `export * from './${name}.js';`).join('') + "export { Group } from 'three';",
+    contents: ['colours', 'fields', 'legend', 'live-recording', 'view'].map((name) => `export * from './${name}.js';`).join('')
+      + "export { Group } from 'three';",
     resolveDir: join(dirname(fileURLToPath(import.meta.url)), 'src'),
   },
   bundle: true, write: false, format: 'esm', nodePaths: [modules],
 });
-const { clock, digitsOf, drawable, fieldsOf, Group, isolated, Legend, LiveRecording, short, View } = await import(
+const { clock, colouring, digitsOf, drawable, fieldsOf, Group, isolated, Legend, LiveRecording, short, View } = await import(
   `data:text/javascript;base64,${Buffer.from(text).toString('base64')}`
 );
 
@@ -67,6 +68,12 @@ test('a number has up to 2^32 - 1 codes', () => {
   const node = [...number(1), ...signed(7), ...number(1), 1, ...signed(0), ...signed(0), ...signed(0), ...signed(-1), 0, 0, 0];
   recording.add({ time: 0, poses: [] }, Uint8Array.from([...range, ...node]).buffer);
   assert.equal(valueOf(recording, 'hops'), 2 ** 32 - 2);
+});
+
+test('a scale from high to low has the colours in reverse order', () => {
+  const [up, down] = [[0, 10], [10, 0]].map(([min, max]) => [0, 2, 10].map(colouring({ kind: 'number' }, 'Viridis', min, max)));
+  assert.deepEqual([down[0], down[2]], [up[2], up[0]]);
+  assert.notEqual(down[1], down[0]);
 });
 
 test('two compared runs have the range of the frame if that of one run is unknown', () => {

@@ -46,7 +46,7 @@ export function colouring({ kind, order }, palette, min, max) {
 
 function onScale(interpolate, min, max) {
   const table = Array.from({ length: STEPS }, (_, i) => packed(interpolate(i / (STEPS - 1))));
-  const factor = max > min ? (STEPS - 1) / (max - min) : 0;
+  const factor = max !== min ? (STEPS - 1) / (max - min) : 0;
   return (value) => table[Math.round(Math.min(Math.max((value - min) * factor, 0), STEPS - 1))];
 }
 

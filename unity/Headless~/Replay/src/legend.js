@@ -126,7 +126,7 @@ export class Legend {
   /** Draws a histogram over the scale. Like the outermost colours, the outermost bars include values beyond the scale. */
   drawHistogram({ slots }, values) {
     const counts = new Array(BARS).fill(0);
-    const scale = this.max > this.min ? BARS / (this.max - this.min) : 0;
+    const scale = this.max !== this.min ? BARS / (this.max - this.min) : 0;
     for (const slot of slots) {
       const bar = Math.min(Math.max(Math.floor((values[slot] - this.min) * scale), 0), BARS - 1);
       if (!Number.isNaN(bar)) counts[bar]++;
