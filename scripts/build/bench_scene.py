@@ -119,7 +119,7 @@ def table(rows: list[dict[str, Any]]) -> str:
 
 
 def _ratio(ms: float, bare_ms: float) -> str:
-    return f"{ms:.2f} : {bare_ms:.2f} = {ms / bare_ms:.2f}"
+    return f"{ms:.2f} : {bare_ms:.2f} = {f'{ms / bare_ms:.2f}' if bare_ms > 0 else '-'}"
 
 
 def machine() -> str:

@@ -5,6 +5,7 @@ import subprocess
 import unittest
 from typing import Any
 
+from build import bench_scene
 from build.places import ROOT
 
 OUT = os.path.join(ROOT, "build/bench/test.json")
@@ -110,3 +111,10 @@ class BenchScene(unittest.TestCase):
             result = subprocess.run([os.path.join(ROOT, "collektive"), "bench", "scene", "--nodes", sizes], capture_output=True, text=True)
             self.assertEqual(result.returncode, 1)
             self.assertIn("--nodes needs numbers from 1 to 999999", result.stderr)
+
+
+class SceneTable(unittest.TestCase):
+    def test_times_that_are_rounded_to_zero_have_no_ratio(self) -> None:
+        row = {"nodes": 1, "ticks_per_second": 2000.0, "tick_ms_p99": 1.0, "p99_to_mean": 2.0, "rss_mb": 90.0, **dict.fromkeys(bench_scene.PHASES, 0.1),
+               "in_c": dict.fromkeys(bench_scene.BARE_PHASES, 0.0)}
+        self.assertIn("0.50 : 0.00 = -", bench_scene.table([row]))
