@@ -89,13 +89,19 @@ namespace UnityEngine
                 return null;
             }
             Adding.Add((this, componentType));
-            foreach (RequireComponent required in componentType.GetCustomAttributes(typeof(RequireComponent), true))
+            try
             {
-                Require(required.m_Type0);
-                Require(required.m_Type1);
-                Require(required.m_Type2);
+                foreach (RequireComponent required in componentType.GetCustomAttributes(typeof(RequireComponent), true))
+                {
+                    Require(required.m_Type0);
+                    Require(required.m_Type1);
+                    Require(required.m_Type2);
+                }
             }
-            Adding.RemoveAt(Adding.Count - 1);
+            finally
+            {
+                Adding.RemoveAt(Adding.Count - 1);
+            }
             var component = (Component)Activator.CreateInstance(componentType, true);
             Own(component);
             if (component is Collider collider && GetComponent<MeshFilter>()?.sharedMesh is Mesh mesh && mesh && mesh.vertexCount > 0) collider.Fit(mesh);
