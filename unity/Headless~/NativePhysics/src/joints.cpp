@@ -49,6 +49,7 @@ PxJoint *make_spring(PxRigidActor *actor, const PxTransform &at, PxRigidActor *o
 
 void physics_world::drop_joint(int32_t handle) {
     joints[handle].joint->release();
+    if (joints[handle].separates) rejoined.insert(Ignored::key(uint32_t(joints[handle].actor), uint32_t(joints[handle].other)));
     joints[handle] = Joint();
     free_joints.push_back(handle);
 }
@@ -56,6 +57,26 @@ void physics_world::drop_joint(int32_t handle) {
 void physics_world::drop_joints_of(int32_t actor) {
     for (size_t handle = 0; handle < joints.size(); handle++)
         if (joints[handle].joint && (joints[handle].actor == actor || joints[handle].other == actor)) drop_joint(int32_t(handle));
+}
+
+// Filters pairs again whose joints disabled or enabled collisions. PhysX tests joints only when the bounds of two shapes begin to overlap.
+void physics_world::filter_joined() {
+    if (rejoined.empty()) return;
+    std::unordered_set<uint64_t> now;
+    for (const Joint &each : joints)
+        if (each.joint && each.separates) now.insert(Ignored::key(uint32_t(each.actor), uint32_t(each.other)));
+    for (const uint64_t key : rejoined) {
+        const Actor *first = actor(int32_t(key >> 32));
+        if (!first || now.count(key) == separated.count(key)) continue;
+        std::vector<PxShape *> own(first->rigid->getNbShapes());
+        first->rigid->getShapes(own.data(), PxU32(own.size()));
+        resumes = true;
+        removal = CONTINUES;
+        scene->resetFiltering(*first->rigid, own.data(), PxU32(own.size()));
+        removal = REMOVED;
+    }
+    rejoined.clear();
+    separated.swap(now);
 }
 
 void physics_world::onConstraintBreak(PxConstraintInfo *constraints, PxU32 count) {
@@ -93,7 +114,8 @@ int32_t physics_joint_create(physics_world *world, const physics_joint *from) {
     made->setConstraintFlag(PxConstraintFlag::eCOLLISION_ENABLED, from->collide != 0);
     const int32_t handle = take(world->joints, world->free_joints);
     made->userData = reinterpret_cast<void *>(intptr_t(handle));
-    world->joints[handle] = {made, from->actor, from->other};
+    world->joints[handle] = {made, from->actor, from->other, other && !from->collide};
+    if (world->joints[handle].separates) world->rejoined.insert(Ignored::key(uint32_t(from->actor), uint32_t(from->other)));
     return handle;
 }
 

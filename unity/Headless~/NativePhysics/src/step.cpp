@@ -368,6 +368,7 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
         return 0;
     }
     world->placed = 0;
+    world->filter_joined();
     world->resume_contacts();
     world->steps++;
     world->touches.clear();

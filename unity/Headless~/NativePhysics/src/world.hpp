@@ -63,6 +63,7 @@ struct Shape {
 struct Joint {
     PxJoint *joint = nullptr; // null: the handle is free
     int32_t actor = PHYSICS_NONE, other = PHYSICS_NONE;
+    bool separates = false; // whether its bodies do not collide
 };
 
 // A pair with a trigger whose bounds overlap. PhysX finds the pair, and the library tests it, because PhysX ignores pairs of two triggers.
@@ -123,6 +124,8 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     std::vector<collektive::Shape> shapes;
     std::vector<collektive::Joint> joints;
     std::vector<int32_t> free_actors, free_shapes, free_joints;
+    // Keys of the pairs of actors whose joints disable collisions, as of the last step, and of the pairs whose joints changed since.
+    std::unordered_set<uint64_t> separated, rejoined;
     std::unordered_map<std::string, physx::PxMaterial *> materials;
     collektive::Ignored ignored;
     size_t placed = 0;         // shapes created or moved since the last step
@@ -159,6 +162,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     void drop_shape(int32_t handle);
     void drop_joint(int32_t handle);
     void drop_joints_of(int32_t actor);
+    void filter_joined();
     void apply(const physics_command &command);
     void apply_all(const physics_command *commands, int32_t count);
     bool crowded();

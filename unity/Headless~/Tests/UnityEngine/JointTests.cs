@@ -194,6 +194,35 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Bodies_collide_unless_a_joint_connects_them()
+        {
+            var a = Ball(Vector3.zero);
+            var b = Ball(new Vector3(0.9f, 0f, 0f));
+            a.useGravity = b.useGravity = false;
+            Physics.Simulate(Step);
+            a.position = Vector3.zero;
+            b.position = new Vector3(0.9f, 0f, 0f);
+            a.linearVelocity = b.linearVelocity = Vector3.zero;
+            var joint = a.gameObject.AddComponent<SpringJoint>();
+            joint.connectedBody = b;
+            joint.spring = joint.damper = 0f;
+            Run(0.2f);
+            Assert.That(b.position.x - a.position.x, Is.EqualTo(0.9f).Within(1e-3f), "the joint disables collisions");
+            joint.enableCollision = true;
+            Physics.Simulate(Step);
+            Assert.That(b.position.x - a.position.x, Is.GreaterThan(0.91f), "collisions are enabled");
+            joint.enableCollision = false;
+            a.position = Vector3.zero;
+            b.position = new Vector3(0.9f, 0f, 0f);
+            a.linearVelocity = b.linearVelocity = Vector3.zero;
+            Run(0.2f);
+            Assert.That(b.position.x - a.position.x, Is.EqualTo(0.9f).Within(1e-3f), "collisions are disabled");
+            Object.DestroyImmediate(joint);
+            Physics.Simulate(Step);
+            Assert.That(b.position.x - a.position.x, Is.GreaterThan(0.91f), "the joint is destroyed");
+        }
+
+        [Test]
         public void A_joint_tolerates_disabled_and_destroyed_bodies()
         {
             var a = Ball(new Vector3(0f, 5f, 0f));
