@@ -33,8 +33,8 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(part.Equals(null), Is.True);
             Assert.That((bool)part, Is.False);
             Assert.That(part is null, Is.False);
-            Assert.That(part?.enabled, Is.True);
             Assert.That(part.ToString(), Is.EqualTo("null"));
+            Assert.Throws<MissingReferenceException>(() => _ = part?.enabled);
             Assert.Throws<MissingReferenceException>(() => _ = part.transform);
             Assert.Throws<MissingReferenceException>(() => _ = holder.name);
         }
@@ -93,6 +93,24 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(holder.GetComponent<Part>() == null, Is.True);
             Assert.That(holder.TryGetComponent<Part>(out _), Is.False);
             Assert.That(Object.FindAnyObjectByType<Part>() == null, Is.True);
+        }
+
+        [Test]
+        public void Using_a_destroyed_object_throws_an_exception()
+        {
+            var holder = new GameObject("a");
+            var transform = holder.transform;
+            Object.DestroyImmediate(holder);
+            Assert.Throws<MissingReferenceException>(() => _ = transform.position);
+            Assert.Throws<MissingReferenceException>(() => _ = transform.forward);
+            Assert.Throws<MissingReferenceException>(() => _ = transform.lossyScale);
+            Assert.Throws<MissingReferenceException>(() => _ = transform.parent);
+            Assert.Throws<MissingReferenceException>(() => _ = transform.childCount);
+            Assert.Throws<MissingReferenceException>(() => transform.TransformPoint(Vector3.one));
+            Assert.Throws<MissingReferenceException>(() => transform.SetAsFirstSibling());
+            Assert.Throws<MissingReferenceException>(() => _ = holder.activeInHierarchy);
+            Assert.Throws<MissingReferenceException>(() => holder.CompareTag("Untagged"));
+            Assert.Throws<MissingReferenceException>(() => holder.layer = 3);
         }
     }
 }

@@ -6,7 +6,11 @@ namespace UnityEngine
 
         public bool enabled
         {
-            get => ownEnabled;
+            get
+            {
+                ThrowIfDestroyed();
+                return ownEnabled;
+            }
             set
             {
                 ThrowIfDestroyed();
@@ -16,7 +20,7 @@ namespace UnityEngine
             }
         }
 
-        public bool isActiveAndEnabled => !destroyed && ownEnabled && owner.activeInHierarchy;
+        public bool isActiveAndEnabled => enabled && owner.activeInHierarchy;
 
         internal virtual void EnabledChanged() { }
     }

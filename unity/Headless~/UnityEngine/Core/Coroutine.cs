@@ -105,7 +105,7 @@ namespace UnityEngine
         public static Coroutine Start(MonoBehaviour owner, IEnumerator routine)
         {
             if (routine == null) throw new NullReferenceException("routine is null");
-            if (!owner || !owner.owner.activeInHierarchy)
+            if (!owner.gameObject.activeInHierarchy)
             {
                 Debug.LogError($"Coroutine could not be started because the game object '{owner.NameImpl}' is inactive.", owner);
                 return null;

@@ -14,6 +14,8 @@ namespace UnityEngine
 
         readonly Transform ownTransform;
         int ownLayer;
+        string ownTag;
+        bool ownActivity, activity;
 
         public GameObject() : this("New Game Object") { }
 
@@ -40,20 +42,20 @@ namespace UnityEngine
         /// The scene of an object without a parent.
         internal Scene sceneOfRoot = Scene.Active;
 
-        public Scene scene => ownTransform.root.owner.sceneOfRoot;
-        public string tag { get; set; }
+        public Scene scene => transform.root.owner.sceneOfRoot;
+        public string tag { get => Existing.ownTag; set => Existing.ownTag = value; }
         public bool CompareTag(string tag) => this.tag == tag;
         public bool isStatic { get; set; }
-        public bool activeSelf { get; private set; }
-        public bool activeInHierarchy { get; private set; }
+        public bool activeSelf { get => Existing.ownActivity; private set => ownActivity = value; }
+        public bool activeInHierarchy { get => Existing.activity; private set => activity = value; }
 
         public int layer
         {
-            get => ownLayer;
+            get => Existing.ownLayer;
             set
             {
                 if (value < 0 || value > 31) throw new ArgumentOutOfRangeException(nameof(layer), value, "A layer must be from 0 to 31.");
-                ownLayer = value;
+                Existing.ownLayer = value;
                 RefreshColliders();
             }
         }
@@ -64,6 +66,16 @@ namespace UnityEngine
             {
                 ThrowIfDestroyed();
                 return ownTransform;
+            }
+        }
+
+        /// This object. Throws an exception if it is destroyed.
+        GameObject Existing
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return this;
             }
         }
 

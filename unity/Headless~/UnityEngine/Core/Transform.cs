@@ -36,7 +36,11 @@ namespace UnityEngine
 
         Vector3 ownPosition
         {
-            get => !IsBehind ? placed : parentOrNull is null ? Motion.Pose.Position : Followed().placed;
+            get
+            {
+                ThrowIfDestroyed();
+                return !IsBehind ? placed : parentOrNull is null ? Motion.Pose.Position : Followed().placed;
+            }
             set
             {
                 Follow();
@@ -46,7 +50,11 @@ namespace UnityEngine
 
         Quaternion ownRotation
         {
-            get => !IsBehind ? turned : parentOrNull is null ? Motion.Pose.Rotation : Followed().turned;
+            get
+            {
+                ThrowIfDestroyed();
+                return !IsBehind ? turned : parentOrNull is null ? Motion.Pose.Rotation : Followed().turned;
+            }
             set
             {
                 Follow();
@@ -90,6 +98,16 @@ namespace UnityEngine
                 for (var parent = parentOrNull; !(parent is null); parent = parent.parentOrNull)
                     if (parent.body != Physx.None && parent.Motion.Step == PhysicsWorld.StepCount) return true;
                 return false;
+            }
+        }
+
+        /// This transform. Throws an exception if it is destroyed.
+        Transform Existing
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return this;
             }
         }
 
@@ -140,7 +158,11 @@ namespace UnityEngine
 
         public Vector3 localScale
         {
-            get => ownScale;
+            get
+            {
+                ThrowIfDestroyed();
+                return ownScale;
+            }
             set
             {
                 if (!Finite.Accepts(value, "transform.localScale", this)) return;
@@ -228,7 +250,7 @@ namespace UnityEngine
         {
             get
             {
-                if (parentOrNull is null) return ownScale;
+                if (parentOrNull is null) return localScale;
                 var unturn = Quaternion.Inverse(rotation);
                 return new Vector3(
                     (unturn * TransformVector(Vector3.right)).x,
@@ -330,7 +352,7 @@ namespace UnityEngine
 
         // ---- Hierarchy ------------------------------------------------------------------------------------------------
 
-        public Transform parent { get => parentOrNull; set => SetParent(value); }
+        public Transform parent { get => Existing.parentOrNull; set => SetParent(value); }
         public void SetParent(Transform p) => SetParent(p, true);
 
         public void SetParent(Transform parent, bool worldPositionStays)
@@ -387,37 +409,38 @@ namespace UnityEngine
             else parentOrNull.children.Insert(Math.Min(index, parentOrNull.children.Count), this);
         }
 
-        public Transform root => parentOrNull is null ? this : parentOrNull.root;
-        public int childCount => children.Count;
-        public Transform GetChild(int index) => children[index];
+        public Transform root => Existing.parentOrNull is null ? this : parentOrNull.root;
+        public int childCount => Existing.children.Count;
+        public Transform GetChild(int index) => Existing.children[index];
 
         public Transform Find(string n)
         {
             var slash = n.IndexOf('/');
             var first = slash < 0 ? n : n.Substring(0, slash);
-            foreach (var child in children)
+            foreach (var child in Existing.children)
                 if (child.NameImpl == first) return slash < 0 ? child : child.Find(n.Substring(slash + 1));
             return null;
         }
 
         public bool IsChildOf(Transform parent)
         {
-            for (var level = this; !(level is null); level = level.parentOrNull)
+            for (var level = Existing; !(level is null); level = level.parentOrNull)
                 if (ReferenceEquals(level, parent)) return true;
             return false;
         }
 
         public void DetachChildren()
         {
-            while (children.Count > 0) children[0].SetParent(null);
+            while (childCount > 0) children[0].SetParent(null);
         }
 
-        public int GetSiblingIndex() => parentOrNull is null ? owner.sceneOfRoot.Roots.IndexOf(owner) : parentOrNull.children.IndexOf(this);
+        public int GetSiblingIndex() => parent is null ? owner.sceneOfRoot.Roots.IndexOf(owner) : parentOrNull.children.IndexOf(this);
         public void SetAsFirstSibling() => SetSiblingIndex(0);
         public void SetAsLastSibling() => SetSiblingIndex(int.MaxValue);
 
         public void SetSiblingIndex(int index)
         {
+            ThrowIfDestroyed();
             var before = GetSiblingIndex();
             Detach();
             Attach(index);
