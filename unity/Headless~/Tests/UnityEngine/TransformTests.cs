@@ -195,5 +195,15 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(thing.rotation, Is.EqualTo(Quaternion.identity));
             Assert.That(Errors, Is.EqualTo(new[] { "Look rotation viewing vector is zero" }));
         }
+
+        [Test]
+        public void A_negative_sibling_index_changes_nothing()
+        {
+            var parent = new GameObject().transform;
+            var child = new GameObject().transform;
+            child.SetParent(parent);
+            Assert.Throws<System.ArgumentOutOfRangeException>(() => child.SetSiblingIndex(-1));
+            Assert.That(parent.childCount, Is.EqualTo(1));
+        }
     }
 }

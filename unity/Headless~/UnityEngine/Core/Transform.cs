@@ -442,6 +442,7 @@ namespace UnityEngine
         {
             ThrowIfDestroyed();
             var before = GetSiblingIndex();
+            if (index < 0) throw new ArgumentOutOfRangeException(nameof(index), index, "A sibling index must not be negative.");
             Detach();
             Attach(index);
             if (GetSiblingIndex() != before) parentOrNull?.ChildrenChanged();
