@@ -205,5 +205,14 @@ namespace Collektive.Headless.Tests.Engine
             Assert.Throws<System.ArgumentOutOfRangeException>(() => child.SetSiblingIndex(-1));
             Assert.That(parent.childCount, Is.EqualTo(1));
         }
+
+        [Test]
+        public void Children_can_be_moved_while_they_are_enumerated()
+        {
+            var parent = new GameObject().transform;
+            for (var count = 0; count < 4; count++) new GameObject().transform.SetParent(parent);
+            foreach (Transform child in parent) child.SetParent(null);
+            Assert.That(parent.childCount, Is.EqualTo(2));
+        }
     }
 }

@@ -448,7 +448,11 @@ namespace UnityEngine
             if (GetSiblingIndex() != before) parentOrNull?.ChildrenChanged();
         }
 
-        public IEnumerator GetEnumerator() => children.GetEnumerator();
+        /// Enumerates by index. As in Unity, children can be added and removed meanwhile.
+        public IEnumerator GetEnumerator()
+        {
+            for (var index = 0; index < childCount; index++) yield return children[index];
+        }
 
         internal override void CopyFrom(Component original)
         {
