@@ -214,5 +214,18 @@ namespace Collektive.Headless.Tests.Engine
             foreach (Transform child in parent) child.SetParent(null);
             Assert.That(parent.childCount, Is.EqualTo(2));
         }
+
+        [Test]
+        public void A_child_has_changed_if_its_parent_moved()
+        {
+            var parent = new GameObject().transform;
+            var child = new GameObject().transform;
+            child.SetParent(parent);
+            Assert.That(child.hasChanged, Is.True);
+            child.hasChanged = false;
+            Assert.That(child.hasChanged, Is.False);
+            parent.position = Vector3.up;
+            Assert.That(child.hasChanged, Is.True);
+        }
     }
 }

@@ -27,7 +27,9 @@ namespace UnityEngine
         Vector3 placed = Vector3.zero;
         Quaternion turned = Quaternion.identity;
         Vector3 ownScale = Vector3.one;
-        bool changed = true;
+        static long changes = 1;
+        // The numbers of the last change and of the last change that `hasChanged = false` has hidden.
+        long lastChange = 1, lastSeen;
         // PhysX's handle of the object's active body, if any, and the step in which the pose was copied from the body.
         int body = Physx.None;
         int bodyStep;
@@ -64,11 +66,16 @@ namespace UnityEngine
 
         public bool hasChanged
         {
-            get => IsBehind || changed;
+            get
+            {
+                for (var level = Existing; !(level is null); level = level.parentOrNull)
+                    if (level.IsBehind || level.lastChange > lastSeen) return true;
+                return false;
+            }
             set
             {
-                Follow();
-                changed = value;
+                for (var level = Existing; !(level is null); level = level.parentOrNull) level.Follow();
+                lastSeen = value ? 0 : changes;
             }
         }
 
@@ -128,7 +135,7 @@ namespace UnityEngine
         void Changed()
         {
             ThrowIfDestroyed();
-            changed = true;
+            lastChange = ++changes;
             PhysicsWorld.TransformChanged(this);
         }
 
@@ -233,7 +240,7 @@ namespace UnityEngine
         /// Sets the pose to the result of a physics step, without notifying physics. The rotation must be normalised.
         internal void Place(in Vector3 position, in Quaternion rotation)
         {
-            changed = true;
+            lastChange = ++changes;
             if (body != Physx.None) bodyStep = Motion.Step;
             if (parentOrNull is null)
             {
