@@ -135,5 +135,14 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(DrawLog.Draws.Select(draw => draw.Instances), Is.EqualTo(new[] { 7, 10 }));
             Assert.That(() => Graphics.RenderMeshInstanced(parameters, null, 0, places, 7, 4), Throws.InstanceOf<System.ArgumentOutOfRangeException>());
         }
-    }
+
+        [Test]
+        public void Time_has_a_shortest_fixed_step_and_no_negative_scale()
+        {
+            Time.fixedDeltaTime = 0f;
+            Assert.That(Time.fixedDeltaTime, Is.EqualTo(0.0001f));
+            Time.timeScale = -1f;
+            Assert.That(Time.timeScale, Is.EqualTo(1f));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+        }    }
 }

@@ -7,7 +7,7 @@ namespace UnityEngine
     {
         static readonly Stopwatch Clock = Stopwatch.StartNew();
         static double frameTime, fixedClock, unscaledClock, fixedUnscaledClock, startOffset;
-        static float frameDelta, unscaledFrameDelta;
+        static float frameDelta, unscaledFrameDelta, fixedStep, scale;
 
         static Time() => ResetState();
 
@@ -21,9 +21,19 @@ namespace UnityEngine
         public static float unscaledTime => (float)unscaledTimeAsDouble;
         public static double unscaledTimeAsDouble => inFixedTimeStep ? fixedUnscaledClock : unscaledClock;
         public static float unscaledDeltaTime => inFixedTimeStep ? fixedDeltaTime / timeScale : unscaledFrameDelta;
-        public static float fixedDeltaTime { get; set; }
+        /// As in Unity, from 0.0001 to 10 seconds.
+        public static float fixedDeltaTime { get => fixedStep; set => fixedStep = value >= 0.0001f ? Mathf.Min(value, 10f) : 0.0001f; }
         public static float maximumDeltaTime { get; set; }
-        public static float timeScale { get; set; }
+        public static float timeScale
+        {
+            get => scale;
+            set
+            {
+                if (value >= 0f && value < float.PositiveInfinity) scale = value;
+                else Debug.LogError($"Time.timeScale is out of range: {value} is not a finite number of at least 0.");
+            }
+        }
+
         public static float captureDeltaTime { get; set; }
         public static int frameCount { get; private set; }
         public static int renderedFrameCount => frameCount;
