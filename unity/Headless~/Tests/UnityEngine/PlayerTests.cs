@@ -144,5 +144,15 @@ namespace Collektive.Headless.Tests.Engine
             Time.timeScale = -1f;
             Assert.That(Time.timeScale, Is.EqualTo(1f));
             Assert.That(Errors.Count, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Handlers_of_log_messages_can_log()
+        {
+            Loop.Reset();
+            var received = "";
+            Application.logMessageReceived += (message, stack, type) => Debug.Log("handled " + (received += message));
+            Debug.Log("message");
+            Assert.That(received, Is.EqualTo("message"));
         }    }
 }

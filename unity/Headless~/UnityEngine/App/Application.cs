@@ -53,10 +53,22 @@ namespace UnityEngine
             Headless.Loop.RequestQuit(exitCode);
         }
 
+        // Messages that a handler logs are not sent to handlers, because that would never end.
+        [ThreadStatic] static bool isRaising;
+
         internal static void RaiseLog(string message, string stackTrace, LogType type)
         {
-            logMessageReceived?.Invoke(message, stackTrace, type);
-            logMessageReceivedThreaded?.Invoke(message, stackTrace, type);
+            if (isRaising) return;
+            isRaising = true;
+            try
+            {
+                logMessageReceived?.Invoke(message, stackTrace, type);
+                logMessageReceivedThreaded?.Invoke(message, stackTrace, type);
+            }
+            finally
+            {
+                isRaising = false;
+            }
         }
 
         internal static void RaiseQuitting() => Headless.Loop.InvokeAll(quitting);
