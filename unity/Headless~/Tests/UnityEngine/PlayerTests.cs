@@ -2,6 +2,7 @@ using System;
 using System.Collections.Generic;
 using System.Linq;
 using NUnit.Framework;
+using Unity.Collections;
 using UnityEngine;
 using UnityEngine.Headless;
 using UnityEngine.SceneManagement;
@@ -154,5 +155,16 @@ namespace Collektive.Headless.Tests.Engine
             Application.logMessageReceived += (message, stack, type) => Debug.Log("handled " + (received += message));
             Debug.Log("message");
             Assert.That(received, Is.EqualTo("message"));
+        }
+
+        [Test]
+        public void Native_arrays_check_their_bounds()
+        {
+            var array = new NativeArray<int>(4, Allocator.Temp);
+            var part = array.GetSubArray(1, 2);
+            Assert.Throws<IndexOutOfRangeException>(() => _ = part[2]);
+            Assert.Throws<IndexOutOfRangeException>(() => _ = part[-1]);
+            Assert.Throws<ArgumentOutOfRangeException>(() => array.GetSubArray(3, 2));
+            array.Dispose();
         }    }
 }

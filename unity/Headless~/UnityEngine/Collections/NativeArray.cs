@@ -43,17 +43,26 @@ namespace Unity.Collections
             Length = length;
         }
 
-        public int Length { get; private set; }
+        public int Length { readonly get; private set; }
         public bool IsCreated => items != null;
 
         public T this[int index]
         {
-            get => items[start + index];
-            set => items[start + index] = value;
+            get => items[start + Checked(index)];
+            set => items[start + Checked(index)] = value;
         }
 
         public readonly Span<T> AsSpan() => new Span<T>(items, start, Length);
-        public NativeArray<T> GetSubArray(int start, int length) => new NativeArray<T>(items, this.start + start, length);
+
+        public NativeArray<T> GetSubArray(int start, int length)
+        {
+            if (start < 0 || length < 0 || start > Length - length)
+                throw new ArgumentOutOfRangeException(nameof(length), length, $"The sub-array exceeds the length of {Length}.");
+            return new NativeArray<T>(items, this.start + start, length);
+        }
+
+        readonly int Checked(int index) =>
+            (uint)index < (uint)Length ? index : throw new IndexOutOfRangeException($"Index {index} is out of range of '{Length}' Length.");
 
         public void Dispose()
         {
