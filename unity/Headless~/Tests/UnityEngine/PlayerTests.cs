@@ -166,5 +166,19 @@ namespace Collektive.Headless.Tests.Engine
             Assert.Throws<IndexOutOfRangeException>(() => _ = part[-1]);
             Assert.Throws<ArgumentOutOfRangeException>(() => array.GetSubArray(3, 2));
             array.Dispose();
-        }    }
+        }
+
+        [Test]
+        public void A_mesh_keeps_the_triangles_of_each_submesh()
+        {
+            var mesh = new Mesh { vertices = new Vector3[6], subMeshCount = 2 };
+            mesh.SetTriangles(new[] { 0, 1, 2 }, 0);
+            mesh.SetIndices(new List<int> { 0, 1, 2 }, MeshTopology.Triangles, 1, true, 3);
+            Assert.That(mesh.triangles, Is.EqualTo(new[] { 0, 1, 2, 3, 4, 5 }));
+            mesh.SetTriangles(new[] { 0, 1, 2 }, 2);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            mesh.triangles = new[] { 3, 4, 5 };
+            Assert.That(mesh.triangles, Is.EqualTo(new[] { 3, 4, 5 }));
+        }
+    }
 }

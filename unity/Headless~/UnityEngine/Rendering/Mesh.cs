@@ -17,7 +17,7 @@ namespace UnityEngine
     {
         readonly List<Vector3> ownVertices = new List<Vector3>();
         readonly List<Color> ownColors = new List<Color>();
-        readonly List<int> indices = new List<int>();
+        readonly List<List<int>> submeshes = new List<List<int>> { new List<int>() };
 
         /// Number of times that vertices or triangles were changed.
         internal int Version { get; private set; }
@@ -25,10 +25,35 @@ namespace UnityEngine
         public IndexFormat indexFormat { get; set; }
         public Bounds bounds { get; set; }
         public int vertexCount => ownVertices.Count;
-        public int subMeshCount { get; set; } = 1;
+
+        public int subMeshCount
+        {
+            get => submeshes.Count;
+            set
+            {
+                while (submeshes.Count < value) submeshes.Add(new List<int>());
+                submeshes.RemoveRange(value, submeshes.Count - value);
+                Version++;
+            }
+        }
 
         public Vector3[] vertices { get => ownVertices.ToArray(); set => SetVertices(value); }
-        public int[] triangles { get => indices.ToArray(); set => SetTriangles(value, 0); }
+
+        public int[] triangles
+        {
+            get
+            {
+                var all = new List<int>();
+                foreach (var submesh in submeshes) all.AddRange(submesh);
+                return all.ToArray();
+            }
+            set
+            {
+                subMeshCount = 1;
+                SetTriangles(value, 0);
+            }
+        }
+
         public Vector3[] normals { get; set; } = new Vector3[0];
 
         public Color[] colors
@@ -69,15 +94,16 @@ namespace UnityEngine
         public void SetTriangles(int[] triangles, int submesh) => SetIndices(triangles, MeshTopology.Triangles, submesh);
         public void SetTriangles(List<int> triangles, int submesh) => SetIndices(triangles, MeshTopology.Triangles, submesh);
 
-        public void SetIndices(int[] indices, MeshTopology topology, int submesh)
-        {
-            Replace(this.indices, indices);
-            RecalculateBounds();
-        }
+        public void SetIndices(int[] indices, MeshTopology topology, int submesh) => SetIndices(new List<int>(indices), topology, submesh);
 
         public void SetIndices(List<int> indices, MeshTopology topology, int submesh, bool calculateBounds = true, int baseVertex = 0)
         {
-            Replace(this.indices, indices);
+            if (submesh < 0 || submesh >= subMeshCount)
+            {
+                Debug.LogError($"Failed setting indices of mesh '{name}': there is no submesh {submesh}. Set subMeshCount first.", this);
+                return;
+            }
+            Replace(submeshes[submesh], indices.ConvertAll(index => index + baseVertex));
             if (calculateBounds) RecalculateBounds();
         }
 
@@ -95,7 +121,8 @@ namespace UnityEngine
             Version++;
             ownVertices.Clear();
             ownColors.Clear();
-            indices.Clear();
+            subMeshCount = 1;
+            submeshes[0].Clear();
         }
 
         public void RecalculateBounds()
