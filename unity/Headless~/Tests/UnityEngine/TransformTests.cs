@@ -227,5 +227,16 @@ namespace Collektive.Headless.Tests.Engine
             parent.position = Vector3.up;
             Assert.That(child.hasChanged, Is.True);
         }
+
+        [Test]
+        public void LookAt_without_a_target_does_nothing() => new GameObject().transform.LookAt((Transform)null);
+
+        [Test]
+        public void A_name_is_never_null()
+        {
+            var holder = new GameObject((string)null);
+            Assert.That(holder.name, Is.EqualTo(""));
+            Assert.That(GameObject.Find("other") == null, Is.True);
+        }
     }
 }

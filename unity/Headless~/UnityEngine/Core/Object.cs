@@ -56,7 +56,7 @@ namespace UnityEngine
             }
         }
 
-        internal virtual string NameImpl { get => ownName; set => ownName = value; }
+        internal virtual string NameImpl { get => ownName; set => ownName = value ?? ""; }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         internal void ThrowIfDestroyed()

@@ -347,7 +347,11 @@ namespace UnityEngine
         }
 
         public void LookAt(Transform target) => LookAt(target, Vector3.up);
-        public void LookAt(Transform target, Vector3 worldUp) => LookAt(target.position, worldUp);
+        public void LookAt(Transform target, Vector3 worldUp)
+        {
+            if (target) LookAt(target.position, worldUp);
+        }
+
         public void LookAt(Vector3 worldPosition) => LookAt(worldPosition, Vector3.up);
 
         /// Turns the object towards a position. As in Unity, it keeps its rotation if it is at that position.
