@@ -222,6 +222,22 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_smooth_view_of_a_node_at_rest_keeps_its_place_below_scaled_parents()
+        {
+            var node = MakeNode(0).Node;
+            var map = new GameObject("Map").transform;
+            map.localScale = new Vector3(1, 3, -1);
+            node.transform.SetParent(map);
+            node.transform.localRotation = Quaternion.Euler(20, 30, 45);
+            var visual = new GameObject("Visual").transform;
+            visual.SetParent(node.transform, false);
+            visual.localPosition = new Vector3(1, 2, 3);
+            visual.gameObject.AddComponent<SmoothView>();
+            Play(3);
+            Assert.That((visual.localPosition - new Vector3(1, 2, 3)).magnitude, Is.LessThan(1e-5f));
+        }
+
+        [Test]
         public void A_smooth_view_that_would_move_a_collider_is_an_error()
         {
             var node = MakeNode(0).Node;

@@ -61,8 +61,9 @@ namespace Collektive.Unity
             (toPosition, toRotation) = (position, rotation);
             var fraction = manager.TickFraction;
             var turn = Quaternion.Slerp(fromRotation, toRotation, fraction);
-            transform.SetPositionAndRotation(
-                Vector3.Lerp(fromPosition, toPosition, fraction) + turn * Vector3.Scale(parent.lossyScale, restPosition), turn * restRotation);
+            // The offset in the parent's axes, with the scales of all parents.
+            var offset = Quaternion.Inverse(rotation) * parent.TransformVector(restPosition);
+            transform.SetPositionAndRotation(Vector3.Lerp(fromPosition, toPosition, fraction) + turn * offset, turn * restRotation);
         }
     }
 }
