@@ -208,7 +208,7 @@ namespace Collektive.Headless
             if (fields.Exists(field => field.Name == colouring.Name))
                 throw new ScenarioException("two colourings are named '" + colouring.Name + "': rename one of the scene's Colourings");
             var kind = colouring.IsCategory ? ReplayFieldKind.Category : ReplayFieldKind.Number;
-            fields.Add(new ReplayField(colouring.Name, kind) { Unit = colouring.Unit, Categories = colouring.Categories });
+            fields.Add(new ReplayField(colouring.Name, kind) { Unit = colouring.Unit, Categories = colouring.Categories ?? Array.Empty<string>() });
             // Values that the page cannot store count as missing, such as an infinite distance, or Int.MAX_VALUE without a leader.
             double limit = colouring.IsCategory ? ReplayField.MaxInteger - 1 : float.MaxValue;
             readers.Add(node => colouring.Read(node) is var value && Math.Abs(value) <= limit ? value : double.NaN);

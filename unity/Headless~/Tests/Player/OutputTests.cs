@@ -182,6 +182,13 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void Categories_may_be_null()
+        {
+            var header = Record<NamelessScene>(recorder => recorder.Record(0));
+            Assert.That((string)header["fields"][0]["kind"], Is.EqualTo("category"));
+        }
+
+        [Test]
         public void Sets_of_flags_are_categories()
         {
             Assert.That(AnswerColourings.NamesOf(typeof(test.features.Flags)), Is.EqualTo(new[] { "0", "Red", "Green", "Red, Green" }));
@@ -351,6 +358,17 @@ namespace Collektive.Headless.Tests.Player
         {
             public override IReadOnlyList<NodeColouring> Colourings =>
                 new[] { new NodeColouring("distance", node => 1), new NodeColouring("distance", node => 2) };
+
+            protected override void Build(SimulationManager manager)
+            {
+            }
+        }
+
+        /// <summary>A scene that colours nodes by a category without names.</summary>
+        public sealed class NamelessScene : SceneBuilder
+        {
+            public override IReadOnlyList<NodeColouring> Colourings =>
+                new[] { new NodeColouring("group", node => 1) { IsCategory = true, Categories = null } };
 
             protected override void Build(SimulationManager manager)
             {
