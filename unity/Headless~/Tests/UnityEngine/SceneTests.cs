@@ -79,5 +79,14 @@ namespace Collektive.Headless.Tests.Engine
 
             private void Awake() => FoundLast = GameObject.Find("Last") != null;
         }
+
+        [Test]
+        public void Layers_of_the_project_settings_are_logged_as_unknown()
+        {
+            Assert.That(LayerMask.GetMask("Water", "UI"), Is.EqualTo(1 << 4 | 1 << 5));
+            Assert.That(Errors, Is.Empty);
+            Assert.That(LayerMask.GetMask("Robots"), Is.EqualTo(0));
+            Assert.That(Errors[0], Is.StringContaining("The layer 'Robots' is unknown."));
+        }
     }
 }

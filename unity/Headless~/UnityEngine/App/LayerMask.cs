@@ -13,7 +13,13 @@ namespace UnityEngine
         public static implicit operator LayerMask(int intVal) => new LayerMask { value = intVal };
 
         public static string LayerToName(int layer) => layer >= 0 && layer < Names.Length ? Names[layer] : "";
-        public static int NameToLayer(string layerName) => string.IsNullOrEmpty(layerName) ? -1 : Array.IndexOf(Names, layerName);
+
+        public static int NameToLayer(string layerName)
+        {
+            var layer = string.IsNullOrEmpty(layerName) ? -1 : Array.IndexOf(Names, layerName);
+            if (layer < 0) Debug.LogWarning($"The layer '{layerName}' is unknown. Without Unity, only built-in layers have names. Use its number.");
+            return layer;
+        }
 
         public static int GetMask(params string[] layerNames)
         {
