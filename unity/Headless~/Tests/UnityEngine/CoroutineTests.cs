@@ -194,6 +194,18 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Only_one_coroutine_can_await_another()
+        {
+            var runner = Add<Runner>();
+            var inner = runner.StartCoroutine(runner.Frames());
+            runner.StartCoroutine(runner.Await(() => inner));
+            runner.StartCoroutine(runner.Await(() => inner));
+            Assert.That(Errors[0], Is.StringContaining("Another coroutine is already waiting"));
+            Frames(3);
+            Assert.That(Notes.FindAll(note => note == "continued").Count, Is.EqualTo(1));
+        }
+
+        [Test]
         public void A_coroutine_ends_when_stopped_or_when_its_object_is_deactivated()
         {
             var runner = Add<Runner>();

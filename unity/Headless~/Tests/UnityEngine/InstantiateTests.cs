@@ -23,6 +23,7 @@ namespace Collektive.Headless.Tests.Engine
             public GameObject stranger;
             [SerializeField] float hidden;
             [NonSerialized] public int transient;
+            public Ray ray;
             public float Hidden { get => hidden; set => hidden = value; }
             void Awake() => Notes.Add($"Awake({number} at {transform.position.x:0})");
         }
@@ -44,6 +45,7 @@ namespace Collektive.Headless.Tests.Engine
             original.stranger = stranger;
             original.Hidden = 0.5f;
             original.transient = 9;
+            original.ray = new Ray(Vector3.one, Vector3.up);
 
             var copy = UnityEngine.Object.Instantiate(original, new Vector3(4f, 0f, 0f), Quaternion.identity);
             copy.gameObject.SetActive(true);
@@ -57,6 +59,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(copy.stranger, Is.SameAs(stranger));
             Assert.That(copy.Hidden, Is.EqualTo(0.5f));
             Assert.That(copy.transient, Is.EqualTo(0));
+            Assert.That(copy.ray, Is.EqualTo(default(Ray)), "Unity does not serialise rays");
             Assert.That(copy.GetComponent<SphereCollider>().radius, Is.EqualTo(0.25f));
         }
 

@@ -220,6 +220,24 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(string.Join(", ", Notes), Is.EqualTo("0.04 0.04, 0.04 0.08, 0.08 0.08"));
         }
 
+        class Stopper : MonoBehaviour
+        {
+            void FixedUpdate()
+            {
+                Time.timeScale = 0f;
+                Notes.Add($"{Time.unscaledDeltaTime:0.00} {Time.unscaledTime:0.00}");
+            }
+        }
+
+        [Test]
+        public void A_time_scale_that_FixedUpdate_sets_affects_the_next_frame()
+        {
+            Add<Stopper>();
+            Loop.Frame(0.04f);
+            Loop.Frame(0.04f);
+            Assert.That(string.Join(", ", Notes), Is.EqualTo("0.02 0.02, 0.02 0.04"));
+        }
+
         [TestCase(0.02f, 1)]
         [TestCase(0.1f, 5)]
         [TestCase(0.05f, 2)]

@@ -10,6 +10,7 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void NextPowerOfTwo_ends_above_the_largest_power()
         {
+            Assert.That(Mathf.NextPowerOfTwo(0), Is.EqualTo(0));
             Assert.That(Mathf.NextPowerOfTwo(5), Is.EqualTo(8));
             Assert.That(Mathf.NextPowerOfTwo(1 << 30), Is.EqualTo(1 << 30));
             Assert.That(Mathf.NextPowerOfTwo((1 << 30) + 1), Is.EqualTo(int.MinValue));

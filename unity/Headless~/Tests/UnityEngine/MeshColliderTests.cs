@@ -46,6 +46,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Normals_of_a_mesh_are_copies()
+        {
+            var normals = new[] { Vector3.up };
+            var mesh = new Mesh { normals = normals };
+            normals[0] = Vector3.down;
+            mesh.normals[0] = Vector3.left;
+            Assert.That(mesh.normals[0], Is.EqualTo(Vector3.up));
+        }
+
+        [Test]
         public void A_ball_rolls_down_a_mesh()
         {
             AddMeshCollider(Ramp(), false);

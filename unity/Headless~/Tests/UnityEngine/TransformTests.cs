@@ -158,6 +158,10 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(root.GetChild(0).name, Is.EqualTo("c"));
             Assert.That(root.Find("b").GetSiblingIndex(), Is.EqualTo(2));
             Assert.That(root.GetChild(1).IsChildOf(root), Is.True);
+            new GameObject("a").transform.SetParent(root);
+            new GameObject("leaf").transform.SetParent(root.GetChild(3));
+            Assert.That(root.Find("a/leaf").parent.GetSiblingIndex(), Is.EqualTo(3), "of two children with the name a, the second has the leaf");
+            Object.DestroyImmediate(root.GetChild(3).gameObject);
             root.SetParent(root.GetChild(1));
             Assert.That(root.parent, Is.Null);
             Assert.That(Errors.Count, Is.EqualTo(1));

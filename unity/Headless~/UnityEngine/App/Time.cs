@@ -7,7 +7,7 @@ namespace UnityEngine
     {
         static readonly Stopwatch Clock = Stopwatch.StartNew();
         static double frameTime, fixedClock, unscaledClock, fixedUnscaledClock, startOffset;
-        static float frameDelta, unscaledFrameDelta, fixedStep, scale;
+        static float frameDelta, unscaledFrameDelta, fixedStep, scale, frameScale;
 
         static Time() => ResetState();
 
@@ -20,7 +20,7 @@ namespace UnityEngine
         public static double fixedTimeAsDouble => fixedClock;
         public static float unscaledTime => (float)unscaledTimeAsDouble;
         public static double unscaledTimeAsDouble => inFixedTimeStep ? fixedUnscaledClock : unscaledClock;
-        public static float unscaledDeltaTime => inFixedTimeStep ? fixedDeltaTime / timeScale : unscaledFrameDelta;
+        public static float unscaledDeltaTime => inFixedTimeStep ? fixedDeltaTime / frameScale : unscaledFrameDelta;
         /// As in Unity, from 0.0001 to 10 seconds.
         public static float fixedDeltaTime { get => fixedStep; set => fixedStep = value >= 0.0001f ? Mathf.Min(value, 10f) : 0.0001f; }
         public static float maximumDeltaTime { get; set; }
@@ -61,7 +61,8 @@ namespace UnityEngine
             frameCount++;
             unscaledFrameDelta = seconds;
             unscaledClock += seconds;
-            frameDelta = Mathf.Min(seconds, maximumDeltaTime) * timeScale;
+            frameScale = timeScale;
+            frameDelta = Mathf.Min(seconds, maximumDeltaTime) * frameScale;
             frameTime += frameDelta;
         }
 
@@ -71,7 +72,7 @@ namespace UnityEngine
             const double rounding = 1e-6;
             if (fixedClock + fixedDeltaTime > frameTime + rounding) return false;
             fixedClock += fixedDeltaTime;
-            fixedUnscaledClock += fixedDeltaTime / timeScale;
+            fixedUnscaledClock += fixedDeltaTime / frameScale;
             return inFixedTimeStep = true;
         }
 

@@ -83,7 +83,8 @@ namespace UnityEngine
                 case WaitForEndOfFrame _: phase = CoroutinePhase.EndOfFrame; break;
                 case Coroutine other:
                     awaitsOther = true;
-                    other.ended += Advance;
+                    if (other.ended == null) other.ended = Advance;
+                    else Debug.LogError("Another coroutine is already waiting for this coroutine! Only one coroutine can wait for another coroutine.", Owner);
                     break;
             }
         }

@@ -429,7 +429,11 @@ namespace UnityEngine
             var slash = n.IndexOf('/');
             var first = slash < 0 ? n : n.Substring(0, slash);
             foreach (var child in Existing.children)
-                if (child.NameImpl == first) return slash < 0 ? child : child.Find(n.Substring(slash + 1));
+            {
+                if (child.NameImpl != first) continue;
+                if (slash < 0) return child;
+                if (child.Find(n.Substring(slash + 1)) is Transform found) return found;
+            }
             return null;
         }
 

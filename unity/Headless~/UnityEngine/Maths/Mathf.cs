@@ -103,6 +103,7 @@ namespace UnityEngine
 
         public static int NextPowerOfTwo(int value)
         {
+            if (value <= 0) return 0;
             var power = 1;
             while (power < value && power > 0) power <<= 1;
             return power;

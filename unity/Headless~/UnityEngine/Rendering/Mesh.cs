@@ -16,6 +16,7 @@ namespace UnityEngine
     public sealed class Mesh : Object
     {
         readonly List<Vector3> ownVertices = new List<Vector3>();
+        Vector3[] ownNormals = new Vector3[0];
         readonly List<Color> ownColors = new List<Color>();
         readonly List<List<int>> submeshes = new List<List<int>> { new List<int>() };
 
@@ -54,7 +55,7 @@ namespace UnityEngine
             }
         }
 
-        public Vector3[] normals { get; set; } = new Vector3[0];
+        public Vector3[] normals { get => (Vector3[])ownNormals.Clone(); set => ownNormals = (Vector3[])value.Clone(); }
 
         public Color[] colors
         {
