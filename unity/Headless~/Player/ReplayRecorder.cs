@@ -243,17 +243,17 @@ namespace Collektive.Headless
         private static int Byte(float share) => (int)(255 * Mathf.Clamp01(share) + 0.5f);
 
         /// <summary>
-        /// Returns the static box with the largest top if it is level and all nodes are above it, or null. The page draws its own floor instead.
+        /// Returns the static box or plane with the largest top if it is level and all nodes are above it, or null. The page draws its own floor instead.
         /// </summary>
         private Collider FindFloor(List<Collider> colliders)
         {
             Collider floor = null;
             foreach (var collider in colliders)
             {
-                if (!(collider is BoxCollider) || collider.attachedRigidbody != null || collider.isTrigger || !collider.enabled) continue;
+                if (!(collider is BoxCollider || IsPlane(collider)) || collider.attachedRigidbody != null || collider.isTrigger || !collider.enabled) continue;
                 if (floor == null || Footprint(collider) > Footprint(floor)) floor = collider;
             }
-            if (floor == null || floor.transform.up.y < 0.9999f) return null;
+            if (floor == null || floor is BoxCollider && floor.transform.up.y < 0.9999f) return null;
             var bounds = floor.bounds;
             foreach (var node in manager.Nodes)
             {
@@ -264,6 +264,8 @@ namespace Collektive.Headless
             }
             return floor;
         }
+
+        private static bool IsPlane(Collider collider) => collider is MeshCollider && collider.bounds.size is var size && size.x > 0 && size.y < 0.001f;
 
         private static float Footprint(Collider collider) => collider.bounds.size.x * collider.bounds.size.z;
 

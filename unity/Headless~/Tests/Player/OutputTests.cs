@@ -110,6 +110,16 @@ namespace Collektive.Headless.Tests.Player
         }
 
         [Test]
+        public void A_plane_below_all_nodes_is_the_floor()
+        {
+            MakeNode(1, new Vector3(0, 0.5f, 0));
+            GameObject.CreatePrimitive(PrimitiveType.Plane).transform.localScale = new Vector3(2, 1, 2);
+            var metadata = Record(recorder => recorder.Record(0))["metadata"];
+            Assert.That(metadata["shapes"].Count(), Is.EqualTo(0));
+            Assert.That((float)metadata["arena"]["max"][0], Is.EqualTo(10));
+        }
+
+        [Test]
         public void Recordings_contain_moving_meshes()
         {
             MakeNode(1);
