@@ -81,11 +81,12 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Layers_of_the_project_settings_are_logged_as_unknown()
+        public void Layers_of_the_project_settings_are_logged_as_unknown_once()
         {
             Assert.That(LayerMask.GetMask("Water", "UI"), Is.EqualTo(1 << 4 | 1 << 5));
             Assert.That(Errors, Is.Empty);
-            Assert.That(LayerMask.GetMask("Robots"), Is.EqualTo(0));
+            for (var frame = 0; frame < 2; frame++) Assert.That(LayerMask.GetMask("Robots"), Is.EqualTo(0));
+            Assert.That(Errors.Count, Is.EqualTo(1));
             Assert.That(Errors[0], Is.StringContaining("The layer 'Robots' is unknown."));
         }
     }

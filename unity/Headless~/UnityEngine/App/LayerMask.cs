@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace UnityEngine
 {
@@ -6,6 +7,8 @@ namespace UnityEngine
     {
         // The names of Unity's built-in layers. Other layers have no name in the headless player.
         static readonly string[] Names = { "Default", "TransparentFX", "Ignore Raycast", "", "Water", "UI" };
+
+        static readonly HashSet<string> Unknown = new HashSet<string>();
 
         public int value { get; set; }
 
@@ -17,7 +20,8 @@ namespace UnityEngine
         public static int NameToLayer(string layerName)
         {
             var layer = string.IsNullOrEmpty(layerName) ? -1 : Array.IndexOf(Names, layerName);
-            if (layer < 0) Debug.LogWarning($"The layer '{layerName}' is unknown. Without Unity, only built-in layers have names. Use its number.");
+            if (layer < 0 && Unknown.Add(layerName ?? ""))
+                Debug.LogWarning($"The layer '{layerName}' is unknown. Without Unity, only built-in layers have names. Use its number.");
             return layer;
         }
 
