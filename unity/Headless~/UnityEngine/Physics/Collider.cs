@@ -22,6 +22,7 @@ namespace UnityEngine
         Physx.Shape known; // the shape as last sent to PhysX
         Vector3 position, scale; // of this object in the actor's frame
         Quaternion rotation;
+        string refusal; // the last logged reason for a missing shape
 
         public bool enabled
         {
@@ -99,6 +100,14 @@ namespace UnityEngine
         /// Sets the scaled geometry and its pose in this object's frame. Returns false if the collider has no shape.
         internal virtual bool Describe(Vector3 scale, ref Physx.Shape shape) =>
             throw new NotSupportedException("A plain Collider has no shape: use one of its subclasses.");
+
+        /// Returns false. Logs the reason why the collider has no shape, but not again each time that the object moves.
+        internal bool Refuse(string reason)
+        {
+            if (reason != refusal) Debug.LogError($"{reason} Object '{NameImpl}' has no shape.", this);
+            refusal = reason;
+            return false;
+        }
 
         /// Returns the centre relative to this object's pose. Under parents with different scales along their axes, the rotation matters too.
         internal Vector3 ScaledCenter(Vector3 center, Vector3 scale)
@@ -216,6 +225,7 @@ namespace UnityEngine
             }
             if (!(Body is null))
                 shape.Pose = new Physx.Pose(position + rotation * shape.Pose.Position, (rotation * shape.Pose.Rotation).normalized);
+            refusal = null;
             shape.Material = MaterialValues;
             shape.Identity = (uint)id;
             shape.Layer = owner.layer;

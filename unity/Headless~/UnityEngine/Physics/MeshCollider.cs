@@ -49,17 +49,9 @@ namespace UnityEngine
         {
             if (!ownMesh || ownMesh.vertexCount == 0) return false;
             if (!ownConvex && !(Body is null) && !Body.isKinematic)
-            {
-                Debug.LogError("Non-convex MeshCollider with non-kinematic Rigidbody is no longer supported since Unity 5.\n"
-                    + "If you want to use a non-convex mesh either make the Rigidbody kinematic or remove the Rigidbody component. "
-                    + $"Object '{NameImpl}' has no shape.", this);
-                return false;
-            }
-            if (!ownConvex && isTrigger)
-            {
-                Debug.LogError($"Triggers on concave MeshColliders are not supported. Object '{NameImpl}' has no shape.", this);
-                return false;
-            }
+                return Refuse("Non-convex MeshCollider with non-kinematic Rigidbody is no longer supported since Unity 5.\n"
+                    + "If you want to use a non-convex mesh either make the Rigidbody kinematic or remove the Rigidbody component.");
+            if (!ownConvex && isTrigger) return Refuse("Triggers on concave MeshColliders are not supported.");
             if (cooked.Handle != IntPtr.Zero && (cookedVersion != ownMesh.Version || !cookedScale.Equals(scale)))
             {
                 DropShape(); // a new mesh can have the address of the old one

@@ -28,16 +28,8 @@ namespace UnityEngine
         internal override bool Describe(Vector3 scale, ref Physx.Shape shape)
         {
             if (!ownData) return false;
-            if (!(Body is null) && !Body.isKinematic)
-            {
-                Debug.LogError($"A TerrainCollider cannot be part of a Rigidbody that is not kinematic. Object '{NameImpl}' has no shape.", this);
-                return false;
-            }
-            if (isTrigger)
-            {
-                Debug.LogError($"A TerrainCollider cannot be a trigger. Object '{NameImpl}' has no shape.", this);
-                return false;
-            }
+            if (!(Body is null) && !Body.isKinematic) return Refuse("A TerrainCollider cannot be part of a Rigidbody that is not kinematic.");
+            if (isTrigger) return Refuse("A TerrainCollider cannot be a trigger.");
             if (cooked.Handle != IntPtr.Zero && cookedVersion != ownData.Version)
             {
                 DropShape(); // a new mesh can have the address of the old one
