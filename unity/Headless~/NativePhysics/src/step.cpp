@@ -107,13 +107,17 @@ void physics_world::apply(const physics_command &command) {
         case PHYSICS_SLEEP:
             if (!kinematic) body->putToSleep();
             break;
-        case PHYSICS_KINEMATIC:
+        case PHYSICS_KINEMATIC: {
             removal = ENDS;
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
             removal = REMOVED;
+            std::vector<PxShape *> own(body->getNbShapes());
+            body->getShapes(own.data(), PxU32(own.size()));
+            for (const PxShape *each : own) shapes[size_t(intptr_t(each->userData))].born = steps;
             if (value[0] == 0.0f) body->wakeUp();
             marks[command.actor] |= PLACED;
             break;
+        }
         case PHYSICS_GRAVITY: body->setActorFlag(PxActorFlag::eDISABLE_GRAVITY, value[0] == 0.0f); break;
         case PHYSICS_DAMPING:
             body->setLinearDamping(std::max(0.0f, value[0]));

@@ -146,6 +146,22 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events().StartsWith("hit"), Is.True, Events());
         }
 
+        [TestCase(false)]
+        [TestCase(true)]
+        public void A_body_that_becomes_kinematic_collides_again_whatever_else_changes(bool changesOther)
+        {
+            Ball(new Vector3(0f, 0f, 0f)).useGravity = false;
+            var ball = Ball(new Vector3(0.99f, 0f, 0f));
+            var other = Ball(new Vector3(9f, 9f, 0f));
+            ball.gameObject.AddComponent<HitListener>();
+            Run(0.02f);
+            if (changesOther) other.collisionDetectionMode = CollisionDetectionMode.Continuous;
+            ball.isKinematic = true;
+            Notes.Clear();
+            Run(0.02f);
+            Assert.That(Events(), Is.EqualTo("hit"));
+        }
+
         [TestCase(true, true)]
         [TestCase(true, false)]
         [TestCase(false, true)]
