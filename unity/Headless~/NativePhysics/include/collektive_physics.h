@@ -180,7 +180,7 @@ enum {
     PHYSICS_SLEEP_BELOW = 21, /* x: kinetic energy per mass */
     PHYSICS_ITERATIONS = 22,  /* x: for positions, y: for velocities */
     PHYSICS_DETECTION = 23,   /* x: collision detection mode */
-    PHYSICS_INERTIA = 24      /* diagonal, then rotation; diagonal 0 restores the computed one */
+    PHYSICS_INERTIA = 24      /* diagonal, then rotation; a rotation of only 0 restores the computed one */
 };
 
 typedef struct {

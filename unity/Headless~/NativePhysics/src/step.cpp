@@ -139,9 +139,9 @@ void physics_world::apply(const physics_command &command) {
             mass_changed(*actor);
             break;
         case PHYSICS_INERTIA:
-            actor->own_inertia = vector.x != 0.0f || vector.y != 0.0f || vector.z != 0.0f;
             actor->inertia = vector;
-            actor->inertia_rotation = PxQuat(value[3], value[4], value[5], value[6]).getNormalized();
+            actor->inertia_rotation = PxQuat(value[3], value[4], value[5], value[6]);
+            actor->own_inertia = actor->inertia_rotation.normalize() > 0.0f;
             mass_changed(*actor);
             break;
         case PHYSICS_SLEEP_BELOW: body->setSleepThreshold(std::max(0.0f, value[0])); break;

@@ -147,11 +147,30 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void An_inertia_that_is_not_positive_is_rejected()
+        public void An_inertia_of_0_locks_the_rotation_about_an_axis()
+        {
+            var ball = Ball(Vector3.zero);
+            foreach (var inertia in new[] { new Vector3(0f, 1f, 1f), Vector3.zero })
+            {
+                ball.inertiaTensor = inertia;
+                ball.AddTorque(Vector3.one, ForceMode.Impulse);
+                Physics.Simulate(0.02f);
+                Assert.That(ball.angularVelocity.x, Is.EqualTo(0f));
+                Assert.That(ball.angularVelocity.y, Is.EqualTo(inertia.y).Within(0.01f));
+                Assert.That(ball.inertiaTensor == inertia, Is.True);
+                ball.angularVelocity = Vector3.zero;
+            }
+            Assert.That(Errors, Is.Empty);
+            ball.ResetInertiaTensor();
+            Assert.That(ball.inertiaTensor.x, Is.EqualTo(0.1f).Within(0.001f));
+        }
+
+        [Test]
+        public void A_negative_inertia_is_rejected()
         {
             var ball = Ball(Vector3.zero);
             var before = ball.inertiaTensor;
-            ball.inertiaTensor = new Vector3(1f, 0f, 1f);
+            ball.inertiaTensor = new Vector3(1f, -1f, 1f);
             Assert.That(Errors.Count, Is.EqualTo(1));
             Assert.That(ball.inertiaTensor == before, Is.True);
             Assert.That(ball.automaticInertiaTensor, Is.True);

@@ -311,9 +311,10 @@ namespace UnityEngine
             set
             {
                 if (!Finite.Accepts(value, "Rigidbody.inertiaTensor", this)) return;
-                if (Mathf.Min(value.x, Mathf.Min(value.y, value.z)) <= 0f)
+                // As in Unity, 0 locks the rotation about an axis.
+                if (Mathf.Min(value.x, Mathf.Min(value.y, value.z)) < 0f)
                 {
-                    Debug.LogError($"Inertia tensor must be larger than zero in all coordinates. Input is {value}.", this);
+                    Debug.LogError($"Rigidbody.inertiaTensor must not be negative. Input is {value}.", this);
                     return;
                 }
                 Inertia(out ownInertiaRotation);
@@ -488,7 +489,7 @@ namespace UnityEngine
         void SendLimits() => Order(Physx.Order.Limits, new Vector3(ownMaxLinear, ownMaxAngular, ownDepenetration));
 
         void SendCenter() => OrderPose(Physx.Order.MassCenter, ownCenter ?? Vector3.zero, new Quaternion(ownCenter == null ? 0f : 1f, 0f, 0f, 0f));
-        void SendInertia() => OrderPose(Physx.Order.Inertia, ownInertia ?? Vector3.zero, ownInertiaRotation);
+        void SendInertia() => OrderPose(Physx.Order.Inertia, ownInertia ?? Vector3.zero, ownInertia == null ? default : ownInertiaRotation);
 
         void SendAll()
         {
