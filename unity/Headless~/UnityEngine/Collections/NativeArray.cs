@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 using UnityEngine.Headless;
 
 namespace Unity.Collections
@@ -48,8 +49,8 @@ namespace Unity.Collections
 
         public T this[int index]
         {
-            get => items[start + Checked(index)];
-            set => items[start + Checked(index)] = value;
+            get => items[Place(index)];
+            set => items[Place(index)] = value;
         }
 
         public readonly Span<T> AsSpan() => new Span<T>(items, start, Length);
@@ -61,8 +62,15 @@ namespace Unity.Collections
             return new NativeArray<T>(items, this.start + start, length);
         }
 
-        readonly int Checked(int index) =>
-            (uint)index < (uint)Length ? index : throw new IndexOutOfRangeException($"Index {index} is out of range of '{Length}' Length.");
+        // Mono does not inline methods that throw.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        readonly int Place(int index)
+        {
+            if ((uint)index >= (uint)Length) ThrowOutOfRange(index);
+            return start + index;
+        }
+
+        readonly void ThrowOutOfRange(int index) => throw new IndexOutOfRangeException($"Index {index} is out of range of '{Length}' Length.");
 
         public void Dispose()
         {
