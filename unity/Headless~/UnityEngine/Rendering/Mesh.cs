@@ -101,7 +101,7 @@ namespace UnityEngine
         {
             if (submesh < 0 || submesh >= subMeshCount)
             {
-                Debug.LogError($"Failed setting indices of mesh '{name}': there is no submesh {submesh}. Set subMeshCount first.", this);
+                Debug.LogError($"Failed setting indices of mesh '{name}': submesh {submesh} does not exist. Set subMeshCount first.", this);
                 return;
             }
             Replace(submeshes[submesh], indices.ConvertAll(index => index + baseVertex));
