@@ -293,6 +293,23 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_pose_that_is_set_before_the_first_step_is_kept()
+        {
+            var prefab = Ball(Vector3.zero);
+            prefab.useGravity = false;
+            var copy = Object.Instantiate(prefab, new Vector3(1f, 2f, 3f), Quaternion.identity);
+            copy.position = new Vector3(4f, 5f, 6f);
+            copy.rotation = Quaternion.Euler(0f, 90f, 0f);
+            Run(Step);
+            Assert.That(copy.position, Is.EqualTo(new Vector3(4f, 5f, 6f)));
+            Assert.That(copy.transform.position, Is.EqualTo(copy.position));
+            Assert.That(copy.transform.eulerAngles.y, Is.EqualTo(90f).Within(0.01f));
+            copy.transform.position = new Vector3(9f, 0f, 0f);
+            Run(Step);
+            Assert.That(copy.position, Is.EqualTo(new Vector3(9f, 0f, 0f)), "later changes of the transform must move the body");
+        }
+
+        [Test]
         public void Setting_the_body_position_moves_the_transform_at_the_next_step()
         {
             var ball = Ball(Vector3.zero);

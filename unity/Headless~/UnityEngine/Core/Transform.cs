@@ -66,17 +66,23 @@ namespace UnityEngine
 
         public bool hasChanged
         {
-            get
-            {
-                for (var level = Existing; !(level is null); level = level.parentOrNull)
-                    if (level.IsBehind || level.lastChange > lastSeen) return true;
-                return false;
-            }
+            get => Existing.HasChangedSince(lastSeen);
             set
             {
                 for (var level = Existing; !(level is null); level = level.parentOrNull) level.Follow();
                 lastSeen = value ? 0 : changes;
             }
+        }
+
+        /// Number of changes of all transforms.
+        internal static long Changes => changes;
+
+        /// Whether this transform or one of its parents has changed since there were this number of changes.
+        internal bool HasChangedSince(long count)
+        {
+            for (var level = this; !(level is null); level = level.parentOrNull)
+                if (level.IsBehind || level.lastChange > count) return true;
+            return false;
         }
 
         unsafe ref Physx.Motion Motion => ref PhysicsWorld.Motions[body];

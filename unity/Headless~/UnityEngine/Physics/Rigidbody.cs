@@ -55,6 +55,7 @@ namespace UnityEngine
         internal int IndexInNested = -1;
 
         Transform activeTransform; // while it is active
+        long changesAtStart; // of all transforms, when it became active
         Physx.Motion ownMotion; // while it is not
         float ownMass = 1f;
         bool kinematic, gravity = true;
@@ -522,6 +523,7 @@ namespace UnityEngine
         internal override unsafe void Activate()
         {
             activeTransform = owner.TransformUnchecked;
+            changesAtStart = Transform.Changes;
             var pose = new Physx.Pose(activeTransform.position, activeTransform.rotation);
             Handle = Physx.physics_actor_create(PhysicsWorld.Handle, 1, &pose);
             PhysicsWorld.Add(this);
@@ -557,12 +559,14 @@ namespace UnityEngine
         }
 
         /// The pose that the body will have after the next sync.
-        internal Physx.Pose NextPose => activeTransform.IsBeforeSync ? new Physx.Pose(activeTransform.position, activeTransform.rotation) : Motion.Pose;
+        internal Physx.Pose NextPose => activeTransform.IsBeforeSync && activeTransform.HasChangedSince(changesAtStart)
+            ? new Physx.Pose(activeTransform.position, activeTransform.rotation) : Motion.Pose;
 
-        /// Copies the transform's pose if it differs.
+        /// Copies the transform's pose if it differs. Changes from before the body became active must not undo a pose that a script set since then.
         internal void TakePose()
         {
             var transform = owner.TransformUnchecked;
+            if (!transform.HasChangedSince(changesAtStart)) return;
             var position = transform.position;
             var rotation = transform.rotation;
             ref var pose = ref Motion.Pose;
