@@ -129,9 +129,13 @@ namespace Collektive.Headless.Tests.Engine
             var point = new Mesh { name = "point" };
             point.vertices = new[] { Vector3.zero };
             point.triangles = new[] { 0, 0, 0 };
-            AddMeshCollider(point, true);
-            Assert.That(Errors[Errors.Count - 1], Is.StringContaining("point"));
+            Errors.Clear();
+            var collider = AddMeshCollider(point, true);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("point"));
+            collider.transform.position = Vector3.right;
             Physics.Simulate(Step);
+            Assert.That(Errors.Count, Is.EqualTo(1), "the mesh must not be cooked again after each move");
         }
 
         [Test]

@@ -11,6 +11,7 @@ namespace UnityEngine
         readonly CookedMesh cooked = new CookedMesh();
         int cookedVersion;
         Vector3 cookedScale;
+        bool hasFailed; // with this version and scale
 
         public bool convex
         {
@@ -40,6 +41,7 @@ namespace UnityEngine
         {
             DropShape();
             cooked.Release();
+            hasFailed = false;
             ShapeChanged();
         }
 
@@ -57,7 +59,7 @@ namespace UnityEngine
                 DropShape(); // a new mesh can have the address of the old one
                 cooked.Release();
             }
-            if (cooked.Handle == IntPtr.Zero) Cook(scale);
+            if (cooked.Handle == IntPtr.Zero && (!hasFailed || cookedVersion != ownMesh.Version || !cookedScale.Equals(scale))) Cook(scale);
             if (cooked.Handle == IntPtr.Zero) return false;
             shape.Geometry.Kind = Physx.Kind.Mesh;
             shape.Geometry.Mesh = cooked.Handle;
@@ -76,7 +78,8 @@ namespace UnityEngine
             var problem = cooked.Cook(points, indices, ownConvex);
             cookedScale = scale;
             cookedVersion = ownMesh.Version;
-            if (problem != null) Debug.LogError($"The mesh '{ownMesh.name}' of MeshCollider '{NameImpl}' cannot be a collider: {problem}", this);
+            hasFailed = problem != null;
+            if (hasFailed) Debug.LogError($"The mesh '{ownMesh.name}' of MeshCollider '{NameImpl}' cannot be a collider: {problem}", this);
         }
 
         internal override void Deactivate()
