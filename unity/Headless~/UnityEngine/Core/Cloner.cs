@@ -112,7 +112,8 @@ namespace UnityEngine
             if (type.IsPrimitive || type.IsEnum || type == typeof(string) || typeof(Object).IsAssignableFrom(type)) return true;
             var element = ListElement(type) ?? type.GetElementType();
             if (element != null) return mayBeList && (!type.IsArray || type.GetArrayRank() == 1) && IsSerialized(element, false);
-            if (type.Assembly == typeof(Object).Assembly) return type.IsValueType && type.Namespace == nameof(UnityEngine) && type != typeof(Ray) && type != typeof(RaycastHit);
+            if (type == typeof(Ray) || type == typeof(RaycastHit)) return false;
+            if (type.Assembly == typeof(Object).Assembly) return type.IsValueType && type.Namespace == nameof(UnityEngine);
             var library = type.Assembly.GetName().Name;
             return type.IsSerializable && !type.IsAbstract && !typeof(Delegate).IsAssignableFrom(type) && library != "mscorlib" && library != "System"
                 && !library.StartsWith("System.", StringComparison.Ordinal);
