@@ -191,6 +191,21 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("a 1 a 2 a 2 a 1 b 1 b 0 b 1 a 0"));
         }
 
+        public class Destroyer : MonoBehaviour
+        {
+            void OnTransformParentChanged() => Object.DestroyImmediate(transform.parent.gameObject);
+        }
+
+        [Test]
+        public void A_script_can_destroy_its_new_parent()
+        {
+            var child = Add<Destroyer>().transform;
+            var parent = Add<Parent>().gameObject;
+            child.SetParent(parent.transform);
+            Assert.That(!parent && !child, Is.True);
+            Assert.That(Errors, Is.Empty);
+        }
+
         [Test]
         public void A_rotation_towards_a_zero_vector_is_logged()
         {

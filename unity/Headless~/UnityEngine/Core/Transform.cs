@@ -409,8 +409,10 @@ namespace UnityEngine
         /// Sends OnTransformChildrenChanged to this object's scripts.
         internal void ChildrenChanged()
         {
-            if (!owner.activeInHierarchy) return;
-            foreach (var script in owner.GetComponents<MonoBehaviour>()) Messages.Send(script.messages.OnTransformChildrenChanged, script);
+            // A script can have destroyed the object in another message.
+            if (!owner || !owner.activeInHierarchy) return;
+            for (var index = 0; index < owner.components.Count; index++)
+                if (owner.components[index] is MonoBehaviour script) Messages.Send(script.messages.OnTransformChildrenChanged, script);
         }
 
         /// Removes the object from its parent's children or from the scene's roots.
@@ -461,7 +463,6 @@ namespace UnityEngine
 
         public void SetSiblingIndex(int index)
         {
-            ThrowIfDestroyed();
             var before = GetSiblingIndex();
             if (index < 0) throw new ArgumentOutOfRangeException(nameof(index), index, "A sibling index must not be negative.");
             Detach();
