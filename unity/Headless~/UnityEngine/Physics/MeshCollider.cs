@@ -54,12 +54,13 @@ namespace UnityEngine
                 return Refuse("Non-convex MeshCollider with non-kinematic Rigidbody is no longer supported since Unity 5.\n"
                     + "If you want to use a non-convex mesh either make the Rigidbody kinematic or remove the Rigidbody component.");
             if (!ownConvex && isTrigger) return Refuse("Triggers on concave MeshColliders are not supported.");
-            if (cooked.Handle != IntPtr.Zero && (cookedVersion != ownMesh.Version || !cookedScale.Equals(scale)))
+            var isStale = cookedVersion != ownMesh.Version || !cookedScale.Equals(scale);
+            if (cooked.Handle != IntPtr.Zero && isStale)
             {
                 DropShape(); // a new mesh can have the address of the old one
                 cooked.Release();
             }
-            if (cooked.Handle == IntPtr.Zero && (!hasFailed || cookedVersion != ownMesh.Version || !cookedScale.Equals(scale))) Cook(scale);
+            if (cooked.Handle == IntPtr.Zero && (isStale || !hasFailed)) Cook(scale);
             if (cooked.Handle == IntPtr.Zero) return false;
             shape.Geometry.Kind = Physx.Kind.Mesh;
             shape.Geometry.Mesh = cooked.Handle;
