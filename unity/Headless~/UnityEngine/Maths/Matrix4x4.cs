@@ -220,10 +220,7 @@ namespace UnityEngine
         {
             var text = "";
             for (var row = 0; row < 4; row++)
-            {
-                var values = ValueText.Of("F5", format, formatProvider, this[row, 0], this[row, 1], this[row, 2], this[row, 3]);
-                text += values.Trim('(', ')').Replace(", ", "\t") + "\n";
-            }
+                text += ValueText.Join("\t", "F5", format, formatProvider, this[row, 0], this[row, 1], this[row, 2], this[row, 3]) + "\n";
             return text;
         }
     }
