@@ -135,6 +135,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Limits_with_min_above_max_are_an_error()
+        {
+            var hinge = VerticalHinge(Ball(Vector3.zero));
+            hinge.limits = new JointLimits { min = 30f, max = -10f };
+            hinge.useLimits = true;
+            Run(1f);
+            Assert.That(Errors, Is.EqualTo(new[] { "HingeJoint 'ball' has no limits, because min (30) exceeds max (-10)." }));
+        }
+
+        [Test]
         public void Limits_stop_a_hinge_whose_motor_is_set_in_each_step()
         {
             var ball = Ball(Vector3.zero);

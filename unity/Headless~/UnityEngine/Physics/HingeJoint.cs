@@ -55,6 +55,8 @@ namespace UnityEngine
         internal override void Describe(ref Physx.Joint joint)
         {
             joint.Kind = Physx.JointKind.Hinge;
+            if (ownUseLimits && ownLimits.min > ownLimits.max)
+                Debug.LogError($"HingeJoint '{NameImpl}' has no limits, because min ({ownLimits.min}) exceeds max ({ownLimits.max}).", this);
             joint.UseLimits = ownUseLimits && ownLimits.min <= ownLimits.max ? 1 : 0;
             joint.Least = Mathf.Clamp(ownLimits.min, -179f, 179f) * Mathf.Deg2Rad;
             joint.Most = Mathf.Clamp(ownLimits.max, -179f, 179f) * Mathf.Deg2Rad;
