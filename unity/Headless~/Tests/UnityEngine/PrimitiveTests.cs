@@ -37,6 +37,23 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Object.Instantiate(thing).GetComponent<BoxCollider>().size, Is.EqualTo(Vector3.one));
         }
 
+        [Test]
+        public void Changes_of_the_mesh_of_one_object_do_not_change_others()
+        {
+            var filter = WithMesh().GetComponent<MeshFilter>();
+            var other = Object.Instantiate(filter);
+            var shared = other.sharedMesh;
+            filter.mesh.vertices = new Vector3[3];
+            filter.mesh.triangles = new[] { 2, 1, 0 };
+            Assert.That(other.sharedMesh, Is.SameAs(shared));
+            Assert.That((shared.vertices[1], shared.triangles[0]), Is.EqualTo((new Vector3(2f, 4f, 0f), 0)));
+            Assert.That((filter.sharedMesh.vertices[1], filter.sharedMesh.triangles[0]), Is.EqualTo((Vector3.zero, 2)));
+            Assert.That(new GameObject().AddComponent<MeshFilter>().mesh.vertexCount, Is.EqualTo(0));
+            var copy = Object.Instantiate(shared);
+            copy.Clear();
+            Assert.That((copy.vertexCount, shared.vertexCount), Is.EqualTo((0, 3)));
+        }
+
         [TestCase(PrimitiveType.Cube)]
         [TestCase(PrimitiveType.Sphere)]
         [TestCase(PrimitiveType.Capsule)]

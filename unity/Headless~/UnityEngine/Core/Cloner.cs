@@ -37,6 +37,8 @@ namespace UnityEngine
                     return copy;
                 case Material material:
                     return new Material(material) { name = material.name + "(Clone)" };
+                case Mesh mesh:
+                    return mesh.Copy(mesh.name + "(Clone)");
                 default:
                     throw new NotSupportedException($"The headless player cannot instantiate a {original.GetType().Name}.");
             }

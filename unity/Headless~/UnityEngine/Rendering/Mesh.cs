@@ -16,20 +16,30 @@ namespace UnityEngine
     public sealed class Mesh : Object
     {
         readonly List<Vector3> ownVertices = new List<Vector3>();
-        Vector3[] ownNormals = new Vector3[0];
+        Vector3[] ownNormals = Array.Empty<Vector3>();
         readonly List<Color> ownColors = new List<Color>();
         readonly List<List<int>> submeshes = new List<List<int>> { new List<int>() };
+
+        /// This mesh. Throws an exception if it is destroyed.
+        Mesh Existing
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return this;
+            }
+        }
 
         /// Number of times that vertices or triangles were changed.
         internal int Version { get; private set; }
 
         public IndexFormat indexFormat { get; set; }
         public Bounds bounds { get; set; }
-        public int vertexCount => ownVertices.Count;
+        public int vertexCount => Existing.ownVertices.Count;
 
         public int subMeshCount
         {
-            get => submeshes.Count;
+            get => Existing.submeshes.Count;
             set
             {
                 while (submeshes.Count < value) submeshes.Add(new List<int>());
@@ -38,14 +48,14 @@ namespace UnityEngine
             }
         }
 
-        public Vector3[] vertices { get => ownVertices.ToArray(); set => SetVertices(value); }
+        public Vector3[] vertices { get => Existing.ownVertices.ToArray(); set => SetVertices(value); }
 
         public int[] triangles
         {
             get
             {
                 var all = new List<int>();
-                foreach (var submesh in submeshes) all.AddRange(submesh);
+                foreach (var submesh in Existing.submeshes) all.AddRange(submesh);
                 return all.ToArray();
             }
             set
@@ -55,40 +65,28 @@ namespace UnityEngine
             }
         }
 
-        public Vector3[] normals { get => (Vector3[])ownNormals.Clone(); set => ownNormals = (Vector3[])value.Clone(); }
+        public Vector3[] normals { get => (Vector3[])Existing.ownNormals.Clone(); set => Existing.ownNormals = (Vector3[])value.Clone(); }
 
         public Color[] colors
         {
-            get => ownColors.ToArray();
-            set
-            {
-                ownColors.Clear();
-                ownColors.AddRange(value);
-            }
+            get => Existing.ownColors.ToArray();
+            set => SetColors(value);
         }
 
         public void GetVertices(List<Vector3> vertices)
         {
             vertices.Clear();
-            vertices.AddRange(ownVertices);
+            vertices.AddRange(Existing.ownVertices);
         }
 
         public void SetVertices(List<Vector3> inVertices) => Replace(ownVertices, inVertices);
         public void SetVertices(Vector3[] inVertices) => Replace(ownVertices, inVertices);
 
-        public void SetVertices(List<Vector3> inVertices, int start, int length)
-        {
-            Version++;
-            ownVertices.Clear();
-            for (var index = start; index < start + length; index++) ownVertices.Add(inVertices[index]);
-        }
+        public void SetVertices(List<Vector3> inVertices, int start, int length) =>
+            Replace(ownVertices, inVertices.GetRange(start, length));
 
-        public void SetVertices(Vector3[] inVertices, int start, int length)
-        {
-            Version++;
-            ownVertices.Clear();
-            for (var index = start; index < start + length; index++) ownVertices.Add(inVertices[index]);
-        }
+        public void SetVertices(Vector3[] inVertices, int start, int length) =>
+            Replace(ownVertices, new ArraySegment<Vector3>(inVertices, start, length));
 
         public void SetColors(List<Color> inColors) => Replace(ownColors, inColors);
         public void SetColors(Color[] inColors) => Replace(ownColors, inColors);
@@ -110,6 +108,7 @@ namespace UnityEngine
 
         void Replace<T>(List<T> target, IEnumerable<T> values)
         {
+            ThrowIfDestroyed();
             target.Clear();
             target.AddRange(values);
             Version++;
@@ -119,11 +118,20 @@ namespace UnityEngine
 
         public void Clear(bool keepVertexLayout)
         {
-            Version++;
-            ownVertices.Clear();
-            ownColors.Clear();
             subMeshCount = 1;
             submeshes[0].Clear();
+            ownVertices.Clear();
+            ownNormals = Array.Empty<Vector3>();
+            ownColors.Clear();
+            Version++;
+        }
+
+        internal Mesh Copy(string name)
+        {
+            var copy = new Mesh { name = name, indexFormat = indexFormat, bounds = bounds, vertices = vertices, normals = normals, colors = colors };
+            copy.submeshes.Clear();
+            foreach (var submesh in submeshes) copy.submeshes.Add(new List<int>(submesh));
+            return copy;
         }
 
         public void RecalculateBounds()

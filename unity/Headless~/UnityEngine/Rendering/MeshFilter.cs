@@ -2,9 +2,35 @@ namespace UnityEngine
 {
     public sealed class MeshFilter : Component
     {
-        public Mesh sharedMesh { get; set; }
-        public Mesh mesh { get => sharedMesh; set => sharedMesh = value; }
+        Mesh shared;
+        Mesh own;
 
-        internal override void CopyFrom(Component original) => sharedMesh = ((MeshFilter)original).sharedMesh;
+        public Mesh sharedMesh
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return shared;
+            }
+            set
+            {
+                ThrowIfDestroyed();
+                shared = value;
+            }
+        }
+
+        /// This filter's copy of the shared mesh, created on the first access. Without a shared mesh it is a new, empty mesh.
+        public Mesh mesh
+        {
+            get
+            {
+                if (!sharedMesh) mesh = new Mesh();
+                else if (own != shared) mesh = shared.Copy(shared.name + " Instance");
+                return own;
+            }
+            set => sharedMesh = own = value;
+        }
+
+        internal override void CopyFrom(Component original) => shared = ((MeshFilter)original).shared;
     }
 }
