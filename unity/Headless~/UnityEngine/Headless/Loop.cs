@@ -187,6 +187,12 @@ namespace UnityEngine.Headless
             foreach (var method in methods)
             {
                 if (method.GetCustomAttribute<RuntimeInitializeOnLoadMethodAttribute>().loadType != when) continue;
+                if (method.GetParameters().Length > 0 || method.ContainsGenericParameters)
+                {
+                    Debug.LogError($"'{method.DeclaringType}.{method.Name}' with [RuntimeInitializeOnLoadMethod] is not called, because it "
+                        + (method.GetParameters().Length > 0 ? "has parameters." : "is generic."));
+                    continue;
+                }
                 try
                 {
                     method.Invoke(null, null);
