@@ -18,6 +18,7 @@ namespace Collektive.Headless.Tests.Engine
             [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSplashScreen)] static void Splash() => Notes.Add("splash");
             [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.AfterAssembliesLoaded)] static void Loaded() => Notes.Add("assemblies");
             [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)] static void Register() => Notes.Add("subsystems");
+            [RuntimeInitializeOnLoadMethod] static void WithParameter(int number) => Notes.Add($"{number}");
         }
 
         [Test]
@@ -25,8 +26,10 @@ namespace Collektive.Headless.Tests.Engine
         {
             Loop.Reset();
             Notes.Clear();
+            Debug.unityLogger.logHandler = new Recorder();
             Loop.Start(1, () => Notes.Add("scene"));
             Assert.That(Events(), Is.EqualTo("subsystems assemblies splash before scene scene after scene"));
+            Assert.That(Errors, Has.Some.Contains("WithParameter' with [RuntimeInitializeOnLoadMethod] is not called, because it has parameters"));
         }
 
         [Test]
@@ -166,6 +169,38 @@ namespace Collektive.Headless.Tests.Engine
             Assert.Throws<IndexOutOfRangeException>(() => _ = part[-1]);
             Assert.Throws<ArgumentOutOfRangeException>(() => array.GetSubArray(3, 2));
             array.Dispose();
+        }
+
+        [Test]
+        public void Copies_and_parts_of_a_disposed_native_array_cannot_be_used()
+        {
+            var array = new NativeArray<int>(4, Allocator.Temp);
+            var copy = array;
+            var part = array.GetSubArray(1, 2);
+            Assert.Throws<InvalidOperationException>(() => part.Dispose());
+            array.Dispose();
+            Assert.Throws<ObjectDisposedException>(() => _ = copy[0]);
+            Assert.Throws<ObjectDisposedException>(() => copy[0] = 1);
+            Assert.Throws<ObjectDisposedException>(() => copy.AsSpan());
+            Assert.Throws<ObjectDisposedException>(() => _ = part[0]);
+            Assert.Throws<ObjectDisposedException>(() => copy.Dispose());
+        }
+
+        [Test]
+        public void Destroyed_renderers_meshes_and_materials_cannot_be_used()
+        {
+            var thing = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            var renderer = thing.GetComponent<MeshRenderer>();
+            var filter = thing.GetComponent<MeshFilter>();
+            var material = renderer.material;
+            var mesh = filter.mesh;
+            foreach (var one in new UnityEngine.Object[] { renderer, filter, material, mesh }) UnityEngine.Object.DestroyImmediate(one);
+            Assert.Throws<MissingReferenceException>(() => _ = renderer.material);
+            Assert.Throws<MissingReferenceException>(() => renderer.SetPropertyBlock(null));
+            Assert.Throws<MissingReferenceException>(() => _ = filter.mesh);
+            Assert.Throws<MissingReferenceException>(() => material.color = Color.red);
+            Assert.Throws<MissingReferenceException>(() => _ = mesh.vertices);
+            Assert.Throws<MissingReferenceException>(() => mesh.triangles = new int[0]);
         }
 
         [Test]

@@ -22,44 +22,53 @@ namespace Unity.Collections
         ClearMemory = 1,
     }
 
-    /// An array in managed memory. `NativeArrays` counts the arrays that were not disposed.
+    /// An array in managed memory. Copies share it, and none can be used after one of them is disposed. `NativeArrays` counts those not disposed.
     public struct NativeArray<T> : IDisposable where T : struct
     {
-        T[] items;
+        Buffer buffer;
         readonly int start;
+        readonly bool isPart;
 
         public NativeArray(int length, Allocator allocator, NativeArrayOptions options = NativeArrayOptions.ClearMemory)
         {
             if (allocator <= Allocator.None) throw new ArgumentException("Allocator must be Temp, TempJob or Persistent", nameof(allocator));
-            items = new T[length];
+            buffer = new Buffer { Items = new T[length] };
             start = 0;
+            isPart = false;
             Length = length;
             NativeArrays.Count++;
         }
 
-        NativeArray(T[] items, int start, int length)
+        NativeArray(Buffer buffer, int start, int length)
         {
-            this.items = items;
+            this.buffer = buffer;
             this.start = start;
+            isPart = true;
             Length = length;
         }
 
         public int Length { readonly get; private set; }
-        public bool IsCreated => items != null;
+        public bool IsCreated => buffer != null;
 
         public T this[int index]
         {
-            get => items[Place(index)];
-            set => items[Place(index)] = value;
+            get => Items[Place(index)];
+            set => Items[Place(index)] = value;
         }
 
-        public readonly Span<T> AsSpan() => new Span<T>(items, start, Length);
+        public readonly Span<T> AsSpan() => new Span<T>(Items, start, Length);
 
         public NativeArray<T> GetSubArray(int start, int length)
         {
             if (start < 0 || length < 0 || start > Length - length)
                 throw new ArgumentOutOfRangeException(nameof(length), length, $"The sub-array exceeds the length of {Length}.");
-            return new NativeArray<T>(items, this.start + start, length);
+            return new NativeArray<T>(buffer, this.start + start, length);
+        }
+
+        readonly T[] Items
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => buffer?.Items ?? ThrowDisposed();
         }
 
         // Mono does not inline methods that throw.
@@ -72,12 +81,21 @@ namespace Unity.Collections
 
         readonly void ThrowOutOfRange(int index) => throw new IndexOutOfRangeException($"Index {index} is out of range of '{Length}' Length.");
 
+        static T[] ThrowDisposed() => throw new ObjectDisposedException("The NativeArray has been deallocated, it is not allowed to access it");
+
         public void Dispose()
         {
-            if (items == null) throw new ObjectDisposedException("The NativeArray has already been disposed.");
-            items = null;
+            if (isPart) throw new InvalidOperationException("A sub-array cannot be disposed. Dispose the whole array.");
+            if (buffer?.Items == null) throw new ObjectDisposedException("The NativeArray has already been disposed.");
+            buffer.Items = null;
+            buffer = null;
             Length = 0;
             NativeArrays.Count--;
+        }
+
+        sealed class Buffer
+        {
+            internal T[] Items;
         }
     }
 }

@@ -12,7 +12,16 @@ namespace UnityEngine
 
         internal static void ResetState() => shared = null;
 
-        readonly MaterialPropertyBlock properties = new MaterialPropertyBlock();
+        readonly MaterialPropertyBlock ownProperties = new MaterialPropertyBlock();
+
+        MaterialPropertyBlock properties
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return ownProperties;
+            }
+        }
 
         public Material(Shader shader)
         {

@@ -6,10 +6,19 @@ namespace UnityEngine
     /// Stores materials and property blocks, but draws nothing.
     public class Renderer : Component
     {
-        readonly List<Material> assigned = new List<Material>();
+        readonly List<Material> ownMaterials = new List<Material>();
         MaterialPropertyBlock block;
         Bounds? ownBounds;
         bool ownsMaterial;
+
+        List<Material> assigned
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return ownMaterials;
+            }
+        }
 
         public bool enabled { get; set; } = true;
         public bool isVisible => false;
@@ -79,12 +88,14 @@ namespace UnityEngine
 
         public void SetPropertyBlock(MaterialPropertyBlock properties)
         {
+            ThrowIfDestroyed();
             if (properties == null) block = null;
             else (block = block ?? new MaterialPropertyBlock()).CopyFrom(properties);
         }
 
         public void GetPropertyBlock(MaterialPropertyBlock properties)
         {
+            ThrowIfDestroyed();
             properties.Clear();
             if (block != null) properties.CopyFrom(block);
         }
