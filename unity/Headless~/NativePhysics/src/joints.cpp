@@ -68,8 +68,7 @@ void physics_world::filter_joined() {
     for (const uint64_t key : rejoined) {
         const Actor *first = actor(int32_t(key >> 32));
         if (!first || now.count(key) == separated.count(key)) continue;
-        std::vector<PxShape *> own(first->rigid->getNbShapes());
-        first->rigid->getShapes(own.data(), PxU32(own.size()));
+        std::vector<PxShape *> own = shapes_of(*first->rigid);
         resumes = true;
         removal = CONTINUES;
         scene->resetFiltering(*first->rigid, own.data(), PxU32(own.size()));

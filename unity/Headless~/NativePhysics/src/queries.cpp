@@ -164,10 +164,8 @@ int32_t physics_sweep_actor(physics_world *world, int32_t handle, const physics_
     Actor *actor = world->actor(handle);
     if (!actor) return 0;
     const physics_filter filter = {~0u, triggers, 0};
-    std::vector<PxShape *> own(actor->rigid->getNbShapes());
-    actor->rigid->getShapes(own.data(), PxU32(own.size()));
     int32_t count = 0;
-    for (PxShape *each : own) {
+    for (PxShape *each : shapes_of(*actor->rigid)) {
         if (each->getQueryFilterData().word0 == 0 || each->getGeometry().getType() == PxGeometryType::eTRIANGLEMESH) continue;
         const PxTransform from = PxShapeExt::getGlobalPose(*each, *actor->rigid);
         if (capacity > 0) {

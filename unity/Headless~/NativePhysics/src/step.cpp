@@ -111,9 +111,7 @@ void physics_world::apply(const physics_command &command) {
             removal = ENDS;
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
             removal = REMOVED;
-            std::vector<PxShape *> own(body->getNbShapes());
-            body->getShapes(own.data(), PxU32(own.size()));
-            for (const PxShape *each : own) shapes[size_t(intptr_t(each->userData))].born = steps;
+            for (const PxShape *each : shapes_of(*body)) shapes[size_t(intptr_t(each->userData))].born = steps;
             if (value[0] == 0.0f) body->wakeUp();
             marks[command.actor] |= PLACED;
             break;

@@ -175,8 +175,7 @@ void physics_world::refresh_mass(Actor &actor) {
     PxRigidDynamic *body = actor.body();
     if (!body || !actor.mass_stale) return;
     actor.mass_stale = false;
-    std::vector<PxShape *> solid(body->getNbShapes());
-    body->getShapes(solid.data(), PxU32(solid.size()));
+    std::vector<PxShape *> solid = shapes_of(*body);
     solid.erase(std::remove_if(solid.begin(), solid.end(),
                                [](PxShape *shape) {
                                    return (shape->getSimulationFilterData().word0 & TRIGGER) ||
@@ -295,9 +294,7 @@ void physics_actor_destroy(physics_world *world, int32_t handle) {
     Actor *dying = world->actor(handle);
     if (!dying) return;
     world->drop_joints_of(handle);
-    std::vector<PxShape *> own(dying->rigid->getNbShapes());
-    dying->rigid->getShapes(own.data(), PxU32(own.size()));
-    for (PxShape *each : own) world->drop_shape(int32_t(intptr_t(each->userData)));
+    for (const PxShape *each : shapes_of(*dying->rigid)) world->drop_shape(int32_t(intptr_t(each->userData)));
     dying->rigid->release();
     *dying = Actor();
     world->marks[handle] = 0;

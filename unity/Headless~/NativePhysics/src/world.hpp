@@ -33,6 +33,11 @@ inline PxTransform pose(const physics_pose &p) {
     return PxTransform(vec(p.position), PxQuat(p.rotation.x, p.rotation.y, p.rotation.z, p.rotation.w).getNormalized());
 }
 inline physics_pose pose(const PxTransform &t) { return {vec(t.p), {t.q.x, t.q.y, t.q.z, t.q.w}}; }
+inline std::vector<PxShape *> shapes_of(const PxRigidActor &actor) {
+    std::vector<PxShape *> shapes(actor.getNbShapes());
+    actor.getShapes(shapes.data(), PxU32(shapes.size()));
+    return shapes;
+}
 
 struct Actor {
     PxRigidActor *rigid = nullptr; // null: the handle is free
