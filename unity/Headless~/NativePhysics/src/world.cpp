@@ -257,8 +257,11 @@ void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other
     const bool changed = ignore ? world->ignored.pairs.insert(Ignored::key(identity, other)).second
                                 : world->ignored.pairs.erase(Ignored::key(identity, other)) > 0;
     if (!changed) return;
+    std::vector<Shape *> pair;
     for (Shape &each : world->shapes)
-        if (each.shape && (each.identity == identity || each.identity == other)) filter_again(world, each);
+        if (each.shape && (each.identity == identity || each.identity == other)) pair.push_back(&each);
+    if (pair.size() < 2) return; // no such pair exists
+    for (Shape *each : pair) filter_again(world, *each);
 }
 
 int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_pose *at) {

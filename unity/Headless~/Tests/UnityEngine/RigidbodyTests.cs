@@ -354,6 +354,35 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(stays.transform.position.y, Is.EqualTo(0.5f).Within(0.01f));
         }
 
+        [TestCase(true)]
+        [TestCase(false)]
+        public void A_collider_that_is_disabled_or_deactivated_collides_again_with_ignored_ones(bool deactivates)
+        {
+            var floor = Floor();
+            var ball = Ball(new Vector3(0f, 1f, 0f)).GetComponent<Collider>();
+            Physics.IgnoreCollision(ball, floor);
+            if (deactivates) ball.gameObject.SetActive(false);
+            else floor.enabled = false;
+            Assert.That(Physics.GetIgnoreCollision(floor, ball), Is.False);
+            ball.gameObject.SetActive(true);
+            floor.enabled = true;
+            Run(2f);
+            Assert.That(ball.transform.position.y, Is.EqualTo(0.5f).Within(0.01f));
+        }
+
+        [Test]
+        public void Collisions_of_an_inactive_collider_cannot_be_ignored()
+        {
+            var floor = Floor();
+            var ball = Ball(new Vector3(0f, 1f, 0f)).GetComponent<Collider>();
+            ball.gameObject.SetActive(false);
+            Physics.IgnoreCollision(floor, ball);
+            ball.gameObject.SetActive(true);
+            Run(2f);
+            Assert.That(ball.transform.position.y, Is.EqualTo(0.5f).Within(0.01f));
+            Assert.That(Errors, Is.EqualTo(new[] { "Physics.IgnoreCollision has no effect: the collider of 'ball' is disabled or inactive." }));
+        }
+
         [Test]
         public void Removing_the_body_leaves_a_static_collider()
         {

@@ -88,6 +88,20 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(string.Join(", ", Notes), Is.EqualTo("zone exit mover, zone enter mover, zone stay mover"));
         }
 
+        [Test]
+        public void A_body_keeps_its_triggers_when_an_ignored_collider_is_deactivated()
+        {
+            Zone();
+            var mover = Mover(Vector3.zero);
+            var other = Ball(new Vector3(9f, 0f, 0f)).GetComponent<Collider>();
+            Physics.IgnoreCollision(other, mover.GetComponent<Collider>());
+            StepAt(mover, 0f);
+            Notes.Clear();
+            other.gameObject.SetActive(false);
+            StepAt(mover, 0f);
+            Assert.That(Events(), Is.EqualTo("zone stay mover"));
+        }
+
         [TestCase(0)]
         [TestCase(8)]
         public void Ignoring_two_layers_keeps_the_triggers_of_other_layers(int layerOfAnotherCollider)

@@ -148,6 +148,7 @@ namespace UnityEngine
             Registered = false;
             owner.RemovePhysics(this);
             Detach();
+            PhysicsWorld.Ignored.Remove(this);
         }
 
         /// Attaches the collider to the nearest active body on its object or its ancestors.

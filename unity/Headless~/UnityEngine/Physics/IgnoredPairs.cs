@@ -6,17 +6,38 @@ namespace UnityEngine
     sealed class IgnoredPairs
     {
         readonly int[] layers = new int[32]; // bit j of row i: layers i and j
-        readonly HashSet<ulong> colliders = new HashSet<ulong>();
+        readonly Dictionary<int, HashSet<int>> colliders = new Dictionary<int, HashSet<int>>(); // by one's id, the others' ids; both ways
 
-        static ulong Key(Collider a, Collider b) => a.id < b.id ? (ulong)a.id << 32 | (uint)b.id : (ulong)b.id << 32 | (uint)a.id;
-
+        /// As in Unity, disabled and inactive colliders are in no pair.
         public void Set(Collider a, Collider b, bool ignore)
         {
-            if (ignore ? colliders.Add(Key(a, b)) : colliders.Remove(Key(a, b)))
-                Physx.physics_ignore_pair(PhysicsWorld.Handle, (uint)a.id, (uint)b.id, ignore ? 1 : 0);
+            if (ignore && !(a.Registered && b.Registered))
+                Debug.LogWarning($"Physics.IgnoreCollision has no effect: the collider of '{(a.Registered ? b : a).NameImpl}' is disabled or inactive.", a);
+            else if (Has(a, b) != ignore) Change(a.id, b.id, ignore);
         }
 
-        public bool Has(Collider a, Collider b) => colliders.Contains(Key(a, b));
+        public bool Has(Collider a, Collider b) => colliders.TryGetValue(a.id, out var others) && others.Contains(b.id);
+
+        /// Ends the pairs of a collider that has no shape any more.
+        public void Remove(Collider collider)
+        {
+            if (!colliders.TryGetValue(collider.id, out var others)) return;
+            foreach (var other in new List<int>(others)) Change(collider.id, other, false);
+        }
+
+        void Change(int a, int b, bool ignore)
+        {
+            Link(a, b, ignore);
+            Link(b, a, ignore);
+            Physx.physics_ignore_pair(PhysicsWorld.Handle, (uint)a, (uint)b, ignore ? 1 : 0);
+        }
+
+        void Link(int a, int b, bool ignore)
+        {
+            if (!colliders.TryGetValue(a, out var others)) colliders.Add(a, others = new HashSet<int>());
+            if (ignore) others.Add(b);
+            else if (others.Remove(b) && others.Count == 0) colliders.Remove(a);
+        }
 
         public void SetLayers(int a, int b, bool ignore)
         {
