@@ -114,6 +114,7 @@ DATA = {
     "bad/all.csv": "value,id\n5,-1\n",
     "bad/value.csv": "id\n0\n",
     "thirds.csv": "time,value\n1,5\n",
+    "far.csv": "x,z\n100000,100000\n100000,100050\n",
     "file.txt": "x,z\n1,2\n",
 }
 SCENARIO: dict[str, Any] = {
@@ -473,6 +474,11 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
       "obstacles": [{"polygon": [[1, -1], [1.5, -1], [1.5, 1], [1, 1]]}]}, 0.1, {"sum(degree)": (0, 0)}),
     ({"movement": {"kind": "RandomWaypoint", "speed": 2}}, 2, {f"max({SPEED})": (1.99, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
     ({"movement": {"kind": "LevyWalk", "speed": 2}}, 9, {f"max({SPEED})": (1.9, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
+    # Steps of 2 mm add up, even where single-precision numbers are multiples of 8 mm.
+    ({"deployment": {"kind": "File", "file": "far.csv"}, "movement": {"kind": "RandomWaypoint", "speed": 0.02}}, 5,
+     {"total(z) filter (where id = 0)": (100000.09, 100000.11)}),
+    ({"deployment": {"kind": "File", "file": "far.csv"}, "movement": {"kind": "LevyWalk", "speed": 0.02}}, 5,
+     {"total(z) filter (where id = 0)": (100000.01, 100000.11)}),
     # In a tick, the nodes cross the corridor several times. No reflection may end at its sides.
     ({"deployment": {"kind": "Uniform", "nodes": 200, "size": [1, 50]}, "movement": {"kind": "LevyWalk", "speed": 90, "shortest": 50}}, 2,
      {"sum(abs(x) > 0.4999)": (0, 2), "avg(abs(x))": (0.22, 0.28), "max(abs(x))": (0.45, 0.5), "max(abs(z))": (20, 25)}),

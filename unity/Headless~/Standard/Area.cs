@@ -65,21 +65,21 @@ namespace Collektive.Standard
         }
 
         /// <summary>Reflects a place and a direction at the bounding rectangle of the area.</summary>
-        internal void Reflect(ref Vector3 place, ref Vector3 direction)
+        internal void Reflect(ref double placeX, ref double placeZ, ref Vector3 direction)
         {
-            Reflect(ref place.x, ref direction.x, x);
-            Reflect(ref place.z, ref direction.z, z);
+            Reflect(ref placeX, ref direction.x, x);
+            Reflect(ref placeZ, ref direction.z, z);
         }
 
-        private static void Reflect(ref float place, ref float direction, float[] bounds)
+        private static void Reflect(ref double place, ref float direction, float[] bounds)
         {
             if (place >= bounds[0] && place <= bounds[1]) return;
             // A fast node crosses the area several times in a tick. Two reflections shift the place by twice the side, and keep the direction.
             var shift = 2 * (bounds[1] - bounds[0]);
             var distance = place < bounds[0] ? bounds[0] - place : place - bounds[1];
-            if (shift > 0 && distance > shift / 2) place -= shift * (float)Math.Round((place - (bounds[0] + bounds[1]) / 2) / shift);
+            if (shift > 0 && distance > shift / 2) place -= shift * Math.Round((place - (bounds[0] + bounds[1]) / 2) / shift);
             if (place >= bounds[0] && place <= bounds[1]) return;
-            place = Mathf.Clamp(place < bounds[0] ? 2 * bounds[0] - place : 2 * bounds[1] - place, bounds[0], bounds[1]);
+            place = Math.Min(Math.Max(place < bounds[0] ? 2 * bounds[0] - place : 2 * bounds[1] - place, bounds[0]), bounds[1]);
             direction = -direction;
         }
 

@@ -1,3 +1,4 @@
+using System;
 using Collektive.Bridge;
 using Collektive.Headless;
 using Collektive.Unity;
@@ -46,49 +47,58 @@ namespace Collektive.Standard
     public sealed class Walker : MonoBehaviour
     {
         private RandomStream random;
+        // Single precision would round each short step, and thus change the speed.
+        private double x, z;
         private Vector3 target;
         private Vector3 direction;
-        private float left;
-        private float remainingPause;
+        private double left;
+        private double remainingPause;
         private bool hasTarget;
 
-        internal void Walk(Node node, Movement movement, Area area, float seconds)
+        internal void Walk(Node node, Movement movement, Area area, double seconds)
         {
-            random ??= RandomWalk.StreamOf(node);
+            if (random == null)
+            {
+                random = RandomWalk.StreamOf(node);
+                (x, z) = (transform.position.x, transform.position.z);
+            }
             if (movement.kind == MovementKind.RandomWaypoint) GoToWaypoint(movement, area, seconds);
             else Roam(movement, area, movement.speed * seconds);
+            transform.position = new Vector3((float)x, transform.position.y, (float)z);
         }
 
-        private void GoToWaypoint(Movement movement, Area area, float seconds)
+        private void GoToWaypoint(Movement movement, Area area, double seconds)
         {
             // A fast node may pass several waypoints in a tick.
             while (seconds > 0)
             {
                 if (remainingPause > 0)
                 {
-                    var waited = Mathf.Min(remainingPause, seconds);
+                    var waited = Math.Min(remainingPause, seconds);
                     remainingPause -= waited;
                     seconds -= waited;
                     continue;
                 }
                 if (!hasTarget) target = area.Uniform(random) ?? transform.position;
                 hasTarget = true;
-                var offset = target - transform.position;
+                double alongX = target.x - x, alongZ = target.z - z;
+                var distance = Math.Sqrt(alongX * alongX + alongZ * alongZ);
                 var reach = movement.speed * seconds;
-                if (reach < offset.magnitude)
+                if (reach < distance)
                 {
-                    transform.position += reach / offset.magnitude * offset;
+                    x += reach / distance * alongX;
+                    z += reach / distance * alongZ;
                     return;
                 }
-                seconds -= offset.magnitude / movement.speed;
-                transform.position = target;
+                seconds -= distance / movement.speed;
+                (x, z) = (target.x, target.z);
                 hasTarget = false;
                 remainingPause = movement.pause;
-                if (offset.magnitude == 0 && remainingPause == 0) return;
+                if (distance == 0 && remainingPause == 0) return;
             }
         }
 
-        private void Roam(Movement movement, Area area, float reach)
+        private void Roam(Movement movement, Area area, double reach)
         {
             while (reach > 0)
             {
@@ -99,10 +109,10 @@ namespace Collektive.Standard
                     // The inverse of its distribution function converts a uniform number to the Pareto distribution.
                     left = movement.shortest * Mathf.Pow((float)(1 - random.NextDouble()), 1 / (1 - movement.exponent));
                 }
-                var step = Mathf.Min(reach, left);
-                var place = transform.position + step * direction;
-                area.Reflect(ref place, ref direction);
-                transform.position = place;
+                var step = Math.Min(reach, left);
+                x += step * direction.x;
+                z += step * direction.z;
+                area.Reflect(ref x, ref z, ref direction);
                 left -= step;
                 reach -= step;
             }
