@@ -129,8 +129,8 @@ def _read(folder: str, name: str) -> tuple[pd.DataFrame, bytes | None]:
     """Returns a table, and the metadata that all tables of a sweep share. Tables of earlier versions have none."""
     try:
         table = read_parquet(folder, name, page_checksum_verification=True)
-        # By default, whole numbers become floats if a cell is empty, which rounds numbers beyond 2^53.
-        types = {pa.int64(): pd.Int64Dtype(), pa.uint64(): pd.UInt64Dtype()} if name == "nodes" else {}
+        # By default, if a cell is empty, whole numbers become floats, which round numbers beyond 2^53, and booleans become objects, whose ~ is an integer.
+        types = {pa.int64(): pd.Int64Dtype(), pa.uint64(): pd.UInt64Dtype(), pa.bool_(): pd.BooleanDtype()} if name == "nodes" else {}
         frame: pd.DataFrame = table.to_pandas(types_mapper=types.get)
         return frame, (table.schema.metadata or {}).get(CONTENT.encode())
     except (OSError, ValueError, NotImplementedError) as error:

@@ -302,6 +302,15 @@ def test_whole_numbers_of_nodes_keep_their_digits_beside_empty_cells(tmp_path: P
     assert nodes.isna().sum().tolist() == [0, 1, 1, 1]
 
 
+def test_booleans_of_nodes_can_be_negated_beside_empty_cells(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "out", 1)
+    pq.write_table(pa.table({"run": ["a"] * 4, "flag": [None, True, False, False]}), f"{folder}/nodes.parquet")
+    nodes = load(folder).nodes
+    assert nodes is not None
+    assert (~nodes["flag"]).sum() == 2
+    assert len(nodes[nodes["flag"]]) == 1
+
+
 def test_numbers_on_axes_and_in_cells_are_not_rounded_to_fewer_digits(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "out", 1, (1000001, 1000002), labels={"1000002": "last"})
     pd.read_parquet(f"{folder}/runs.parquet").assign(error=99.7).to_parquet(f"{folder}/runs.parquet")
