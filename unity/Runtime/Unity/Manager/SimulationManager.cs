@@ -258,9 +258,11 @@ namespace Collektive.Unity
             }
         }
 
+        // After a long time, the tolerance would otherwise exceed a tick.
+        private double EndTime => Math.Max(settings.stopAfter * RoundingTolerance, SimulatedSeconds.Exact(settings.stopAfter) - 0.1 * settings.deltaTime);
+
         private bool IsAtEnd() =>
-            settings.stopAfter > 0 && SimulatedTime >= settings.stopAfter * RoundingTolerance
-            || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
+            settings.stopAfter > 0 && SimulatedTime >= EndTime || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
 
         private void Finish()
         {
