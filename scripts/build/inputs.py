@@ -24,8 +24,9 @@ class Part:
         self.path = Path(os.path.abspath(path))
         self.files: Mapping[str, Path] = list_files(self.path)
         for file in self.files.values():
-            if re.search(r"[\n\r\udc80-\udcff]", str(file)):
-                raise Failure(f"the path {str(file)!r} has a line break or is not UTF-8, which compilers cannot read: rename the file or its folders")
+            # The C# compiler removes '|' from paths.
+            if re.search(r"[\n\r\udc80-\udcff]|\|.*\.cs$", str(file)):
+                raise Failure(f"the path {str(file)!r} has a line break or '|', or is not UTF-8, which compilers cannot read: rename the file or its folders")
             # Reading a pipe or a device might never end.
             if file.exists() and not file.is_file():
                 raise Failure(f"'{file}' is not a file: remove or rename it")

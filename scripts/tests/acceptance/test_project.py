@@ -127,7 +127,8 @@ class ProjectTest(Project):
         self.assertEqual(result.returncode, 0, result.stdout)
 
     def test_paths_that_tools_cannot_read_are_rejected(self) -> None:
-        for name, words in [("a\nb", "has a line break or is not UTF-8"), ("\udcff", "is not UTF-8, which the player and the JVM need")]:
+        for name, words in [("a\nb", "has a line break or '|', or is not UTF-8"), ("\udcff", "is not UTF-8, which the player and the JVM need"),
+                            ("a|b", "has a line break or '|', or is not UTF-8")]:
             os.rename(self.path("project"), self.path(name))
             result = collektive("run", self.path(name, "lamps.json"), "--out", self.path("out"))
             os.rename(self.path(name), self.path("project"))
