@@ -5,8 +5,11 @@ import org.collektive.engine.RoundThread
 
 /** Samples rounds for JFR events: one in [INTERVAL] per thread, because an event would cost more than a short round. */
 public object RoundSampling {
-    /** Number of rounds per sample: a prime, so that the sampled nodes change from tick to tick. */
+    /** Number of rounds per sample. */
     public const val INTERVAL: Int = 17
+
+    /** The fraction of the golden ratio, in units of 2^-64. */
+    private const val GOLDEN_RATIO = -0x61c8864680b583ebL
 
     /** An event that is only used to check whether these events are enabled. Loaded on first use. */
     private object Sample {
@@ -18,8 +21,14 @@ public object RoundSampling {
     internal fun begin(): ProgramRoundEvent? {
         if (!SessionEvents.isRecorderInitialized || !Sample.event.isEnabled) return null
         val thread = Thread.currentThread() as? RoundThread ?: return null
-        if (thread.rounds % INTERVAL != 0L) return null
+        if (!isSampled(thread.rounds - 1)) return null
         return ProgramRoundEvent().apply { begin() }
+    }
+
+    /** Selects one of [INTERVAL] successive rounds. Its place changes, so that all nodes are sampled, whatever their number. */
+    private fun isSampled(round: Long): Boolean {
+        val fraction = round / INTERVAL * GOLDEN_RATIO ushr Int.SIZE_BITS
+        return round % INTERVAL == fraction * INTERVAL ushr Int.SIZE_BITS
     }
 
     internal fun end(event: ProgramRoundEvent, device: RoundDevice, program: String, function: String) {

@@ -168,7 +168,8 @@ class RecorderTest {
     private fun read(file: Path): Map<String, List<RecordedEvent>> = RecordingFile.readAllEvents(file).groupBy { it.eventType.name }
 
     private companion object {
-        const val NODES = 40
+        // In a network with a multiple of the interval, the sampled nodes must also change from tick to tick.
+        const val NODES = 2 * RoundSampling.INTERVAL
         const val TICKS = 51L
     }
 }
