@@ -25,7 +25,7 @@ public object RoundSampling {
         return ProgramRoundEvent().apply { begin() }
     }
 
-    /** Selects one of [INTERVAL] successive rounds. Its place changes, so that all nodes are sampled, whatever their number. */
+    /** Selects one of [INTERVAL] successive rounds. Its place changes, so that all nodes are sampled even if their number is a multiple. */
     private fun isSampled(round: Long): Boolean {
         val fraction = round / INTERVAL * GOLDEN_RATIO ushr Int.SIZE_BITS
         return round % INTERVAL == fraction * INTERVAL ushr Int.SIZE_BITS
