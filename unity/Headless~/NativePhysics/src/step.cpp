@@ -65,19 +65,26 @@ void physics_world::apply(const physics_command &command) {
     }
     const float *value = command.value;
     const PxVec3 vector(value[0], value[1], value[2]);
+    PxRigidDynamic *body = actor->body();
+    const bool kinematic = body && body->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC;
     if (command.kind == PHYSICS_POSE) {
         actor->last_pose = PxTransform(vector, PxQuat(value[3], value[4], value[5], value[6]).getNormalized());
         actor->rigid->setGlobalPose(actor->last_pose);
+        // Kinematic bodies without a target would not wake the bodies that they touch.
+        PxTransform target;
+        if (kinematic && (actor->led || !body->getKinematicTarget(target))) {
+            body->setKinematicTarget(actor->last_pose);
+            actor->led = true;
+        }
         marks[command.actor] |= PLACED;
         placed++;
         return;
     }
-    PxRigidDynamic *body = actor->body();
     if (!body) return;
-    const bool kinematic = body->getRigidBodyFlags() & PxRigidBodyFlag::eKINEMATIC;
     switch (command.kind) {
         case PHYSICS_TARGET:
             if (kinematic) body->setKinematicTarget(PxTransform(vector, PxQuat(value[3], value[4], value[5], value[6]).getNormalized()));
+            actor->led = false;
             break;
         case PHYSICS_VELOCITY:
             if (!kinematic) body->setLinearVelocity(vector);
@@ -109,6 +116,7 @@ void physics_world::apply(const physics_command &command) {
             break;
         case PHYSICS_KINEMATIC: {
             removal = ENDS;
+            actor->led = false;
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
             removal = REMOVED;
             for (const PxShape *each : shapes_of(*body)) shapes[size_t(intptr_t(each->userData))].born = steps;
@@ -312,7 +320,9 @@ void physics_world::collect_motions(int32_t step, physics_motion *motions) {
     }
     moved.clear();
     for (size_t handle = 0; handle < marks.size(); handle++) {
-        if (marks[handle] & MOVED) moved.push_back(int32_t(handle));
+        if (marks[handle] & MOVED && !actors[handle].led) moved.push_back(int32_t(handle));
+        // Its pose is the caller's. PhysX's would differ by rounding.
+        else if (marks[handle] & MOVED) motions[handle].velocity = motions[handle].spin = {0.0f, 0.0f, 0.0f};
         marks[handle] = 0;
     }
     std::atomic<bool> infinite{false};

@@ -44,6 +44,7 @@ struct Actor {
     float mass = 1.0f;
     bool own_center = false, own_inertia = false;
     bool mass_stale = true;
+    bool led = false; // kinematic, and last moved by a pose instead of a target
     PxVec3 center = PxVec3(0.0f), inertia = PxVec3(0.0f);
     PxQuat inertia_rotation = PxQuat(PxIdentity);
     PxTransform last_pose = PxTransform(PxIdentity);

@@ -204,6 +204,38 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_kinematic_body_wakes_and_pushes_bodies_when_its_transform_moves()
+        {
+            Floor(Frictionless());
+            var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
+            var pusher = Box(new Vector3(-2f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
+            pusher.isKinematic = true;
+            Run(1f);
+            Assert.That(box.IsSleeping(), Is.True);
+            for (var step = 0; step < 100; step++)
+            {
+                pusher.transform.position += new Vector3(0.02f, 0f, 0f);
+                var place = pusher.transform.position;
+                Physics.Simulate(Step);
+                Assert.That(pusher.transform.position, Is.EqualTo(place));
+                Assert.That(pusher.linearVelocity, Is.EqualTo(Vector3.zero));
+            }
+            Assert.That(box.position.x, Is.GreaterThan(0.9f));
+        }
+
+        [Test]
+        public void A_kinematic_body_moves_to_its_target_from_where_its_transform_is()
+        {
+            var body = new GameObject("body").AddComponent<Rigidbody>();
+            body.isKinematic = true;
+            body.MovePosition(new Vector3(1f, 0f, 0f));
+            body.transform.position = new Vector3(0.5f, 0f, 0f);
+            Run(Step);
+            Assert.That(body.position.x, Is.EqualTo(1f).Within(1e-4f));
+            Assert.That(body.linearVelocity.x, Is.EqualTo(0.5f / Step).Within(1e-2f));
+        }
+
+        [Test]
         public void A_moving_kinematic_body_keeps_its_velocity_when_it_becomes_dynamic()
         {
             var ball = Ball(Vector3.zero);
