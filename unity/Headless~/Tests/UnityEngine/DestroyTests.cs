@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.Headless;
@@ -37,6 +38,16 @@ namespace Collektive.Headless.Tests.Engine
             Assert.Throws<MissingReferenceException>(() => _ = part?.enabled);
             Assert.Throws<MissingReferenceException>(() => _ = part.transform);
             Assert.Throws<MissingReferenceException>(() => _ = holder.name);
+        }
+
+        [Test]
+        public void Two_destroyed_objects_differ()
+        {
+            GameObject first = new GameObject("first"), second = new GameObject("second");
+            Object.DestroyImmediate(first);
+            Object.DestroyImmediate(second);
+            Assert.That(first == second, Is.False);
+            Assert.That(new List<GameObject> { first, second }.IndexOf(second), Is.EqualTo(1));
         }
 
         [Test]

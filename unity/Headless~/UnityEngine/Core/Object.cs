@@ -76,8 +76,8 @@ namespace UnityEngine
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static bool operator ==(Object x, Object y)
         {
-            bool xIsNull = x is null || x.destroyed, yIsNull = y is null || y.destroyed;
-            return xIsNull || yIsNull ? xIsNull && yIsNull : ReferenceEquals(x, y);
+            if (x is null) return y is null || y.destroyed;
+            return y is null ? x.destroyed : ReferenceEquals(x, y);
         }
 
         public static bool operator !=(Object x, Object y) => !(x == y);
