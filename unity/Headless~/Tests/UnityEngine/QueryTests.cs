@@ -236,6 +236,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_direction_can_be_as_short_as_the_velocity_of_a_body_at_rest()
+        {
+            Box(new Vector3(5f, 0f, 0f), Vector3.one);
+            Assert.That(Physics.Raycast(Vector3.zero, new Vector3(1e-6f, 0f, 0f), out var hit), Is.True);
+            Assert.That(hit.distance, Is.EqualTo(4.5f).Within(1e-4f));
+            Assert.That(Physics.RaycastAll(Vector3.zero, new Vector3(1e-6f, 0f, 0f)).Length, Is.EqualTo(1));
+            Assert.That(Physics.Raycast(Vector3.zero, Vector3.zero), Is.False);
+        }
+
+        [Test]
         public void Raycasts_match_known_values()
         {
             var box = Box(new Vector3(10f, 0f, 0f), new Vector3(2f, 2f, 2f));

@@ -41,7 +41,14 @@ namespace UnityEngine
 
         /// Creates the ray of a query. Returns false if the ray has no direction or length, or if a number is not finite.
         static bool Line(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line) =>
-            UnitLine(origin, direction.normalized, maxDistance, out line);
+            UnitLine(origin, Unit(direction), maxDistance, out line);
+
+        /// As in Unity, queries accept directions that are too short for `Vector3.normalized`.
+        static Vector3 Unit(Vector3 direction)
+        {
+            var length = direction.magnitude;
+            return length > 0f ? direction / length : Vector3.zero;
+        }
 
         /// Like `Line`, for a direction of length 1.
         static bool UnitLine(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
@@ -89,7 +96,7 @@ namespace UnityEngine
 
         /// Fills the array up to its length, and returns the number of results.
         public static int RaycastAll(Vector3 origin, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
-            QueryTriggerInteraction triggers) => UnitRaycastAll(origin, direction.normalized, results, maxDistance, Filter(layerMask, triggers));
+            QueryTriggerInteraction triggers) => UnitRaycastAll(origin, Unit(direction), results, maxDistance, Filter(layerMask, triggers));
 
         public static int RaycastAll(in RaycastCommand command, RaycastHit[] results)
         {
