@@ -22,6 +22,18 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void An_inactive_body_has_no_velocity()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.gameObject.SetActive(false);
+            ball.linearVelocity = Vector3.one;
+            ball.angularVelocity = Vector3.one;
+            ball.gameObject.SetActive(true);
+            Assert.That(ball.linearVelocity, Is.EqualTo(Vector3.zero));
+            Assert.That(ball.angularVelocity, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
         public void Free_fall_is_semi_implicit_Euler()
         {
             var ball = Ball(new Vector3(0f, 100f, 0f));

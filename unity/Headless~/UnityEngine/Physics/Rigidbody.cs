@@ -229,7 +229,7 @@ namespace UnityEngine
         bool TakesVelocity(string kind)
         {
             if (isKinematic) Debug.LogWarning($"Setting {kind} velocity of a kinematic body is not supported.", this);
-            return !isKinematic;
+            return !isKinematic && Registered; // as in Unity, inactive bodies have no velocity
         }
 
         public Vector3 linearVelocity
