@@ -25,6 +25,13 @@ namespace Collektive.Headless.Tests.Engine
                 Notes.Add("c");
             }
 
+            public IEnumerator AwaitThenFixed(Coroutine inner)
+            {
+                yield return inner;
+                yield return new WaitForFixedUpdate();
+                Notes.Add("continued");
+            }
+
             public IEnumerator Seconds(float seconds)
             {
                 yield return new WaitForSeconds(seconds);
@@ -179,6 +186,18 @@ namespace Collektive.Headless.Tests.Engine
             later = runner.StartCoroutine(runner.Frames());
             Frames(2);
             Assert.That(Events(), Is.EqualTo("a Update b LateUpdate Update c continued LateUpdate"));
+        }
+
+        [Test]
+        public void A_coroutine_continues_at_most_once_in_a_fixed_step()
+        {
+            var runner = Add<Runner>();
+            var inner = runner.StartCoroutine(runner.Fixed());
+            runner.StartCoroutine(runner.AwaitThenFixed(inner));
+            Frames(1);
+            Assert.That(Events(), Is.EqualTo("fixed Update LateUpdate"));
+            Frames(1);
+            Assert.That(Events(), Is.EqualTo("fixed Update LateUpdate continued Update LateUpdate"));
         }
 
         [Test]

@@ -10,7 +10,7 @@ namespace UnityEngine
         internal readonly IEnumerator Routine;
         readonly Stack<IEnumerator> nested = new Stack<IEnumerator>();
         CoroutinePhase phase;
-        int yieldedAtFrame;
+        int yieldedAtFrame, yieldedInPass;
         double due;
         bool awaitsOther;
         Action ended;
@@ -28,7 +28,7 @@ namespace UnityEngine
 
         internal void ResumeIfDue(CoroutinePhase now)
         {
-            if (IsDone || awaitsOther || now != phase) return;
+            if (IsDone || awaitsOther || now != phase || yieldedInPass == CoroutineScheduler.Pass) return;
             if (now == CoroutinePhase.Update && (Time.frameCount == yieldedAtFrame || Time.timeAsDouble < due)) return;
             Advance();
         }
@@ -76,6 +76,7 @@ namespace UnityEngine
         void Wait(object instruction)
         {
             yieldedAtFrame = Time.frameCount;
+            yieldedInPass = CoroutineScheduler.Pass;
             switch (instruction)
             {
                 case WaitForSeconds wait: due = Time.timeAsDouble + wait.seconds; break;
@@ -102,6 +103,9 @@ namespace UnityEngine
     {
         static readonly List<Coroutine> Running = new List<Coroutine>();
         static readonly Predicate<Coroutine> Done = coroutine => coroutine.IsDone;
+
+        /// Increases at the beginning and the end of each pass over the coroutines.
+        public static int Pass { get; private set; }
 
         public static Coroutine Start(MonoBehaviour owner, IEnumerator routine)
         {
@@ -138,9 +142,11 @@ namespace UnityEngine
         public static void Run(CoroutinePhase phase)
         {
             if (Running.Count == 0) return;
+            Pass++;
             var count = Running.Count;
             for (var index = 0; index < count; index++) Running[index].ResumeIfDue(phase);
             Running.RemoveAll(Done);
+            Pass++;
         }
 
         public static void ResetState() => Running.Clear();
