@@ -320,9 +320,13 @@ void physics_world::collect_motions(int32_t step, physics_motion *motions) {
     }
     moved.clear();
     for (size_t handle = 0; handle < marks.size(); handle++) {
-        if (marks[handle] & MOVED && !actors[handle].led) moved.push_back(int32_t(handle));
-        // Its pose is the caller's. PhysX's would differ by rounding.
-        else if (marks[handle] & MOVED) motions[handle].velocity = motions[handle].spin = {0.0f, 0.0f, 0.0f};
+        if (marks[handle] & MOVED) {
+            // A led body keeps the caller's pose. PhysX's pose differs by rounding.
+            if (actors[handle].led)
+                motions[handle].velocity = motions[handle].spin = {0.0f, 0.0f, 0.0f};
+            else
+                moved.push_back(int32_t(handle));
+        }
         marks[handle] = 0;
     }
     std::atomic<bool> infinite{false};
