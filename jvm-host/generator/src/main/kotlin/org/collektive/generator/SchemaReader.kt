@@ -63,6 +63,7 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         )
         checkRoots(user)
         checkVisible()
+        checkEnumValues()
         checkKeys()
         checkExtent(user)
         val generatedTypes = (user.structs + user.tables - user.roots.toSet()).map { "${it.name}Value" } + user.name.toString()
@@ -249,6 +250,17 @@ internal class SchemaReader(binary: ByteArray, private val file: Path, private v
         }
         for (enum in (0 until schema.enumsLength()).map(schema::enums)) {
             if (enum.attributesByKey("private") != null) throw error("private types are not supported; remove the attribute", enum.name())
+        }
+    }
+
+    /** Rejects flags of bit 63 and values after [Long.MAX_VALUE], because the Java that flatc writes for them does not compile. */
+    private fun checkEnumValues() {
+        for (enum in (0 until schema.enumsLength()).map(schema::enums)) {
+            if (enum.underlyingType().baseType() != BaseType.ULong) continue
+            for (value in (0 until enum.valuesLength()).map(enum::values)) {
+                if (value.value() >= 0) continue
+                throw error("the value is too large; the maximum is ${Long.MAX_VALUE}, or bit 62", "${enum.name()}.${value.name()}")
+            }
         }
     }
 

@@ -97,6 +97,10 @@ internal class RefusalTest {
             "user.fbs:1: Item.id: key is not supported, because lists are not sorted; remove it",
             refusal(user("table Item { id: uint (key); }", "items: [Item];")),
         )
+        assertEquals(
+            "user.fbs:1: Bits.B: the value is too large; the maximum is 9223372036854775807, or bit 62",
+            refusal(user("enum Bits : ulong (bit_flags) { A, B = 63 }", "bits: Bits;")),
+        )
     }
 
     @Test
