@@ -83,6 +83,15 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Another_resolution_keeps_the_distance_between_samples()
+        {
+            var data = new TerrainData { size = new Vector3(64f, 10f, 32f) };
+            data.heightmapResolution = 65;
+            Assert.That(data.size, Is.EqualTo(new Vector3(128f, 10f, 64f)));
+            Assert.That(data.heightmapScale, Is.EqualTo(new Vector3(2f, 10f, 1f)));
+        }
+
+        [Test]
         public void Heights_are_relative_to_the_size_and_clamped()
         {
             var data = new TerrainData { size = new Vector3(32f, 50f, 32f) };

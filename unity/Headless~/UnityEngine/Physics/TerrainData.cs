@@ -14,7 +14,7 @@ namespace UnityEngine
         internal int Version { get; private set; }
 
         /// Number of samples along each side, a power of two plus one from 33 to 4097. Other numbers are rounded up. Setting the resolution resets all
-        /// heights to 0.
+        /// heights to 0. As in Unity, it keeps the distance between samples, and so changes the size.
         public int heightmapResolution
         {
             get => heights.GetLength(0);
@@ -22,7 +22,9 @@ namespace UnityEngine
             {
                 var resolution = MinResolution;
                 while (resolution < value && resolution < MaxResolution) resolution = 2 * resolution - 1;
+                var distance = heightmapScale;
                 heights = new float[resolution, resolution];
+                ownSize = new Vector3(distance.x * (resolution - 1), ownSize.y, distance.z * (resolution - 1));
                 Version++;
             }
         }
