@@ -54,11 +54,23 @@ namespace Collektive.Headless.Tests.Engine
         public void Changed_heights_change_the_surface()
         {
             var data = Slope();
-            var terrain = Terrain(data, Vector3.zero);
+            Terrain(data, Vector3.zero);
             Assert.That(HeightAt(20f, 40f), Is.EqualTo(10f).Within(1e-3f));
+            data.size = new Vector3(64f, 50f, 64f);
+            Assert.That(HeightAt(20f, 40f), Is.EqualTo(5f).Within(1e-3f));
             data.SetHeights(0, 0, new float[65, 65]);
-            terrain.terrainData = data;
             Assert.That(HeightAt(20f, 40f), Is.EqualTo(0f).Within(1e-3f));
+        }
+
+        [Test]
+        public void A_ball_lands_on_changed_heights()
+        {
+            var data = Slope();
+            Terrain(data, Vector3.zero);
+            var ball = Ball(new Vector3(32f, 18f, 32f));
+            data.SetHeights(0, 0, new float[65, 65]);
+            Run(4f);
+            Assert.That(ball.position.y, Is.EqualTo(0.5f).Within(0.02f));
         }
 
         [Test]

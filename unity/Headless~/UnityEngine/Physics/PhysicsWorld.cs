@@ -21,7 +21,7 @@ namespace UnityEngine
         static int motionCapacity;
         static IntPtr world;
         static bool stepping;
-        static int materialChanges;
+        static int materialChanges, terrainChanges;
 
         /// Motions of the bodies, indexed by PhysX's handle of the body. PhysX writes them during steps, and scripts between steps. The native memory is
         /// kept until the process ends.
@@ -179,6 +179,7 @@ namespace UnityEngine
         /// Sends pending changes to PhysX before a query.
         public static void Flush()
         {
+            RefreshTerrains();
             if (commandCount == 0) return;
             Physx.physics_apply(Handle, commands, commandCount);
             commandCount = 0;
@@ -238,6 +239,7 @@ namespace UnityEngine
             SyncTransforms();
             if (step <= 0f) return;
             RefreshMaterials();
+            RefreshTerrains();
             stepping = true;
             try
             {
@@ -293,6 +295,14 @@ namespace UnityEngine
             if (materialChanges == PhysicsMaterial.Changes) return;
             materialChanges = PhysicsMaterial.Changes;
             foreach (var collider in colliders) collider?.Refresh();
+        }
+
+        /// As in Unity, colliders follow their terrains at once.
+        static void RefreshTerrains()
+        {
+            if (terrainChanges == TerrainData.Changes) return;
+            terrainChanges = TerrainData.Changes;
+            foreach (var collider in colliders) (collider as TerrainCollider)?.Refresh();
         }
 
         static void LogErrors()

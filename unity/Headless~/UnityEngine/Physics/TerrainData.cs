@@ -13,6 +13,9 @@ namespace UnityEngine
         /// Number of changes.
         internal int Version { get; private set; }
 
+        /// Number of changes of all terrains. Colliders check their terrains when it increases.
+        internal static int Changes { get; private set; }
+
         /// Number of samples along each side, a power of two plus one from 33 to 4097. Other numbers are rounded up. Setting the resolution resets all
         /// heights to 0. As in Unity, it keeps the distance between samples, and so changes the size.
         public int heightmapResolution
@@ -25,7 +28,7 @@ namespace UnityEngine
                 var distance = heightmapScale;
                 heights = new float[resolution, resolution];
                 ownSize = new Vector3(distance.x * (resolution - 1), ownSize.y, distance.z * (resolution - 1));
-                Version++;
+                Changed();
             }
         }
 
@@ -38,7 +41,7 @@ namespace UnityEngine
             set
             {
                 ownSize = value;
-                Version++;
+                Changed();
             }
         }
 
@@ -52,7 +55,7 @@ namespace UnityEngine
                 throw new ArgumentException("The heights are outside the height map, which has " + heightmapResolution + " samples along each side.");
             for (var row = 0; row < rows; row++)
                 for (var column = 0; column < columns; column++) this.heights[yBase + row, xBase + column] = Mathf.Clamp01(heights[row, column]);
-            Version++;
+            Changed();
         }
 
         public float[,] GetHeights(int xBase, int yBase, int width, int height)
@@ -61,6 +64,12 @@ namespace UnityEngine
             for (var row = 0; row < height; row++)
                 for (var column = 0; column < width; column++) part[row, column] = heights[yBase + row, xBase + column];
             return part;
+        }
+
+        void Changed()
+        {
+            Version++;
+            Changes++;
         }
 
         int Inside(int index) => Math.Max(0, Math.Min(heightmapResolution - 1, index));
