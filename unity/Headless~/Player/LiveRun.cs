@@ -150,7 +150,7 @@ namespace Collektive.Headless
                 var command = (JObject)JsonFile.Parse(line);
                 if (command["run"] != null) Run((bool)command["run"]);
                 else if (command["step"] != null) Step((int)command["step"]);
-                else if (command["speed"] != null) speed = Math.Min(Math.Max(Number(command["speed"]), 0.01), 100);
+                else if (command["speed"] != null) SetSpeed(Number(command["speed"]));
                 else if (command["reload"] != null) manager.ReloadPrograms();
                 else if (command["add"] != null) AddNodes((int)command["add"], (JArray)command["at"]);
                 else if (command["remove"] != null) RemoveNode((int)command["remove"]);
@@ -187,6 +187,13 @@ namespace Collektive.Headless
             isRunning = false;
             steps += Math.Min(Math.Max(count, 1), 1000);
             nextTickMs = clock.Elapsed.TotalMilliseconds;
+        }
+
+        private void SetSpeed(double value)
+        {
+            speed = Math.Min(Math.Max(value, 0.01), 100);
+            // At the previous speed, the next tick may be minutes away.
+            nextTickMs = Math.Min(nextTickMs, clock.Elapsed.TotalMilliseconds + 1000 * scenario.Settings.deltaTime / speed);
         }
 
         /// <summary>Adds copies of a node on a spiral around a point.</summary>

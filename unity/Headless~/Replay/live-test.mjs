@@ -215,6 +215,12 @@ suite('live', { timeout: 600000 }, async (t) => {
     const expected = (4 * (Date.now() - began)) / 50;
     assert.ok(ticks > 0.5 * expected && ticks < 1.2 * expected, `${ticks} ticks instead of ${expected}`);
     await view.selectOption('#speed', '1');
+    // A higher speed does not wait for a tick that is still due at the lower one, here after 5 s.
+    await tab.evaluate(() => window.live.send({ speed: 0.01 }));
+    await tab.waitForTimeout(500);
+    const slow = (await state(view)).tick;
+    await tab.evaluate(() => window.live.send({ speed: 1 }));
+    await eventually(() => state(view), ({ tick }) => tick > slow, 'the simulation should run at the new speed', 3000);
   });
 
   await t.test('applies a parameter at once', async () => {
