@@ -511,6 +511,9 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
      {"total(x) filter (where id = 0)": (2.19, 2.21), "total(z)": (6, 6), "sum(reading) filter (where id = 0)": (6, 6),
       "sum(reading) filter (where id = 1)": (7, 7)}),
     ({"deployment": {"kind": "File", "file": "walk.csv"}, "movement": {"kind": "Trace"}}, 2.5, {"total(x)": (4, 4), "total(z)": (9.9, 10.1)}),
+    # Nodes arrive in the rectangle around all points, not only around the first ones.
+    ({"deployment": {"kind": "File", "file": "walk.csv"}, "movement": {"kind": "Trace"}, "churn": {"arrivals": 100}}, 1,
+     {"max(x) filter (where id > 1)": (3.5, 4), "max(z) filter (where id > 1)": (7, 8)}),
     ({"deployment": {"kind": "File", "file": "walk%20.gpx"}, "movement": {"kind": "Trace"}}, 2,
      {"total(x) filter (where id = 0)": (-0.1, 0.1), "total(x) filter (where id = 1)": (-40, -39.9), "max(z) - min(z)": (111.1, 111.2)}),
     ({"deployment": {"kind": "File", "file": "fast.gpx"}, "movement": {"kind": "Trace"}}, 0.1, {"max(x)": (111195, 111195.1)}),

@@ -34,6 +34,9 @@ namespace Collektive.Headless
         /// <summary>The line of the file in which the track begins.</summary>
         public int Line { get; }
 
+        /// <summary>The times of the points in seconds, increasing; a single NaN without times.</summary>
+        public IReadOnlyList<double> Times => times;
+
         /// <summary>Reads the tracks of a CSV, GeoJSON or GPX file, in the order of the file.</summary>
         /// <param name="isMoving">Whether nodes follow the tracks, so that all positions must have times.</param>
         /// <exception cref="ScenarioException">The file is invalid.</exception>

@@ -16,7 +16,7 @@ namespace Collektive.Standard
         private readonly float[] x;
         private readonly float[] z;
 
-        /// <param name="places">The positions in the deployment's file; empty for other kinds.</param>
+        /// <param name="places">The positions of nodes in the deployment's file at all times; empty for other kinds.</param>
         internal Area(Deployment deployment, List<Obstacle> obstacles, List<Vector3> places)
         {
             this.deployment = deployment;

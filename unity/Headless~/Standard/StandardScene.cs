@@ -19,6 +19,8 @@ namespace Collektive.Standard
         /// <summary>Time limit for the evaluation of an expression when the scene is checked before the run.</summary>
         private const int CheckMs = 1000;
 
+        private static readonly double[] AtStart = { 0 };
+
         public Deployment deployment = new Deployment();
         public Neighbourhood neighbourhood = new Neighbourhood();
         public List<NodeSet> sets = new List<NodeSet>();
@@ -149,9 +151,13 @@ namespace Collektive.Standard
         {
             foreach (var track in Track.Read(DataFile.Find(deployment.file), movement.kind == MovementKind.Trace))
             {
-                track.PlaceAt(0, out var x, out var z);
                 tracks.Add(track.Id, track);
-                places.Add(new Vector3(x, 0, z));
+                // The nodes visit all points of a trace, and stand still at its place at second 0 otherwise.
+                foreach (var time in movement.kind == MovementKind.Trace ? track.Times : AtStart)
+                {
+                    track.PlaceAt(time, out var x, out var z);
+                    places.Add(new Vector3(x, 0, z));
+                }
             }
         }
 
