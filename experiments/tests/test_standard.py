@@ -77,7 +77,7 @@ DATA = {
 </gpx>""",
     "fast.gpx": """<gpx><trk><trkpt lat="0" lon="0"><time>2026-01-31T12:00:00Z</time></trkpt><trkpt lat="0" lon="1"><time>2026-01-31T12:00:00.1Z</time></trkpt>
 <trkpt lat="0" lon="-1"><time>2026-01-31T12:00:00.100003Z</time></trkpt></trk></gpx>""",
-    "cities.geojson": json.dumps({"type": "FeatureCollection", "features": [
+    "cities.geojson": json.dumps({"type": "FeatureCollection", "crs": {"properties": {"name": "urn:ogc:def:crs:OGC:1.3:CRS84"}}, "features": [
         {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [12, 44, 30]}},
         {"type": "Feature", "properties": {}, "geometry": {"type": "MultiPoint", "coordinates": [[12.002, 44], [12.001, 44.001]]}}]}),
     "islands.csv": "lon,lat\n179.9999,0\n-179.9999,0\n",
@@ -109,6 +109,7 @@ DATA = {
     "bad/json.geojson": '{"type": "Point"\n',
     "bad/values.csv": "time,id,value\n1,0,5\n1,0,6\n",
     "bad/type.geojson": '{"type": []}',
+    "bad/metres.geojson": '{"type": "Point", "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::2154"}}, "coordinates": [9, 7]}',
     "bad/none.geojson": '{"type": "FeatureCollection", "features": []}',
     "bad/none.gpx": '<gpx><wpt lat="1" lon="1"/></gpx>',
     "bad/all.csv": "value,id\n5,-1\n",
@@ -186,6 +187,7 @@ REFUSED: list[tuple[str, Any, str]] = [
         ("degrees.csv", ":2: longitude 12 and latitude 144 are out of range"), ("xml.gpx", ":3: not valid XML: "),
         ("line.geojson", ":3: 'type' is 'LineString': only points are supported"),
         ("place.geojson", ":2: the feature has no geometry"), ("point.geojson", ":1: 'coordinates' must be [longitude, latitude]"),
+        ("metres.geojson", ":1: 'crs' is not WGS 84"),
         ("type.geojson", ":1: 'type' is '[]': only points are supported"), ("none.geojson", ": the file contains no nodes"),
         ("none.gpx", ": the file contains no nodes"),
     )],

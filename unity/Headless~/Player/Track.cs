@@ -176,6 +176,9 @@ namespace Collektive.Headless
         private static void AddPoints(DataFile file, JToken part, List<Track> tracks)
         {
             var line = (part as IJsonLineInfo)?.LineNumber ?? 0;
+            // RFC 7946 removed this member, but some programs still write it.
+            if ((part as JObject)?["crs"] is JObject system && !Regex.IsMatch(system.SelectToken("properties.name")?.ToString() ?? "", "(CRS84|:4326)$"))
+                throw file.Error(line, "'crs' is not WGS 84: convert the file to longitudes and latitudes of WGS 84");
             switch (((part as JObject)?["type"] as JValue)?.Value as string)
             {
                 case "FeatureCollection":
