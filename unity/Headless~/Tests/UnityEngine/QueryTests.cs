@@ -358,6 +358,35 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Arrays_of_a_batch_cannot_be_disposed_before_it_ends()
+        {
+            Box(new Vector3(5f, 0f, 0f), Vector3.one);
+            var rays = new NativeArray<RaycastCommand>(1, Allocator.TempJob);
+            var rayHits = new NativeArray<RaycastHit>(1, Allocator.TempJob);
+            var spheres = new NativeArray<OverlapSphereCommand>(1, Allocator.TempJob);
+            var sphereHits = new NativeArray<ColliderHit>(2, Allocator.TempJob);
+            rays[0] = new RaycastCommand(Vector3.zero, Vector3.right, QueryParameters.Default);
+            spheres[0] = new OverlapSphereCommand(Vector3.zero, 5f, QueryParameters.Default);
+            var rayBatch = RaycastCommand.ScheduleBatch(rays, rayHits, 1, 1);
+            var sphereBatch = OverlapSphereCommand.ScheduleBatch(spheres, sphereHits, 1, 2);
+            Assert.Throws<InvalidOperationException>(() => rays.Dispose());
+            Assert.Throws<InvalidOperationException>(() => rayHits.Dispose());
+            Assert.Throws<InvalidOperationException>(() => spheres.Dispose());
+            JobHandle.ScheduleBatchedJobs();
+            Assert.Throws<InvalidOperationException>(() => sphereHits.Dispose());
+            rayBatch.Complete();
+            sphereBatch.Complete();
+            Assert.That((rayHits[0].distance, sphereHits[0].collider != null), Is.EqualTo((4.5f, true)));
+            var disposed = rayHits;
+            rayHits.Dispose();
+            sphereHits.Dispose();
+            Assert.Throws<ObjectDisposedException>(() => RaycastCommand.ScheduleBatch(rays, disposed, 1, 1));
+            Assert.Throws<ObjectDisposedException>(() => OverlapSphereCommand.ScheduleBatch(spheres, sphereHits, 1, 0));
+            rays.Dispose();
+            spheres.Dispose();
+        }
+
+        [Test]
         public void A_ray_of_a_batch_can_hit_back_faces_and_all_faces_of_a_mesh()
         {
             var mesh = GameObject.CreatePrimitive(PrimitiveType.Cube);

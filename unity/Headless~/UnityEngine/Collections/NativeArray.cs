@@ -65,6 +65,9 @@ namespace Unity.Collections
             return new NativeArray<T>(buffer, this.start + start, length);
         }
 
+        /// The memory that copies and parts share, as an identity.
+        internal readonly object Memory => buffer;
+
         readonly T[] Items
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -86,7 +89,10 @@ namespace Unity.Collections
         public void Dispose()
         {
             if (isPart) throw new InvalidOperationException("A sub-array cannot be disposed. Dispose the whole array.");
-            if (buffer?.Items == null) throw new ObjectDisposedException("The NativeArray has already been disposed.");
+            if (buffer == null) return;
+            if (buffer.Items == null) throw new ObjectDisposedException("The NativeArray has already been disposed.");
+            if (UnityEngine.QueryJobs.Uses(buffer))
+                throw new InvalidOperationException("A scheduled batch of queries uses the NativeArray. Call JobHandle.Complete before Dispose.");
             buffer.Items = null;
             buffer = null;
             Length = 0;

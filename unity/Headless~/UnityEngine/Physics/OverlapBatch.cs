@@ -18,6 +18,8 @@ namespace UnityEngine
 
         public static bool IsRunning { get; private set; }
 
+        public static bool Uses(object memory) => IsRunning && results.Memory == memory;
+
         /// Starts a batch. Each sphere has `maxHits` results, which receive the colliders that touch it. With fewer colliders, null follows the last one.
         public static void Begin(Span<OverlapSphereCommand> commands, NativeArray<ColliderHit> hits, int maxHits)
         {

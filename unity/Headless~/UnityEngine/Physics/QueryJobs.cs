@@ -57,6 +57,14 @@ namespace UnityEngine
 
         internal static bool IsRunning(int number) => OverlapBatch.IsRunning && number == running;
 
+        /// Whether a batch that has not ended uses the memory of an array.
+        internal static bool Uses(object memory)
+        {
+            foreach (var job in Waiting)
+                if (job.Rays.Memory == memory || job.RayHits.Memory == memory || job.Spheres.Memory == memory || job.SphereHits.Memory == memory) return true;
+            return OverlapBatch.Uses(memory);
+        }
+
         internal static void ResetState() => Waiting.Clear();
     }
 }
