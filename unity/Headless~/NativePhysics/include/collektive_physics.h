@@ -26,7 +26,7 @@
 extern "C" {
 #endif
 
-#define PHYSICS_VERSION 5
+#define PHYSICS_VERSION 6
 #define PHYSICS_NONE (-1)
 #define PHYSICS_BACK_FACES 1
 #define PHYSICS_ALL_FACES 2
@@ -62,8 +62,10 @@ PHYSICS_API void physics_world_destroy(physics_world *world);
 /* Pairs of layers that pass through each other: bit j of row i for the layers i and j. The matrix is symmetric. */
 PHYSICS_API void physics_ignore_layers(physics_world *world, const uint32_t rows[32]);
 
-/* Sets whether the shapes with these identities pass through each other. It also applies to later shapes with the same identities. */
-PHYSICS_API void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t ignore);
+/* Sets whether the shapes with these identities pass through each other. It also applies to later shapes with the same identities.
+ * Handles of shapes that do not exist are PHYSICS_NONE. */
+PHYSICS_API void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t shape, int32_t other_shape,
+                                     int32_t ignore);
 
 /* ---- Actors ---- */
 

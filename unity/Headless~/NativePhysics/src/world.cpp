@@ -253,15 +253,13 @@ void physics_ignore_layers(physics_world *world, const uint32_t rows[32]) {
         if (each.shape && changed >> (each.shape->getSimulationFilterData().word0 & LAYER) & 1) filter_again(world, each);
 }
 
-void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t ignore) {
+void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t shape, int32_t other_shape, int32_t ignore) {
     const bool changed = ignore ? world->ignored.pairs.insert(Ignored::key(identity, other)).second
                                 : world->ignored.pairs.erase(Ignored::key(identity, other)) > 0;
-    if (!changed) return;
-    std::vector<Shape *> pair;
-    for (Shape &each : world->shapes)
-        if (each.shape && (each.identity == identity || each.identity == other)) pair.push_back(&each);
-    if (pair.size() < 2) return; // no such pair exists
-    for (Shape *each : pair) filter_again(world, *each);
+    Shape *first = world->shape(shape), *second = world->shape(other_shape);
+    if (!changed || !first || !second) return;
+    filter_again(world, *first);
+    filter_again(world, *second);
 }
 
 int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_pose *at) {

@@ -13,7 +13,7 @@ namespace UnityEngine
         {
             if (ignore && !(a.Registered && b.Registered))
                 Debug.LogWarning($"Physics.IgnoreCollision has no effect: the collider of '{(a.Registered ? b : a).NameImpl}' is disabled or inactive.", a);
-            else if (Has(a, b) != ignore) Change(a.id, b.id, ignore);
+            else if (Has(a, b) != ignore) Change(a.id, b.id, a.Handle, b.Handle, ignore);
         }
 
         public bool Has(Collider a, Collider b) => colliders.TryGetValue(a.id, out var others) && others.Contains(b.id);
@@ -22,14 +22,14 @@ namespace UnityEngine
         public void Remove(Collider collider)
         {
             if (!colliders.TryGetValue(collider.id, out var others)) return;
-            foreach (var other in new List<int>(others)) Change(collider.id, other, false);
+            foreach (var other in new List<int>(others)) Change(collider.id, other, Physx.None, Physx.None, false);
         }
 
-        void Change(int a, int b, bool ignore)
+        void Change(int a, int b, int shapeA, int shapeB, bool ignore)
         {
             Link(a, b, ignore);
             Link(b, a, ignore);
-            Physx.physics_ignore_pair(PhysicsWorld.Handle, (uint)a, (uint)b, ignore ? 1 : 0);
+            Physx.physics_ignore_pair(PhysicsWorld.Handle, (uint)a, (uint)b, shapeA, shapeB, ignore ? 1 : 0);
         }
 
         void Link(int a, int b, bool ignore)
