@@ -603,6 +603,19 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_simulation_that_stops_after_a_long_time_runs_the_nearest_number_of_ticks()
+        {
+            Configure("count", settings => (settings.deltaTime, settings.stopAfter) = (1000, 2000.003f));
+            Loop.Frame(0);
+            for (var tick = 0; tick < 2; tick++) Manager.Step();
+            Manager.Settings.deltaTime = 0.0013f; // 2.3 ticks
+            Manager.Step();
+            Assert.That(Manager.Finished, Is.False);
+            Manager.Step();
+            Assert.That(Manager.Finished, Is.True);
+        }
+
+        [Test]
         public void Step_outside_a_running_simulation_is_reported_and_ignored()
         {
             Manager.Step();

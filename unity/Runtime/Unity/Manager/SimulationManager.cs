@@ -258,8 +258,8 @@ namespace Collektive.Unity
             }
         }
 
-        // After a long time, the tolerance would otherwise exceed a tick.
-        private double EndTime => Math.Max(settings.stopAfter * RoundingTolerance, SimulatedSeconds.Exact(settings.stopAfter) - 0.1 * settings.deltaTime);
+        // After a long time, the tolerance would otherwise exceed a tick. Ticks such as 1/30 s are rounded too, so the nearest tick is the last one.
+        private double EndTime => Math.Max(settings.stopAfter * RoundingTolerance, SimulatedSeconds.Exact(settings.stopAfter) - 0.5 * settings.deltaTime);
 
         private bool IsAtEnd() =>
             settings.stopAfter > 0 && SimulatedTime >= EndTime || StopCondition != null && TickHandlers.IsTrue(StopCondition, this);
