@@ -79,7 +79,7 @@ namespace Collektive.Standard
                     seconds -= waited;
                     continue;
                 }
-                if (!hasTarget) target = area.Uniform(random) ?? transform.position;
+                if (!hasTarget) target = area.Uniform(random) ?? new Vector3((float)x, 0, (float)z);
                 hasTarget = true;
                 double alongX = target.x - x, alongZ = target.z - z;
                 var distance = Math.Sqrt(alongX * alongX + alongZ * alongZ);
