@@ -172,6 +172,17 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_native_array_that_was_not_created_can_be_disposed()
+        {
+            var array = default(NativeArray<int>);
+            array.Dispose();
+            array = new NativeArray<int>(4, Allocator.Temp);
+            array.Dispose();
+            array.Dispose();
+            Assert.That(array.IsCreated, Is.False);
+        }
+
+        [Test]
         public void Copies_and_parts_of_a_disposed_native_array_cannot_be_used()
         {
             var array = new NativeArray<int>(4, Allocator.Temp);
@@ -201,6 +212,27 @@ namespace Collektive.Headless.Tests.Engine
             Assert.Throws<MissingReferenceException>(() => material.color = Color.red);
             Assert.Throws<MissingReferenceException>(() => _ = mesh.vertices);
             Assert.Throws<MissingReferenceException>(() => mesh.triangles = new int[0]);
+            Assert.Throws<MissingReferenceException>(() => renderer.enabled = false);
+            Assert.Throws<MissingReferenceException>(() => mesh.Clear());
+            Assert.Throws<MissingReferenceException>(() => _ = mesh.bounds);
+        }
+
+        [Test]
+        public void Destroyed_bodies_and_colliders_cannot_be_used()
+        {
+            var thing = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            var body = thing.AddComponent<Rigidbody>();
+            var collider = thing.GetComponent<BoxCollider>();
+            UnityEngine.Object.DestroyImmediate(body);
+            UnityEngine.Object.DestroyImmediate(collider);
+            Assert.Throws<MissingReferenceException>(() => _ = body.linearVelocity);
+            Assert.Throws<MissingReferenceException>(() => body.mass = 2f);
+            Assert.Throws<MissingReferenceException>(() => body.isKinematic = true);
+            Assert.Throws<MissingReferenceException>(() => body.MovePosition(Vector3.one));
+            Assert.Throws<MissingReferenceException>(() => body.AddForce(Vector3.one));
+            Assert.Throws<MissingReferenceException>(() => _ = collider.attachedRigidbody);
+            Assert.Throws<MissingReferenceException>(() => _ = collider.bounds);
+            Assert.Throws<MissingReferenceException>(() => collider.isTrigger = true);
         }
 
         [Test]

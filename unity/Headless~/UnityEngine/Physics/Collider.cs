@@ -43,17 +43,26 @@ namespace UnityEngine
             get => ownIsTrigger;
             set
             {
+                ThrowIfDestroyed();
                 ownIsTrigger = value;
                 Refresh();
             }
         }
 
-        public Rigidbody attachedRigidbody => Registered ? Body : null;
+        public Rigidbody attachedRigidbody
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return Registered ? Body : null;
+            }
+        }
 
         public unsafe Bounds bounds
         {
             get
             {
+                ThrowIfDestroyed();
                 if (Handle == Physx.None) return default;
                 Vector3 least, most;
                 PhysicsWorld.Flush();
@@ -212,6 +221,7 @@ namespace UnityEngine
         internal void ShapeChanged()
         {
             if (Registered) TakePose();
+            else ThrowIfDestroyed();
         }
 
         /// Updates PhysX's shape with all properties except the transform.

@@ -72,7 +72,16 @@ namespace UnityEngine
 
         internal bool Registered => Handle != Physx.None;
 
-        unsafe ref Physx.Motion Motion => ref Handle != Physx.None ? ref PhysicsWorld.Motions[Handle] : ref ownMotion;
+        unsafe ref Physx.Motion Motion => ref Handle != Physx.None ? ref PhysicsWorld.Motions[Handle] : ref InactiveMotion;
+
+        ref Physx.Motion InactiveMotion
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return ref ownMotion;
+            }
+        }
 
         // ---- Properties -----------------------------------------------------------------------------------------------
 
@@ -196,6 +205,7 @@ namespace UnityEngine
             get => kinematic;
             set
             {
+                ThrowIfDestroyed();
                 if (kinematic == value) return;
                 kinematic = value;
                 // A body that becomes dynamic keeps the velocity of its last kinematic motion.
@@ -478,11 +488,13 @@ namespace UnityEngine
         void Order(Physx.Order order, Vector3 value)
         {
             if (Registered) PhysicsWorld.Order(Handle, order, value);
+            else ThrowIfDestroyed();
         }
 
         void OrderPose(Physx.Order order, Vector3 position, Quaternion rotation)
         {
             if (Registered) PhysicsWorld.Order(Handle, order, position, rotation);
+            else ThrowIfDestroyed();
         }
 
         // PhysX rejects infinite damping, which stops a body in Unity.

@@ -18,6 +18,7 @@ namespace UnityEngine
         readonly List<Vector3> ownVertices = new List<Vector3>();
         Vector3[] ownNormals = Array.Empty<Vector3>();
         readonly List<Color> ownColors = new List<Color>();
+        Bounds ownBounds;
         readonly List<List<int>> submeshes = new List<List<int>> { new List<int>() };
 
         /// This mesh. Throws an exception if it is destroyed.
@@ -34,7 +35,7 @@ namespace UnityEngine
         internal int Version { get; private set; }
 
         public IndexFormat indexFormat { get; set; }
-        public Bounds bounds { get; set; }
+        public Bounds bounds { get => Existing.ownBounds; set => Existing.ownBounds = value; }
         public int vertexCount => Existing.ownVertices.Count;
 
         public int subMeshCount
@@ -42,6 +43,7 @@ namespace UnityEngine
             get => Existing.submeshes.Count;
             set
             {
+                ThrowIfDestroyed();
                 while (submeshes.Count < value) submeshes.Add(new List<int>());
                 submeshes.RemoveRange(value, submeshes.Count - value);
                 Version++;
@@ -136,7 +138,7 @@ namespace UnityEngine
 
         public void RecalculateBounds()
         {
-            if (ownVertices.Count == 0) return;
+            if (Existing.ownVertices.Count == 0) return;
             Vector3 least = ownVertices[0], most = ownVertices[0];
             foreach (var vertex in ownVertices)
             {

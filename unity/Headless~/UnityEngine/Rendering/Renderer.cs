@@ -9,7 +9,7 @@ namespace UnityEngine
         readonly List<Material> ownMaterials = new List<Material>();
         MaterialPropertyBlock block;
         Bounds? ownBounds;
-        bool ownsMaterial;
+        bool ownEnabled = true, ownsMaterial;
 
         List<Material> assigned
         {
@@ -20,7 +20,20 @@ namespace UnityEngine
             }
         }
 
-        public bool enabled { get; set; } = true;
+        public bool enabled
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return ownEnabled;
+            }
+            set
+            {
+                ThrowIfDestroyed();
+                ownEnabled = value;
+            }
+        }
+
         public bool isVisible => false;
         public ShadowCastingMode shadowCastingMode { get; set; } = ShadowCastingMode.On;
         public bool receiveShadows { get; set; } = true;
