@@ -77,6 +77,13 @@ class WholeRuns(Project):
         manifest = self.manifest(self.path("out"))
         self.assertEqual((manifest["ticks"], manifest["errors"]), (10, 1))
 
+    def test_an_initialiser_with_parameters_is_reported(self) -> None:
+        self.change("scene/Lamps.cs", "\n        protected override void Build(",
+                    "\n        [RuntimeInitializeOnLoadMethod] private static void Begin(int seed) { }\n\n        protected override void Build(")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("'Lamps.LampScene.Begin' with [RuntimeInitializeOnLoadMethod] is not called, because it has parameters", result.stderr)
+
     def test_a_replay_ends_at_the_end_of_the_run(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "replay": true')
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.03')

@@ -29,7 +29,7 @@ namespace Collektive.Headless.Tests.Engine
 
         protected static T Add<T>(string name = "object") where T : Component => new GameObject(name).AddComponent<T>();
 
-        protected sealed class Recorder : ILogHandler
+        sealed class Recorder : ILogHandler
         {
             public void LogFormat(LogType logType, UnityEngine.Object context, string format, params object[] args) => Errors.Add(string.Format(format, args));
             public void LogException(System.Exception exception, UnityEngine.Object context) => Errors.Add(exception.Message);

@@ -18,7 +18,6 @@ namespace Collektive.Headless.Tests.Engine
             [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSplashScreen)] static void Splash() => Notes.Add("splash");
             [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.AfterAssembliesLoaded)] static void Loaded() => Notes.Add("assemblies");
             [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.SubsystemRegistration)] static void Register() => Notes.Add("subsystems");
-            [RuntimeInitializeOnLoadMethod] static void WithParameter(int number) => Notes.Add($"{number}");
         }
 
         [Test]
@@ -26,10 +25,8 @@ namespace Collektive.Headless.Tests.Engine
         {
             Loop.Reset();
             Notes.Clear();
-            Debug.unityLogger.logHandler = new Recorder();
             Loop.Start(1, () => Notes.Add("scene"));
             Assert.That(Events(), Is.EqualTo("subsystems assemblies splash before scene scene after scene"));
-            Assert.That(Errors, Has.Some.Contains("WithParameter' with [RuntimeInitializeOnLoadMethod] is not called, because it has parameters"));
         }
 
         [Test]
