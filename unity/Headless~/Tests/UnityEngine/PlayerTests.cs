@@ -185,7 +185,8 @@ namespace Collektive.Headless.Tests.Engine
             var array = new NativeArray<int>(4, Allocator.Temp);
             var copy = array;
             var part = array.GetSubArray(1, 2);
-            Assert.Throws<InvalidOperationException>(() => part.Dispose());
+            array.GetSubArray(0, 1).Dispose();
+            array[0] = 1;
             array.Dispose();
             Assert.Throws<ObjectDisposedException>(() => _ = copy[0]);
             Assert.Throws<ObjectDisposedException>(() => copy[0] = 1);

@@ -88,15 +88,17 @@ namespace Unity.Collections
 
         public void Dispose()
         {
-            if (isPart) throw new InvalidOperationException("A sub-array cannot be disposed. Dispose the whole array.");
             if (buffer == null) return;
-            if (buffer.Items == null) throw new ObjectDisposedException("The NativeArray has already been disposed.");
-            if (UnityEngine.QueryJobs.Uses(buffer))
-                throw new InvalidOperationException("A scheduled batch of queries uses the NativeArray. Call JobHandle.Complete before Dispose.");
-            buffer.Items = null;
+            if (!isPart)
+            {
+                if (buffer.Items == null) throw new ObjectDisposedException("The NativeArray has already been disposed.");
+                if (UnityEngine.QueryJobs.Uses(buffer))
+                    throw new InvalidOperationException("A scheduled batch of queries uses the NativeArray. Call JobHandle.Complete before Dispose.");
+                buffer.Items = null;
+                NativeArrays.Count--;
+            }
             buffer = null;
             Length = 0;
-            NativeArrays.Count--;
         }
 
         sealed class Buffer
