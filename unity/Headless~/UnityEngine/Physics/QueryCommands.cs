@@ -50,8 +50,7 @@ namespace UnityEngine
         public static JobHandle ScheduleBatch(NativeArray<RaycastCommand> commands, NativeArray<RaycastHit> results, int minCommandsPerJob, int maxHits,
             JobHandle dependsOn = new JobHandle())
         {
-            if (results.AsSpan().Length < commands.AsSpan().Length * maxHits)
-                throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
+            QueryJobs.Check(commands, results, maxHits);
             foreach (var command in commands.AsSpan())
             {
                 // Unity passes the direction to PhysX as it is, which requires a unit vector.
@@ -100,8 +99,7 @@ namespace UnityEngine
         public static JobHandle ScheduleBatch(NativeArray<OverlapSphereCommand> commands, NativeArray<ColliderHit> results, int minCommandsPerJob,
             int maxHits, JobHandle dependsOn = new JobHandle())
         {
-            if (results.AsSpan().Length < commands.AsSpan().Length * maxHits)
-                throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
+            QueryJobs.Check(commands, results, maxHits);
             Headless.QueryLog.Batches++;
             return QueryJobs.Schedule(commands, results, maxHits);
         }

@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 using Unity.Collections;
 using Unity.Jobs;
@@ -23,6 +24,14 @@ namespace UnityEngine
 
         /// The last batch of spheres that was started.
         static int running;
+
+        internal static void Check<TCommand, THit>(NativeArray<TCommand> commands, NativeArray<THit> results, int maxHits)
+            where TCommand : struct where THit : struct
+        {
+            // AsSpan throws an exception if the array is disposed.
+            if (results.AsSpan().Length < commands.AsSpan().Length * maxHits)
+                throw new ArgumentException("The results are shorter than commands * maxHits.", nameof(results));
+        }
 
         internal static JobHandle Schedule(NativeArray<RaycastCommand> rays, NativeArray<RaycastHit> hits, int maxHits)
         {
