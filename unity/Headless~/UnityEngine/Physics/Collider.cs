@@ -49,14 +49,7 @@ namespace UnityEngine
             }
         }
 
-        public Rigidbody attachedRigidbody
-        {
-            get
-            {
-                ThrowIfDestroyed();
-                return Registered ? Body : null;
-            }
-        }
+        public Rigidbody attachedRigidbody => this.Existing().Registered ? Body : null;
 
         public unsafe Bounds bounds
         {

@@ -72,16 +72,7 @@ namespace UnityEngine
 
         internal bool Registered => Handle != Physx.None;
 
-        unsafe ref Physx.Motion Motion => ref Handle != Physx.None ? ref PhysicsWorld.Motions[Handle] : ref InactiveMotion;
-
-        ref Physx.Motion InactiveMotion
-        {
-            get
-            {
-                ThrowIfDestroyed();
-                return ref ownMotion;
-            }
-        }
+        unsafe ref Physx.Motion Motion => ref Handle != Physx.None ? ref PhysicsWorld.Motions[Handle] : ref this.Existing().ownMotion;
 
         // ---- Properties -----------------------------------------------------------------------------------------------
 
@@ -239,7 +230,7 @@ namespace UnityEngine
         bool TakesVelocity(string kind)
         {
             if (isKinematic) Debug.LogWarning($"Setting {kind} velocity of a kinematic body is not supported.", this);
-            return !isKinematic && Registered; // as in Unity, inactive bodies have no velocity
+            return !isKinematic && Registered; // as in Unity, setting the velocity of an inactive body has no effect
         }
 
         public Vector3 linearVelocity

@@ -14,14 +14,7 @@ namespace UnityEngine
 
         readonly MaterialPropertyBlock ownProperties = new MaterialPropertyBlock();
 
-        MaterialPropertyBlock properties
-        {
-            get
-            {
-                ThrowIfDestroyed();
-                return ownProperties;
-            }
-        }
+        MaterialPropertyBlock properties => this.Existing().ownProperties;
 
         public Material(Shader shader)
         {

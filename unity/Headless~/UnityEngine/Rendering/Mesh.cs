@@ -21,26 +21,16 @@ namespace UnityEngine
         Bounds ownBounds;
         readonly List<List<int>> submeshes = new List<List<int>> { new List<int>() };
 
-        /// This mesh. Throws an exception if it is destroyed.
-        Mesh Existing
-        {
-            get
-            {
-                ThrowIfDestroyed();
-                return this;
-            }
-        }
-
         /// Number of times that vertices or triangles were changed.
         internal int Version { get; private set; }
 
         public IndexFormat indexFormat { get; set; }
-        public Bounds bounds { get => Existing.ownBounds; set => Existing.ownBounds = value; }
-        public int vertexCount => Existing.ownVertices.Count;
+        public Bounds bounds { get => this.Existing().ownBounds; set => this.Existing().ownBounds = value; }
+        public int vertexCount => this.Existing().ownVertices.Count;
 
         public int subMeshCount
         {
-            get => Existing.submeshes.Count;
+            get => this.Existing().submeshes.Count;
             set
             {
                 ThrowIfDestroyed();
@@ -50,14 +40,14 @@ namespace UnityEngine
             }
         }
 
-        public Vector3[] vertices { get => Existing.ownVertices.ToArray(); set => SetVertices(value); }
+        public Vector3[] vertices { get => this.Existing().ownVertices.ToArray(); set => SetVertices(value); }
 
         public int[] triangles
         {
             get
             {
                 var all = new List<int>();
-                foreach (var submesh in Existing.submeshes) all.AddRange(submesh);
+                foreach (var submesh in this.Existing().submeshes) all.AddRange(submesh);
                 return all.ToArray();
             }
             set
@@ -67,28 +57,26 @@ namespace UnityEngine
             }
         }
 
-        public Vector3[] normals { get => (Vector3[])Existing.ownNormals.Clone(); set => Existing.ownNormals = (Vector3[])value.Clone(); }
+        public Vector3[] normals { get => (Vector3[])this.Existing().ownNormals.Clone(); set => this.Existing().ownNormals = (Vector3[])value.Clone(); }
 
         public Color[] colors
         {
-            get => Existing.ownColors.ToArray();
+            get => this.Existing().ownColors.ToArray();
             set => SetColors(value);
         }
 
         public void GetVertices(List<Vector3> vertices)
         {
             vertices.Clear();
-            vertices.AddRange(Existing.ownVertices);
+            vertices.AddRange(this.Existing().ownVertices);
         }
 
         public void SetVertices(List<Vector3> inVertices) => Replace(ownVertices, inVertices);
         public void SetVertices(Vector3[] inVertices) => Replace(ownVertices, inVertices);
 
-        public void SetVertices(List<Vector3> inVertices, int start, int length) =>
-            Replace(ownVertices, inVertices.GetRange(start, length));
+        public void SetVertices(List<Vector3> inVertices, int start, int length) => Replace(ownVertices, inVertices.GetRange(start, length));
 
-        public void SetVertices(Vector3[] inVertices, int start, int length) =>
-            Replace(ownVertices, new ArraySegment<Vector3>(inVertices, start, length));
+        public void SetVertices(Vector3[] inVertices, int start, int length) => Replace(ownVertices, new ArraySegment<Vector3>(inVertices, start, length));
 
         public void SetColors(List<Color> inColors) => Replace(ownColors, inColors);
         public void SetColors(Color[] inColors) => Replace(ownColors, inColors);
@@ -138,7 +126,7 @@ namespace UnityEngine
 
         public void RecalculateBounds()
         {
-            if (Existing.ownVertices.Count == 0) return;
+            if (this.Existing().ownVertices.Count == 0) return;
             Vector3 least = ownVertices[0], most = ownVertices[0];
             foreach (var vertex in ownVertices)
             {

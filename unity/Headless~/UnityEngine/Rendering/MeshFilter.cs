@@ -5,19 +5,7 @@ namespace UnityEngine
         Mesh shared;
         Mesh own;
 
-        public Mesh sharedMesh
-        {
-            get
-            {
-                ThrowIfDestroyed();
-                return shared;
-            }
-            set
-            {
-                ThrowIfDestroyed();
-                shared = value;
-            }
-        }
+        public Mesh sharedMesh { get => this.Existing().shared; set => this.Existing().shared = value; }
 
         /// This filter's copy of the shared mesh, created on the first access. Without a shared mesh it is a new, empty mesh.
         public Mesh mesh

@@ -11,29 +11,8 @@ namespace UnityEngine
         Bounds? ownBounds;
         bool ownEnabled = true, ownsMaterial;
 
-        List<Material> assigned
-        {
-            get
-            {
-                ThrowIfDestroyed();
-                return ownMaterials;
-            }
-        }
-
-        public bool enabled
-        {
-            get
-            {
-                ThrowIfDestroyed();
-                return ownEnabled;
-            }
-            set
-            {
-                ThrowIfDestroyed();
-                ownEnabled = value;
-            }
-        }
-
+        List<Material> assigned => this.Existing().ownMaterials;
+        public bool enabled { get => this.Existing().ownEnabled; set => this.Existing().ownEnabled = value; }
         public bool isVisible => false;
         public ShadowCastingMode shadowCastingMode { get; set; } = ShadowCastingMode.On;
         public bool receiveShadows { get; set; } = true;
