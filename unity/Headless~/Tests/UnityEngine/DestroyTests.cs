@@ -1,4 +1,6 @@
+using System.Collections;
 using System.Collections.Generic;
+using System.Reflection;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.Headless;
@@ -122,6 +124,68 @@ namespace Collektive.Headless.Tests.Engine
             Assert.Throws<MissingReferenceException>(() => _ = holder.activeInHierarchy);
             Assert.Throws<MissingReferenceException>(() => holder.CompareTag("Untagged"));
             Assert.Throws<MissingReferenceException>(() => holder.layer = 3);
+        }
+
+        /// Calls every member that the engine declares, except generic ones.
+        [TestCase(typeof(Rigidbody))]
+        [TestCase(typeof(BoxCollider))]
+        [TestCase(typeof(SphereCollider))]
+        [TestCase(typeof(CapsuleCollider))]
+        [TestCase(typeof(MeshCollider))]
+        [TestCase(typeof(TerrainCollider))]
+        [TestCase(typeof(FixedJoint))]
+        [TestCase(typeof(HingeJoint))]
+        [TestCase(typeof(SpringJoint))]
+        [TestCase(typeof(MeshRenderer))]
+        [TestCase(typeof(MeshFilter))]
+        [TestCase(typeof(Part))]
+        [TestCase(typeof(GameObject))]
+        [TestCase(typeof(Transform))]
+        [TestCase(typeof(Mesh))]
+        [TestCase(typeof(Material))]
+        [TestCase(typeof(PhysicsMaterial))]
+        [TestCase(typeof(TerrainData))]
+        public void No_member_of_a_destroyed_object_can_be_used(System.Type type)
+        {
+            var holder = new GameObject();
+            var destroyed = type == typeof(GameObject) ? holder
+                : type == typeof(Transform) ? holder.transform
+                : type == typeof(Material) ? new Material(Shader.Find("Standard"))
+                : typeof(Component).IsAssignableFrom(type) ? holder.AddComponent(type)
+                : (Object)System.Activator.CreateInstance(type);
+            Object.DestroyImmediate(type == typeof(Transform) ? holder : destroyed);
+            var usable = new List<string>();
+            foreach (var method in type.GetMethods())
+            {
+                if (method.DeclaringType.Assembly != typeof(Object).Assembly || method.IsStatic || method.IsGenericMethod) continue;
+                if (method.GetBaseDefinition().DeclaringType == typeof(object)) continue;
+                if (method.Name == "get_gameObject" || method.Name == "GetEnumerator") continue; // C# answers without the engine
+                try
+                {
+                    method.Invoke(destroyed, System.Array.ConvertAll(method.GetParameters(), parameter => Value(parameter.ParameterType)));
+                    usable.Add(method.Name);
+                }
+                catch (TargetInvocationException error) when (error.InnerException is MissingReferenceException)
+                {
+                }
+                catch (TargetInvocationException error)
+                {
+                    usable.Add(method.Name + ": " + error.InnerException.GetType().Name);
+                }
+            }
+            Assert.That(string.Join(" ", usable), Is.Empty);
+        }
+
+        /// Returns a harmless argument.
+        static object Value(System.Type type)
+        {
+            if (type == typeof(string)) return "a";
+            if (type == typeof(System.Type)) return typeof(Transform);
+            if (type == typeof(Vector3)) return Vector3.one;
+            if (type == typeof(Transform)) return new GameObject().transform;
+            if (type == typeof(IEnumerator)) return new int[0].GetEnumerator();
+            if (type.IsArray) return System.Array.CreateInstance(type.GetElementType(), new int[type.GetArrayRank()]);
+            return type.IsValueType || type.IsGenericType ? System.Activator.CreateInstance(type.IsByRef ? type.GetElementType() : type) : null;
         }
     }
 }

@@ -196,44 +196,6 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void Destroyed_renderers_meshes_and_materials_cannot_be_used()
-        {
-            var thing = GameObject.CreatePrimitive(PrimitiveType.Cube);
-            var renderer = thing.GetComponent<MeshRenderer>();
-            var filter = thing.GetComponent<MeshFilter>();
-            var material = renderer.material;
-            var mesh = filter.mesh;
-            foreach (var one in new UnityEngine.Object[] { renderer, filter, material, mesh }) UnityEngine.Object.DestroyImmediate(one);
-            Assert.Throws<MissingReferenceException>(() => _ = renderer.material);
-            Assert.Throws<MissingReferenceException>(() => renderer.SetPropertyBlock(null));
-            Assert.Throws<MissingReferenceException>(() => _ = filter.mesh);
-            Assert.Throws<MissingReferenceException>(() => material.color = Color.red);
-            Assert.Throws<MissingReferenceException>(() => _ = mesh.vertices);
-            Assert.Throws<MissingReferenceException>(() => mesh.triangles = new int[0]);
-            Assert.Throws<MissingReferenceException>(() => renderer.enabled = false);
-            Assert.Throws<MissingReferenceException>(() => mesh.Clear());
-            Assert.Throws<MissingReferenceException>(() => _ = mesh.bounds);
-        }
-
-        [Test]
-        public void Destroyed_bodies_and_colliders_cannot_be_used()
-        {
-            var thing = GameObject.CreatePrimitive(PrimitiveType.Cube);
-            var body = thing.AddComponent<Rigidbody>();
-            var collider = thing.GetComponent<BoxCollider>();
-            UnityEngine.Object.DestroyImmediate(body);
-            UnityEngine.Object.DestroyImmediate(collider);
-            Assert.Throws<MissingReferenceException>(() => _ = body.linearVelocity);
-            Assert.Throws<MissingReferenceException>(() => body.mass = 2f);
-            Assert.Throws<MissingReferenceException>(() => body.isKinematic = true);
-            Assert.Throws<MissingReferenceException>(() => body.MovePosition(Vector3.one));
-            Assert.Throws<MissingReferenceException>(() => body.AddForce(Vector3.one));
-            Assert.Throws<MissingReferenceException>(() => _ = collider.attachedRigidbody);
-            Assert.Throws<MissingReferenceException>(() => _ = collider.bounds);
-            Assert.Throws<MissingReferenceException>(() => collider.isTrigger = true);
-        }
-
-        [Test]
         public void A_mesh_keeps_the_triangles_of_each_submesh()
         {
             var mesh = new Mesh { vertices = new Vector3[6], subMeshCount = 2 };

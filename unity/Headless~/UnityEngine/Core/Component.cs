@@ -35,7 +35,7 @@ namespace UnityEngine
 
         public T GetComponent<T>() => gameObject.GetComponent<T>();
         public Component GetComponent(Type type) => gameObject.GetComponent(type);
-        public int GetComponentIndex() => owner.components.IndexOf(this);
+        public int GetComponentIndex() => gameObject.components.IndexOf(this);
         public bool TryGetComponent<T>(out T component) => gameObject.TryGetComponent(out component);
         public bool TryGetComponent(Type type, out Component component) => gameObject.TryGetComponent(type, out component);
         public T[] GetComponents<T>() => gameObject.GetComponents<T>();

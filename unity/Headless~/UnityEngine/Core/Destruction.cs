@@ -93,7 +93,7 @@ namespace UnityEngine
 
         static void SendOnDestroy(Component component)
         {
-            if (component is MonoBehaviour script && script.didAwake && !script.destroyed) Messages.Send(script.messages.OnDestroy, script);
+            if (component is MonoBehaviour script && script.HasAwoken && !script.destroyed) Messages.Send(script.messages.OnDestroy, script);
         }
 
         static void Collect(GameObject gameObject, List<GameObject> into)

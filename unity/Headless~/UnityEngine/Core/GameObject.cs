@@ -15,7 +15,7 @@ namespace UnityEngine
         readonly Transform ownTransform;
         int ownLayer;
         string ownTag;
-        bool ownActivity, activity;
+        bool ownActivity, activity, ownStatic;
 
         public GameObject() : this("New Game Object") { }
 
@@ -45,7 +45,7 @@ namespace UnityEngine
         public Scene scene => transform.root.owner.sceneOfRoot;
         public string tag { get => Existing.ownTag; set => Existing.ownTag = value; }
         public bool CompareTag(string tag) => this.tag == tag;
-        public bool isStatic { get; set; }
+        public bool isStatic { get => Existing.ownStatic; set => Existing.ownStatic = value; }
         public bool activeSelf { get => Existing.ownActivity; private set => ownActivity = value; }
         public bool activeInHierarchy { get => Existing.activity; private set => activity = value; }
 

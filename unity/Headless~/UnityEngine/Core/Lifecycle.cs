@@ -16,7 +16,7 @@ namespace UnityEngine
         public static void Enabled(MonoBehaviour script)
         {
             script.enabling = ++enablings;
-            if (!script.didStart) Starting.Add(script);
+            if (!script.HasStarted) Starting.Add(script);
             if (script.messages.FixedUpdate != null) FixedUpdating.Add(script);
             if (script.messages.Update != null) Updating.Add(script);
             if (script.messages.LateUpdate != null) LateUpdating.Add(script);
@@ -73,8 +73,8 @@ namespace UnityEngine
             {
                 for (var cursor = Starting.Begin(); Starting.Next(ref cursor, out var script);)
                 {
-                    if (script.didStart) continue;
-                    script.didStart = true;
+                    if (script.HasStarted) continue;
+                    script.HasStarted = true;
                     Messages.Send(script.messages.Start, script);
                 }
                 Starting.ClearOld();

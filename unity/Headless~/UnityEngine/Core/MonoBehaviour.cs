@@ -12,22 +12,26 @@ namespace UnityEngine
 
         public MonoBehaviour() => messages = Messages.Of(GetType());
 
-        public bool useGUILayout { get; set; } = true; // has no effect: the stand-in's labels do not need a layout
-        public bool didAwake { get; private set; }
-        public bool didStart { get; internal set; }
+        internal bool HasAwoken, HasStarted;
+        bool laysOutGui = true;
+
+        // Has no effect: the stand-in's labels do not need a layout.
+        public bool useGUILayout { get => this.Existing().laysOutGui; set => this.Existing().laysOutGui = value; }
+        public bool didAwake => this.Existing().HasAwoken;
+        public bool didStart => this.Existing().HasStarted;
 
         public static void print(object message) => Debug.Log(message);
 
         public Coroutine StartCoroutine(IEnumerator routine) => CoroutineScheduler.Start(this, routine);
-        public void StopCoroutine(IEnumerator routine) => CoroutineScheduler.Stop(this, routine);
-        public void StopCoroutine(Coroutine routine) => CoroutineScheduler.Stop(this, routine);
-        public void StopAllCoroutines() => CoroutineScheduler.StopAll(this);
+        public void StopCoroutine(IEnumerator routine) => CoroutineScheduler.Stop(this.Existing(), routine);
+        public void StopCoroutine(Coroutine routine) => CoroutineScheduler.Stop(this.Existing(), routine);
+        public void StopAllCoroutines() => CoroutineScheduler.StopAll(this.Existing());
 
         internal override void Activate()
         {
-            if (!didAwake)
+            if (!HasAwoken)
             {
-                didAwake = true;
+                HasAwoken = true;
                 if (!Messages.Send(messages.Awake, this)) ownEnabled = false; // as in Unity, a script whose Awake throws is disabled
             }
             Enable();
@@ -41,7 +45,7 @@ namespace UnityEngine
 
         internal override void EnabledChanged()
         {
-            if (!didAwake) return;
+            if (!HasAwoken) return;
             if (ownEnabled) Enable();
             else Disable();
         }

@@ -37,10 +37,11 @@ namespace UnityEngine
         internal readonly int id = ++created;
         internal bool destroyed;
         string ownName = "";
+        HideFlags ownHideFlags;
 
         internal static void ForgetCount() => created = 0;
 
-        public HideFlags hideFlags { get; set; }
+        public HideFlags hideFlags { get => this.Existing().ownHideFlags; set => this.Existing().ownHideFlags = value; }
 
         public string name
         {

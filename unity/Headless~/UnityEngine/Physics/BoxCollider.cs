@@ -7,7 +7,7 @@ namespace UnityEngine
 
         public Vector3 center
         {
-            get => ownCenter;
+            get => this.Existing().ownCenter;
             set
             {
                 ownCenter = value;
@@ -17,7 +17,7 @@ namespace UnityEngine
 
         public Vector3 size
         {
-            get => ownSize;
+            get => this.Existing().ownSize;
             set
             {
                 ownSize = value;

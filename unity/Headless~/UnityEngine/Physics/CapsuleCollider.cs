@@ -14,7 +14,7 @@ namespace UnityEngine
 
         public Vector3 center
         {
-            get => ownCenter;
+            get => this.Existing().ownCenter;
             set
             {
                 ownCenter = value;
@@ -24,7 +24,7 @@ namespace UnityEngine
 
         public float radius
         {
-            get => ownRadius;
+            get => this.Existing().ownRadius;
             set
             {
                 ownRadius = value;
@@ -35,7 +35,7 @@ namespace UnityEngine
         /// Height including both caps. If it is less than the diameter, the shape is a sphere.
         public float height
         {
-            get => ownHeight;
+            get => this.Existing().ownHeight;
             set
             {
                 ownHeight = value;
@@ -46,7 +46,7 @@ namespace UnityEngine
         /// Axis of the capsule: 0, 1, 2 for x, y, z.
         public int direction
         {
-            get => ownDirection;
+            get => this.Existing().ownDirection;
             set
             {
                 if (value < 0 || value > 2)

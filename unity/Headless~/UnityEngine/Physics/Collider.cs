@@ -26,7 +26,7 @@ namespace UnityEngine
 
         public bool enabled
         {
-            get => ownEnabled;
+            get => this.Existing().ownEnabled;
             set
             {
                 ThrowIfDestroyed();
@@ -40,7 +40,7 @@ namespace UnityEngine
 
         public bool isTrigger
         {
-            get => ownIsTrigger;
+            get => this.Existing().ownIsTrigger;
             set
             {
                 ThrowIfDestroyed();
@@ -66,9 +66,10 @@ namespace UnityEngine
 
         public PhysicsMaterial sharedMaterial
         {
-            get => assignedMaterial;
+            get => this.Existing().assignedMaterial;
             set
             {
+                ThrowIfDestroyed();
                 assignedMaterial = value;
                 Refresh();
             }
@@ -79,6 +80,7 @@ namespace UnityEngine
         {
             get
             {
+                ThrowIfDestroyed();
                 if (ownMaterial && ReferenceEquals(ownMaterial, assignedMaterial)) return ownMaterial;
                 var name = assignedMaterial ? assignedMaterial.name : "Default";
                 return assignedMaterial = ownMaterial = new PhysicsMaterial(name + " (Instance)") { Values = MaterialValues };
@@ -91,10 +93,10 @@ namespace UnityEngine
         /// Whether physics can compute closest points of the shape.
         internal virtual bool HasClosestPoint => true;
 
-        public Vector3 ClosestPoint(Vector3 position) => Queries.ClosestPoint(this, position);
+        public Vector3 ClosestPoint(Vector3 position) => Queries.ClosestPoint(this.Existing(), position);
         public Vector3 ClosestPointOnBounds(Vector3 position) => bounds.ClosestPoint(position);
 
-        public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) => Queries.RaycastOne(this, ray, out hitInfo, maxDistance);
+        public bool Raycast(Ray ray, out RaycastHit hitInfo, float maxDistance) => Queries.RaycastOne(this.Existing(), ray, out hitInfo, maxDistance);
 
         /// Sets the size of a new collider of an object with a mesh.
         internal virtual void Fit(Mesh mesh) { }

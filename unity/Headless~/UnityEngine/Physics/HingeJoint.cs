@@ -35,12 +35,12 @@ namespace UnityEngine
         JointSpring ownSpring;
         bool ownUseMotor, ownUseLimits, ownUseSpring;
 
-        public JointMotor motor { get => ownMotor; set => Set(ref ownMotor, value); }
-        public JointLimits limits { get => ownLimits; set => Set(ref ownLimits, value); }
-        public JointSpring spring { get => ownSpring; set => Set(ref ownSpring, value); }
-        public bool useMotor { get => ownUseMotor; set => Set(ref ownUseMotor, value); }
-        public bool useLimits { get => ownUseLimits; set => Set(ref ownUseLimits, value); }
-        public bool useSpring { get => ownUseSpring; set => Set(ref ownUseSpring, value); }
+        public JointMotor motor { get => this.Existing().ownMotor; set => Set(ref ownMotor, value); }
+        public JointLimits limits { get => this.Existing().ownLimits; set => Set(ref ownLimits, value); }
+        public JointSpring spring { get => this.Existing().ownSpring; set => Set(ref ownSpring, value); }
+        public bool useMotor { get => this.Existing().ownUseMotor; set => Set(ref ownUseMotor, value); }
+        public bool useLimits { get => this.Existing().ownUseLimits; set => Set(ref ownUseLimits, value); }
+        public bool useSpring { get => this.Existing().ownUseSpring; set => Set(ref ownUseSpring, value); }
 
         /// Angular velocity about the axis relative to the connected body, in degrees per second.
         public float velocity

@@ -14,15 +14,15 @@ namespace UnityEngine
         bool active;
         (Physx.Pose Own, Physx.Pose Other)? frames; // of the joint in the two bodies; null before they are connected
 
-        public Rigidbody connectedBody { get => ownConnectedBody; set => Reconnect(ref ownConnectedBody, value); }
+        public Rigidbody connectedBody { get => this.Existing().ownConnectedBody; set => Reconnect(ref ownConnectedBody, value); }
         /// Axis of a hinge in the body's frame.
-        public Vector3 axis { get => ownAxis; set => Reconnect(ref ownAxis, value); }
-        public Vector3 anchor { get => ownAnchor; set => Reconnect(ref ownAnchor, value); }
+        public Vector3 axis { get => this.Existing().ownAxis; set => Reconnect(ref ownAxis, value); }
+        public Vector3 anchor { get => this.Existing().ownAnchor; set => Reconnect(ref ownAnchor, value); }
 
         /// Anchor in the frame of the connected body or of the world.
         public Vector3 connectedAnchor
         {
-            get => ownConnectedAnchor;
+            get => this.Existing().ownConnectedAnchor;
             set
             {
                 ownAutoConfigure = false;
@@ -31,12 +31,12 @@ namespace UnityEngine
         }
 
         /// Whether the connected anchor is computed from the anchor.
-        public bool autoConfigureConnectedAnchor { get => ownAutoConfigure; set => Reconnect(ref ownAutoConfigure, value); }
+        public bool autoConfigureConnectedAnchor { get => this.Existing().ownAutoConfigure; set => Reconnect(ref ownAutoConfigure, value); }
 
         /// Force in newtons above which `OnJointBreak` is sent and the joint is destroyed.
-        public float breakForce { get => ownBreakForce; set => Set(ref ownBreakForce, value); }
-        public float breakTorque { get => ownBreakTorque; set => Set(ref ownBreakTorque, value); }
-        public bool enableCollision { get => ownCollision; set => Set(ref ownCollision, value); }
+        public float breakForce { get => this.Existing().ownBreakForce; set => Set(ref ownBreakForce, value); }
+        public float breakTorque { get => this.Existing().ownBreakTorque; set => Set(ref ownBreakTorque, value); }
+        public bool enableCollision { get => this.Existing().ownCollision; set => Set(ref ownCollision, value); }
 
         internal Rigidbody Body => owner.GetComponent<Rigidbody>();
 
@@ -44,6 +44,7 @@ namespace UnityEngine
 
         internal void Set<T>(ref T field, T value)
         {
+            ThrowIfDestroyed();
             field = value;
             Refresh();
         }

@@ -15,10 +15,10 @@ namespace UnityEngine
 
         public bool convex
         {
-            get => ownConvex;
+            get => this.Existing().ownConvex;
             set
             {
-                if (ownConvex == value) return;
+                if (convex == value) return;
                 ownConvex = value;
                 MeshChanged();
             }
@@ -27,7 +27,7 @@ namespace UnityEngine
         /// As in Unity, assign the mesh again after changing its vertices.
         public Mesh sharedMesh
         {
-            get => ownMesh;
+            get => this.Existing().ownMesh;
             set
             {
                 ownMesh = value;

@@ -31,20 +31,21 @@ namespace UnityEngine
             }
         }
 
-        public float bounciness { get => values.Bounciness; set => Set(ref values.Bounciness, Mathf.Clamp01(value)); }
-        public float dynamicFriction { get => values.DynamicFriction; set => Set(ref values.DynamicFriction, Mathf.Max(0f, value)); }
-        public float staticFriction { get => values.StaticFriction; set => Set(ref values.StaticFriction, Mathf.Max(0f, value)); }
+        public float bounciness { get => this.Existing().values.Bounciness; set => Set(ref values.Bounciness, Mathf.Clamp01(value)); }
+        public float dynamicFriction { get => this.Existing().values.DynamicFriction; set => Set(ref values.DynamicFriction, Mathf.Max(0f, value)); }
+        public float staticFriction { get => this.Existing().values.StaticFriction; set => Set(ref values.StaticFriction, Mathf.Max(0f, value)); }
 
         public PhysicsMaterialCombine frictionCombine
         {
-            get => FromPhysx(values.FrictionCombine);
+            get => FromPhysx(this.Existing().values.FrictionCombine);
             set => Set(ref values.FrictionCombine, ToPhysx(value));
         }
 
-        public PhysicsMaterialCombine bounceCombine { get => FromPhysx(values.BounceCombine); set => Set(ref values.BounceCombine, ToPhysx(value)); }
+        public PhysicsMaterialCombine bounceCombine { get => FromPhysx(this.Existing().values.BounceCombine); set => Set(ref values.BounceCombine, ToPhysx(value)); }
 
-        static void Set<T>(ref T field, T value)
+        void Set<T>(ref T field, T value)
         {
+            ThrowIfDestroyed();
             field = value;
             Changes++;
         }

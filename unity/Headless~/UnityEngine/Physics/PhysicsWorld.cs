@@ -286,7 +286,7 @@ namespace UnityEngine
             if (!joint) return;
             var target = joint.owner;
             for (var index = 0; index < target.components.Count; index++)
-                if (target.components[index] is MonoBehaviour script && script.didAwake) Messages.Send(script.messages.OnJointBreak, script, force);
+                if (target.components[index] is MonoBehaviour script && script.HasAwoken) Messages.Send(script.messages.OnJointBreak, script, force);
             Object.Destroy(joint);
         }
 

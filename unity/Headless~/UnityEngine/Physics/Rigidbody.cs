@@ -61,6 +61,7 @@ namespace UnityEngine
         bool kinematic, gravity = true;
         RigidbodyConstraints ownConstraints;
         CollisionDetectionMode detection;
+        RigidbodyInterpolation ownInterpolation;
         float ownLinearDamping, ownAngularDamping = 0.05f, ownMaxLinear = 1e16f, ownMaxAngular = 7f, ownDepenetration = DefaultDepenetration;
         float ownSleepThreshold = DefaultSleepThreshold;
         int iterations = DefaultIterations, velocityIterations = DefaultVelocityIterations;
@@ -76,11 +77,11 @@ namespace UnityEngine
 
         // ---- Properties -----------------------------------------------------------------------------------------------
 
-        public RigidbodyInterpolation interpolation { get; set; }
+        public RigidbodyInterpolation interpolation { get => this.Existing().ownInterpolation; set => this.Existing().ownInterpolation = value; }
 
         public bool useGravity
         {
-            get => gravity;
+            get => this.Existing().gravity;
             set
             {
                 gravity = value;
@@ -90,7 +91,7 @@ namespace UnityEngine
 
         public float linearDamping
         {
-            get => ownLinearDamping;
+            get => this.Existing().ownLinearDamping;
             set
             {
                 ownLinearDamping = Mathf.Max(0f, value);
@@ -100,7 +101,7 @@ namespace UnityEngine
 
         public float angularDamping
         {
-            get => ownAngularDamping;
+            get => this.Existing().ownAngularDamping;
             set
             {
                 ownAngularDamping = Mathf.Max(0f, value);
@@ -110,7 +111,7 @@ namespace UnityEngine
 
         public float maxLinearVelocity
         {
-            get => ownMaxLinear;
+            get => this.Existing().ownMaxLinear;
             set
             {
                 ownMaxLinear = Mathf.Clamp(value, 0f, 1e16f); // PhysX squares it
@@ -120,7 +121,7 @@ namespace UnityEngine
 
         public float maxAngularVelocity
         {
-            get => ownMaxAngular;
+            get => this.Existing().ownMaxAngular;
             set
             {
                 ownMaxAngular = Mathf.Clamp(value, 0f, 1e16f);
@@ -131,7 +132,7 @@ namespace UnityEngine
         /// Maximum speed at which the solver separates the body from overlapping shapes.
         public float maxDepenetrationVelocity
         {
-            get => ownDepenetration;
+            get => this.Existing().ownDepenetration;
             set
             {
                 ownDepenetration = Mathf.Clamp(value, 1e-3f, 1e16f);
@@ -141,7 +142,7 @@ namespace UnityEngine
 
         public CollisionDetectionMode collisionDetectionMode
         {
-            get => detection;
+            get => this.Existing().detection;
             set
             {
                 detection = value;
@@ -153,7 +154,7 @@ namespace UnityEngine
         /// Kinetic energy per kilogram below which the body falls asleep.
         public float sleepThreshold
         {
-            get => ownSleepThreshold;
+            get => this.Existing().ownSleepThreshold;
             set
             {
                 ownSleepThreshold = Mathf.Max(0f, value);
@@ -163,7 +164,7 @@ namespace UnityEngine
 
         public int solverIterations
         {
-            get => iterations;
+            get => this.Existing().iterations;
             set
             {
                 iterations = Mathf.Clamp(value, 1, 255);
@@ -173,7 +174,7 @@ namespace UnityEngine
 
         public int solverVelocityIterations
         {
-            get => velocityIterations;
+            get => this.Existing().velocityIterations;
             set
             {
                 velocityIterations = Mathf.Clamp(value, 1, 255);
@@ -183,7 +184,7 @@ namespace UnityEngine
 
         public float mass
         {
-            get => ownMass;
+            get => this.Existing().ownMass;
             set
             {
                 ownMass = Mathf.Clamp(value, 1e-7f, 1e9f);
@@ -193,7 +194,7 @@ namespace UnityEngine
 
         public bool isKinematic
         {
-            get => kinematic;
+            get => this.Existing().kinematic;
             set
             {
                 ThrowIfDestroyed();
@@ -213,7 +214,7 @@ namespace UnityEngine
 
         public RigidbodyConstraints constraints
         {
-            get => ownConstraints;
+            get => this.Existing().ownConstraints;
             set
             {
                 ownConstraints = value;
@@ -223,14 +224,15 @@ namespace UnityEngine
 
         public bool freezeRotation
         {
-            get => (ownConstraints & RigidbodyConstraints.FreezeRotation) == RigidbodyConstraints.FreezeRotation;
+            get => (constraints & RigidbodyConstraints.FreezeRotation) == RigidbodyConstraints.FreezeRotation;
             set => constraints = value ? ownConstraints | RigidbodyConstraints.FreezeRotation : ownConstraints & ~RigidbodyConstraints.FreezeRotation;
         }
 
         bool TakesVelocity(string kind)
         {
-            if (isKinematic) Debug.LogWarning($"Setting {kind} velocity of a kinematic body is not supported.", this);
-            return !isKinematic && Registered; // as in Unity, setting the velocity of an inactive body has no effect
+            ThrowIfDestroyed();
+            if (kinematic) Debug.LogWarning($"Setting {kind} velocity of a kinematic body is not supported.", this);
+            return !kinematic && Registered; // as in Unity, setting the velocity of an inactive body has no effect
         }
 
         public Vector3 linearVelocity
@@ -279,7 +281,7 @@ namespace UnityEngine
         {
             get
             {
-                if (!Registered) return ownCenter ?? Vector3.zero;
+                if (!Registered) return this.Existing().ownCenter ?? Vector3.zero;
                 PhysicsWorld.Flush();
                 Vector3 center;
                 Physx.physics_mass_center(PhysicsWorld.Handle, Handle, &center);
@@ -295,7 +297,7 @@ namespace UnityEngine
 
         public bool automaticCenterOfMass
         {
-            get => ownCenter == null;
+            get => this.Existing().ownCenter == null;
             set
             {
                 ownCenter = value ? (Vector3?)null : centerOfMass;
@@ -343,7 +345,7 @@ namespace UnityEngine
 
         public bool automaticInertiaTensor
         {
-            get => ownInertia == null;
+            get => this.Existing().ownInertia == null;
             set
             {
                 ownInertia = value ? (Vector3?)null : Inertia(out ownInertiaRotation);
@@ -355,7 +357,7 @@ namespace UnityEngine
 
         unsafe Vector3 Inertia(out Quaternion turn)
         {
-            turn = ownInertiaRotation;
+            turn = this.Existing().ownInertiaRotation;
             if (!Registered) return ownInertia ?? Vector3.one;
             PhysicsWorld.Flush();
             Vector3 diagonal;
@@ -391,6 +393,7 @@ namespace UnityEngine
         /// Adds a force, which takes effect in the next step. As in Unity, a zero force does not wake the body.
         public void AddForce(Vector3 force, ForceMode mode)
         {
+            ThrowIfDestroyed();
             if (!Finite.Accepts(force, "Rigidbody.AddForce", this) || kinematic || force.Equals(Vector3.zero)) return;
             Motion.Asleep = 0;
             Order(Physx.Order.Force + Number(mode), force);
@@ -407,6 +410,7 @@ namespace UnityEngine
 
         public void AddTorque(Vector3 torque, ForceMode mode)
         {
+            ThrowIfDestroyed();
             if (!Finite.Accepts(torque, "Rigidbody.AddTorque", this) || kinematic || torque.Equals(Vector3.zero)) return;
             Motion.Asleep = 0;
             Order(Physx.Order.Torque + Number(mode), torque);
@@ -452,18 +456,18 @@ namespace UnityEngine
 
         public bool SweepTest(Vector3 direction, out RaycastHit hitInfo, float maxDistance = Mathf.Infinity,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.Sweep(this, direction, out hitInfo, maxDistance, queryTriggerInteraction);
+            Queries.Sweep(this.Existing(), direction, out hitInfo, maxDistance, queryTriggerInteraction);
 
         public RaycastHit[] SweepTestAll(Vector3 direction, float maxDistance = Mathf.Infinity,
             QueryTriggerInteraction queryTriggerInteraction = QueryTriggerInteraction.UseGlobal) =>
-            Queries.SweepAll(this, direction, maxDistance, queryTriggerInteraction);
+            Queries.SweepAll(this.Existing(), direction, maxDistance, queryTriggerInteraction);
 
         /// Returns the nearest point on the bounds of the body's colliders.
         public Vector3 ClosestPointOnBounds(Vector3 position)
         {
             var best = position;
             var least = float.PositiveInfinity;
-            foreach (var collider in Colliders)
+            foreach (var collider in this.Existing().Colliders)
             {
                 var point = collider.ClosestPointOnBounds(position);
                 var distance = (point - position).sqrMagnitude;
@@ -615,7 +619,7 @@ namespace UnityEngine
             ownMaxAngular = other.ownMaxAngular;
             ownDepenetration = other.ownDepenetration;
             detection = other.detection;
-            interpolation = other.interpolation;
+            ownInterpolation = other.ownInterpolation;
             ownSleepThreshold = other.ownSleepThreshold;
             iterations = other.iterations;
             velocityIterations = other.velocityIterations;

@@ -7,7 +7,7 @@ namespace UnityEngine
 
         public Vector3 center
         {
-            get => ownCenter;
+            get => this.Existing().ownCenter;
             set
             {
                 ownCenter = value;
@@ -17,7 +17,7 @@ namespace UnityEngine
 
         public float radius
         {
-            get => ownRadius;
+            get => this.Existing().ownRadius;
             set
             {
                 ownRadius = value;

@@ -5,11 +5,11 @@ namespace UnityEngine
         float ownSpring = 10f, ownDamper = 0.2f, ownMinDistance, ownMaxDistance, ownTolerance = 0.025f;
 
         /// Newtons per metre.
-        public float spring { get => ownSpring; set => Set(ref ownSpring, value); }
-        public float damper { get => ownDamper; set => Set(ref ownDamper, value); }
-        public float minDistance { get => ownMinDistance; set => Set(ref ownMinDistance, value); }
-        public float maxDistance { get => ownMaxDistance; set => Set(ref ownMaxDistance, value); }
-        public float tolerance { get => ownTolerance; set => Set(ref ownTolerance, value); }
+        public float spring { get => this.Existing().ownSpring; set => Set(ref ownSpring, value); }
+        public float damper { get => this.Existing().ownDamper; set => Set(ref ownDamper, value); }
+        public float minDistance { get => this.Existing().ownMinDistance; set => Set(ref ownMinDistance, value); }
+        public float maxDistance { get => this.Existing().ownMaxDistance; set => Set(ref ownMaxDistance, value); }
+        public float tolerance { get => this.Existing().ownTolerance; set => Set(ref ownTolerance, value); }
 
         internal override void Describe(ref Physx.Joint joint)
         {

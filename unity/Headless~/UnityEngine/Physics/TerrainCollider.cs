@@ -13,7 +13,7 @@ namespace UnityEngine
 
         public TerrainData terrainData
         {
-            get => ownData;
+            get => this.Existing().ownData;
             set
             {
                 ownData = value;

@@ -20,7 +20,7 @@ namespace UnityEngine
         /// heights to 0. As in Unity, it keeps the distance between samples, and so changes the size.
         public int heightmapResolution
         {
-            get => heights.GetLength(0);
+            get => this.Existing().heights.GetLength(0);
             set
             {
                 var resolution = MinResolution;
@@ -33,23 +33,25 @@ namespace UnityEngine
         }
 
         /// Metres between samples along x and z, and the maximum height in metres as y.
-        public Vector3 heightmapScale => new Vector3(ownSize.x / (heightmapResolution - 1), ownSize.y, ownSize.z / (heightmapResolution - 1));
+        public Vector3 heightmapScale => new Vector3(size.x / (heightmapResolution - 1), ownSize.y, ownSize.z / (heightmapResolution - 1));
 
         public Vector3 size
         {
-            get => ownSize;
+            get => this.Existing().ownSize;
             set
             {
+                ThrowIfDestroyed();
                 ownSize = value;
                 Changed();
             }
         }
 
-        public float GetHeight(int x, int y) => ownSize.y * heights[Inside(y), Inside(x)];
+        public float GetHeight(int x, int y) => size.y * heights[Inside(y), Inside(x)];
 
         /// Sets a block of heights. `heights` has a row for each sample along z.
         public void SetHeights(int xBase, int yBase, float[,] heights)
         {
+            ThrowIfDestroyed();
             int rows = heights.GetLength(0), columns = heights.GetLength(1);
             if (xBase < 0 || yBase < 0 || xBase + columns > heightmapResolution || yBase + rows > heightmapResolution)
                 throw new ArgumentException("The heights are outside the height map, which has " + heightmapResolution + " samples along each side.");
@@ -60,6 +62,7 @@ namespace UnityEngine
 
         public float[,] GetHeights(int xBase, int yBase, int width, int height)
         {
+            ThrowIfDestroyed();
             var part = new float[height, width];
             for (var row = 0; row < height; row++)
                 for (var column = 0; column < width; column++) part[row, column] = heights[yBase + row, xBase + column];

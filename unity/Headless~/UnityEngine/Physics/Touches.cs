@@ -102,7 +102,7 @@ namespace UnityEngine
             if ((to.touchMessages & (phase == Physx.Phase.Stay ? TouchMessages.TriggerStay : TouchMessages.TriggerChange)) == 0) return;
             for (var index = 0; index < to.components.Count && to.activeInHierarchy; index++)
             {
-                if (!(to.components[index] is MonoBehaviour script) || !script.didAwake) continue;
+                if (!(to.components[index] is MonoBehaviour script) || !script.HasAwoken) continue;
                 var messages = script.messages;
                 Messages.Send(phase == Physx.Phase.Exit ? messages.OnTriggerExit : phase == Physx.Phase.Enter ? messages.OnTriggerEnter
                     : messages.OnTriggerStay, script, other);
@@ -125,7 +125,7 @@ namespace UnityEngine
             Fill(touches[touch], to, other, sign);
             for (var index = 0; index < target.components.Count && target.activeInHierarchy; index++)
             {
-                if (!(target.components[index] is MonoBehaviour script) || !script.didAwake) continue;
+                if (!(target.components[index] is MonoBehaviour script) || !script.HasAwoken) continue;
                 var messages = script.messages;
                 Messages.Send(phase == Physx.Phase.Exit ? messages.OnCollisionExit : phase == Physx.Phase.Enter ? messages.OnCollisionEnter
                     : messages.OnCollisionStay, script, message);

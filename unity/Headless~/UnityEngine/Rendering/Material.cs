@@ -13,6 +13,9 @@ namespace UnityEngine
         internal static void ResetState() => shared = null;
 
         readonly MaterialPropertyBlock ownProperties = new MaterialPropertyBlock();
+        Shader ownShader;
+        bool isInstanced;
+        int queue = -1;
 
         MaterialPropertyBlock properties => this.Existing().ownProperties;
 
@@ -31,9 +34,9 @@ namespace UnityEngine
             properties.CopyFrom(source.properties);
         }
 
-        public Shader shader { get; set; }
-        public bool enableInstancing { get; set; }
-        public int renderQueue { get; set; } = -1;
+        public Shader shader { get => this.Existing().ownShader; set => this.Existing().ownShader = value; }
+        public bool enableInstancing { get => this.Existing().isInstanced; set => this.Existing().isInstanced = value; }
+        public int renderQueue { get => this.Existing().queue; set => this.Existing().queue = value; }
         public Color color { get => GetColor(ColorId); set => SetColor(ColorId, value); }
 
         public bool HasProperty(string name) => HasProperty(Shader.PropertyToID(name));
@@ -46,8 +49,8 @@ namespace UnityEngine
         public void SetColor(int nameID, Color value) => properties.SetColor(nameID, value);
         public Color GetColor(string name) => properties.GetColor(name);
         public Color GetColor(int nameID) => properties.GetColor(nameID);
-        public void EnableKeyword(string keyword) { }
-        public void DisableKeyword(string keyword) { }
+        public void EnableKeyword(string keyword) => ThrowIfDestroyed();
+        public void DisableKeyword(string keyword) => ThrowIfDestroyed();
     }
 
     public sealed class Shader : Object

@@ -19,12 +19,13 @@ namespace UnityEngine
         Vector3[] ownNormals = Array.Empty<Vector3>();
         readonly List<Color> ownColors = new List<Color>();
         Bounds ownBounds;
+        IndexFormat format;
         readonly List<List<int>> submeshes = new List<List<int>> { new List<int>() };
 
         /// Number of times that vertices or triangles were changed.
         internal int Version { get; private set; }
 
-        public IndexFormat indexFormat { get; set; }
+        public IndexFormat indexFormat { get => this.Existing().format; set => this.Existing().format = value; }
         public Bounds bounds { get => this.Existing().ownBounds; set => this.Existing().ownBounds = value; }
         public int vertexCount => this.Existing().ownVertices.Count;
 
@@ -136,9 +137,9 @@ namespace UnityEngine
             bounds = new Bounds((least + most) * 0.5f, most - least);
         }
 
-        public void RecalculateNormals() { }
-        public void MarkDynamic() { }
-        public void UploadMeshData(bool markNoLongerReadable) { }
+        public void RecalculateNormals() => ThrowIfDestroyed();
+        public void MarkDynamic() => ThrowIfDestroyed();
+        public void UploadMeshData(bool markNoLongerReadable) => ThrowIfDestroyed();
 
         static readonly Mesh[] Primitives = new Mesh[Enum.GetValues(typeof(PrimitiveType)).Length];
 

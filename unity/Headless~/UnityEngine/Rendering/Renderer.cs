@@ -9,14 +9,25 @@ namespace UnityEngine
         readonly List<Material> ownMaterials = new List<Material>();
         MaterialPropertyBlock block;
         Bounds? ownBounds;
-        bool ownEnabled = true, ownsMaterial;
+        bool ownEnabled = true, ownsMaterial, takesShadows = true;
+        ShadowCastingMode ownShadows = ShadowCastingMode.On;
+        int order;
 
         List<Material> assigned => this.Existing().ownMaterials;
         public bool enabled { get => this.Existing().ownEnabled; set => this.Existing().ownEnabled = value; }
-        public bool isVisible => false;
-        public ShadowCastingMode shadowCastingMode { get; set; } = ShadowCastingMode.On;
-        public bool receiveShadows { get; set; } = true;
-        public int sortingOrder { get; set; }
+
+        public bool isVisible
+        {
+            get
+            {
+                ThrowIfDestroyed();
+                return false;
+            }
+        }
+
+        public ShadowCastingMode shadowCastingMode { get => this.Existing().ownShadows; set => this.Existing().ownShadows = value; }
+        public bool receiveShadows { get => this.Existing().takesShadows; set => this.Existing().takesShadows = value; }
+        public int sortingOrder { get => this.Existing().order; set => this.Existing().order = value; }
 
         public Bounds bounds
         {
@@ -34,7 +45,7 @@ namespace UnityEngine
                         Mathf.Abs(x.z) + Mathf.Abs(y.z) + Mathf.Abs(z.z));
                 return new Bounds(matrix.MultiplyPoint3x4(mesh.bounds.center), reach * 2f);
             }
-            set => ownBounds = value;
+            set => this.Existing().ownBounds = value;
         }
 
         public Material sharedMaterial
