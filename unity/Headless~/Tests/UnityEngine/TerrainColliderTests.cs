@@ -63,6 +63,18 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_terrain_that_had_no_shape_gets_one_when_its_data_become_valid()
+        {
+            var data = Slope();
+            data.size = new Vector3(64f, float.NaN, 64f);
+            Terrain(data, Vector3.zero);
+            Physics.SyncTransforms();
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            data.size = new Vector3(64f, 100f, 64f);
+            Assert.That(HeightAt(20f, 40f), Is.EqualTo(10f).Within(1e-3f));
+        }
+
+        [Test]
         public void A_ball_lands_on_changed_heights()
         {
             var data = Slope();

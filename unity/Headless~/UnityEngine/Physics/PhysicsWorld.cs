@@ -12,6 +12,7 @@ namespace UnityEngine
         static readonly List<Transform> Moved = new List<Transform>();
         static readonly List<Joint> Joints = new List<Joint>();
         static readonly List<Rigidbody> Unpublished = new List<Rigidbody>();
+        static readonly List<TerrainCollider> Terrains = new List<TerrainCollider>();
         static readonly Touches Touching = new Touches();
 
         static readonly List<Rigidbody> Nested = new List<Rigidbody>(); // their transforms have parents
@@ -88,6 +89,9 @@ namespace UnityEngine
 
         public static void Add(Joint joint) => Joints.Add(joint);
         public static void Remove(Joint joint) => Joints.Remove(joint);
+
+        public static void Add(TerrainCollider terrain) => Terrains.Add(terrain);
+        public static void Remove(TerrainCollider terrain) => Terrains.Remove(terrain);
 
         /// Adds a body, and creates the joints that wait for it.
         public static void Connect(Rigidbody body)
@@ -302,7 +306,7 @@ namespace UnityEngine
         {
             if (terrainChanges == TerrainData.Changes) return;
             terrainChanges = TerrainData.Changes;
-            foreach (var collider in colliders) (collider as TerrainCollider)?.Refresh();
+            foreach (var terrain in Terrains) terrain.Refresh();
         }
 
         static void LogErrors()

@@ -47,11 +47,18 @@ namespace UnityEngine
         {
             var problem = cooked.Cook(TerrainMesh.Points(ownData, 1), TerrainMesh.Triangles(ownData.heightmapResolution), false);
             cookedVersion = ownData.Version;
-            if (problem != null) Debug.LogError($"The terrain of '{NameImpl}' cannot be a collider: {problem}", this);
+            if (problem != null) Refuse($"The terrain cannot be a collider: {problem}");
+        }
+
+        internal override void Activate()
+        {
+            PhysicsWorld.Add(this);
+            base.Activate();
         }
 
         internal override void Deactivate()
         {
+            PhysicsWorld.Remove(this);
             base.Deactivate();
             cooked.Release();
         }
