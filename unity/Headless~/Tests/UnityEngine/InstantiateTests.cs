@@ -107,6 +107,36 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Serializable]
+        public struct Timer
+        {
+            public float period;
+            [NonSerialized] public int ticks;
+            readonly float rate;
+
+            public Timer(float rate) : this() => this.rate = rate;
+
+            public float Rate => rate;
+        }
+
+        public class TimerOwner : MonoBehaviour
+        {
+            public Timer timer = new Timer(2f);
+            public Timer[] timers = { };
+        }
+
+        [Test]
+        public void Fields_of_structs_that_Unity_does_not_serialise_have_their_initial_values_in_a_copy()
+        {
+            var original = Add<TimerOwner>();
+            original.timer = new Timer(3f) { period = 0.5f, ticks = 4 };
+            original.timers = new[] { original.timer };
+            var copy = UnityEngine.Object.Instantiate(original);
+            Assert.That((copy.timer.period, copy.timer.ticks, copy.timer.Rate), Is.EqualTo((0.5f, 0, 2f)));
+            Assert.That((copy.timers[0].period, copy.timers[0].ticks, copy.timers[0].Rate), Is.EqualTo((0.5f, 0, 0f)));
+            Assert.That(original.timer.ticks, Is.EqualTo(4));
+        }
+
+        [Serializable]
         public class Table : ISerializationCallbackReceiver
         {
             public List<int> keys = new List<int>();

@@ -96,7 +96,8 @@ namespace UnityEngine
             for (var level = type; level != stopAt && level != typeof(object); level = level.BaseType)
                 foreach (var field in level.GetFields(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
                     if (IsSerialized(field))
-                        field.SetValue(copy, CopyValue(field.GetValue(original), field.FieldType, field.IsDefined(typeof(SerializeReference)), depth));
+                        field.SetValue(copy, CopyValue(field.GetValue(original), field.FieldType, field.IsDefined(typeof(SerializeReference)), depth,
+                            field.GetValue(copy)));
             if (copy is ISerializationCallbackReceiver deserialized) Headless.Loop.InvokeAll(deserialized.OnAfterDeserialize);
         }
 
@@ -121,8 +122,9 @@ namespace UnityEngine
                 && !library.StartsWith("System.", StringComparison.Ordinal);
         }
 
-        /// As in Unity, copies of null are empty, and objects have the declared type, except for references. Values in each other end at a depth limit.
-        object CopyValue(object value, Type type, bool byReference, int depth)
+        /// As in Unity, copies of null are empty, and objects have the declared type, except for references. Values in each other end at a depth limit. A struct
+        /// in a field keeps the fields of its current value that are not serialised.
+        object CopyValue(object value, Type type, bool byReference, int depth, object current = null)
         {
             if (value is Object reference) return copies.TryGetValue(reference, out var copied) ? copied : reference;
             if (type == typeof(string)) return value ?? "";
@@ -152,8 +154,7 @@ namespace UnityEngine
                 return type.IsValueType ? value : null;
             }
             value ??= Create(type);
-            // A struct with callbacks must not share the objects that they restore.
-            var copy = type.IsValueType && !(value is ISerializationCallbackReceiver) ? value : Create(type);
+            var copy = type.IsValueType && current != null ? current : Create(type);
             if (byReference) references.Add(value, copy);
             CopyFields(value, copy, type, typeof(object), byReference ? 0 : depth + 1);
             return copy;
