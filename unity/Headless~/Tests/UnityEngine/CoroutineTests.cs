@@ -236,6 +236,25 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Notes, Has.No.Member("b"));
         }
 
+        public class LastWish : MonoBehaviour
+        {
+            void OnDestroy() => StartCoroutine(Speak());
+
+            IEnumerator Speak()
+            {
+                yield return null;
+                Notes.Add("spoken");
+            }
+        }
+
+        [Test]
+        public void A_coroutine_that_OnDestroy_starts_ends_with_its_script()
+        {
+            Object.Destroy(Add<LastWish>());
+            Frames(3);
+            Assert.That(Notes, Is.Empty);
+        }
+
         [Test]
         public void Start_can_be_a_coroutine()
         {

@@ -93,7 +93,9 @@ namespace UnityEngine
 
         static void SendOnDestroy(Component component)
         {
-            if (component is MonoBehaviour script && script.HasAwoken && !script.destroyed) Messages.Send(script.messages.OnDestroy, script);
+            if (!(component is MonoBehaviour script) || !script.HasAwoken || script.destroyed) return;
+            Messages.Send(script.messages.OnDestroy, script);
+            script.StopAllCoroutines();
         }
 
         static void Collect(GameObject gameObject, List<GameObject> into)
