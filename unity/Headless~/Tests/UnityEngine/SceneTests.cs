@@ -61,6 +61,14 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void FindObjectsByType_can_sort_by_creation()
+        {
+            Transform first = new GameObject().transform, second = new GameObject().transform;
+            first.SetParent(second);
+            Assert.That(Object.FindObjectsByType<Transform>(FindObjectsSortMode.InstanceID), Is.EqualTo(new[] { first, second }));
+        }
+
+        [Test]
         public void Find_follows_the_path_in_a_name()
         {
             GameObject robot = new GameObject("Robot"), arm = new GameObject("Arm"), hand = new GameObject("Hand");

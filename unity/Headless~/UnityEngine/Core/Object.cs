@@ -129,6 +129,7 @@ namespace UnityEngine
                 if (typeof(T) != typeof(GameObject)) found.AddRange(root.GetComponentsInChildren<T>(inactiveToo));
                 else foreach (var transform in root.GetComponentsInChildren<Transform>(inactiveToo)) found.Add((T)(Object)transform.owner);
             }
+            if (sortMode == FindObjectsSortMode.InstanceID) found.Sort((a, b) => a.id.CompareTo(b.id));
             return found.ToArray();
         }
 
