@@ -113,6 +113,17 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Renderers_with_the_same_assigned_material_have_their_own_copies()
+        {
+            Renderer a = Add<MeshRenderer>(), b = Add<MeshRenderer>();
+            var shared = a.material = b.material = new Material(Shader.Find("Standard"));
+            a.material.color = Color.red;
+            Assert.That(b.material.color, Is.EqualTo(Color.white));
+            Assert.That(shared.color, Is.EqualTo(Color.white));
+            Assert.That(a.material, Is.SameAs(a.sharedMaterial).And.Not.SameAs(shared));
+        }
+
+        [Test]
         public void Draws_are_recorded_for_one_frame()
         {
             var parameters = new RenderParams(new Material(Shader.Find("Standard")));

@@ -95,7 +95,7 @@ namespace UnityEngine
         {
             if (!(component is MonoBehaviour script) || !script.HasAwoken || script.destroyed) return;
             Messages.Send(script.messages.OnDestroy, script);
-            script.StopAllCoroutines();
+            CoroutineScheduler.StopAll(script);
         }
 
         static void Collect(GameObject gameObject, List<GameObject> into)

@@ -9,7 +9,8 @@ namespace UnityEngine
         readonly List<Material> ownMaterials = new List<Material>();
         MaterialPropertyBlock block;
         Bounds? ownBounds;
-        bool ownEnabled = true, ownsMaterial, takesShadows = true;
+        Material own; // the copy for this renderer
+        bool ownEnabled = true, takesShadows = true;
         ShadowCastingMode ownShadows = ShadowCastingMode.On;
         int order;
 
@@ -33,7 +34,7 @@ namespace UnityEngine
         {
             get
             {
-                if (ownBounds.HasValue) return ownBounds.Value;
+                if (this.Existing().ownBounds.HasValue) return ownBounds.Value;
                 var mesh = GetComponent<MeshFilter>()?.sharedMesh;
                 if (!mesh) return new Bounds(transform.position, Vector3.zero);
                 var matrix = transform.localToWorldMatrix;
@@ -55,27 +56,19 @@ namespace UnityEngine
             {
                 if (assigned.Count == 0) assigned.Add(value);
                 else assigned[0] = value;
-                ownsMaterial = false;
             }
         }
 
-        /// This renderer's copy of the shared material, created on the first access.
+        /// This renderer's copy of the assigned material, created when it is read.
         public Material material
         {
             get
             {
-                if (!ownsMaterial && sharedMaterial)
-                {
-                    assigned[0] = new Material(assigned[0]) { name = assigned[0].name + " (Instance)" };
-                    ownsMaterial = true;
-                }
+                if (sharedMaterial && !ReferenceEquals(sharedMaterial, own))
+                    assigned[0] = own = new Material(assigned[0]) { name = assigned[0].name + " (Instance)" };
                 return sharedMaterial;
             }
-            set
-            {
-                sharedMaterial = value;
-                ownsMaterial = true;
-            }
+            set => sharedMaterial = value;
         }
 
         public Material[] sharedMaterials
@@ -85,7 +78,6 @@ namespace UnityEngine
             {
                 assigned.Clear();
                 assigned.AddRange(value);
-                ownsMaterial = false;
             }
         }
 
