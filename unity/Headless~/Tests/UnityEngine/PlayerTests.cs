@@ -124,6 +124,17 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Property_blocks_are_not_copied_by_Instantiate()
+        {
+            var original = Add<MeshRenderer>();
+            var block = new MaterialPropertyBlock();
+            block.SetColor("_Color", Color.blue);
+            original.SetPropertyBlock(block);
+            UnityEngine.Object.Instantiate(original).GetPropertyBlock(block);
+            Assert.That(block.isEmpty);
+        }
+
+        [Test]
         public void Draws_are_recorded_for_one_frame()
         {
             var parameters = new RenderParams(new Material(Shader.Find("Standard")));

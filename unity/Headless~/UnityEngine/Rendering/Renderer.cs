@@ -100,7 +100,6 @@ namespace UnityEngine
             var other = (Renderer)original;
             enabled = other.enabled;
             assigned.AddRange(other.assigned);
-            if (other.block != null) SetPropertyBlock(other.block);
         }
     }
 
