@@ -75,6 +75,18 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(copy.localScale, Is.EqualTo(Vector3.one));
         }
 
+        [Test]
+        public void Settings_of_a_body_that_Unity_does_not_serialise_have_their_defaults_in_a_copy()
+        {
+            var original = Add<Rigidbody>();
+            (original.mass, original.maxAngularVelocity, original.maxLinearVelocity, original.maxDepenetrationVelocity) = (2f, 50f, 5f, 1f);
+            (original.sleepThreshold, original.solverIterations, original.solverVelocityIterations) = (0f, 20, 20);
+            var copy = UnityEngine.Object.Instantiate(original);
+            Assert.That(copy.mass, Is.EqualTo(2f));
+            Assert.That((copy.maxAngularVelocity, copy.maxLinearVelocity, copy.maxDepenetrationVelocity), Is.EqualTo((7f, 1e16f, 10f)));
+            Assert.That((copy.sleepThreshold, copy.solverIterations, copy.solverVelocityIterations), Is.EqualTo((0.005f, 6, 1)));
+        }
+
         public class State
         {
             public int count;

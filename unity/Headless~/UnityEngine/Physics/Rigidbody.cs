@@ -606,6 +606,7 @@ namespace UnityEngine
             foreach (var child in activeTransform.children) PhysicsWorld.TransformChanged(child);
         }
 
+        /// As in Unity, limits of speeds, the sleep threshold and solver iterations are not serialised.
         internal override void CopyFrom(Component original)
         {
             var other = (Rigidbody)original;
@@ -615,14 +616,8 @@ namespace UnityEngine
             gravity = other.gravity;
             ownLinearDamping = other.ownLinearDamping;
             ownAngularDamping = other.ownAngularDamping;
-            ownMaxLinear = other.ownMaxLinear;
-            ownMaxAngular = other.ownMaxAngular;
-            ownDepenetration = other.ownDepenetration;
             detection = other.detection;
             ownInterpolation = other.ownInterpolation;
-            ownSleepThreshold = other.ownSleepThreshold;
-            iterations = other.iterations;
-            velocityIterations = other.velocityIterations;
             ownCenter = other.ownCenter;
             ownInertia = other.ownInertia;
             ownInertiaRotation = other.ownInertiaRotation;
