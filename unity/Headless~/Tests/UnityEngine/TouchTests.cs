@@ -48,6 +48,16 @@ namespace Collektive.Headless.Tests.Engine
             Physics.Simulate(Step);
         }
 
+        [Test]
+        public void Triggers_send_messages_before_collisions()
+        {
+            Box(Vector3.zero, Vector3.one).name = "wall";
+            Ball(Vector3.zero).gameObject.AddComponent<Listener>();
+            Zone();
+            Physics.Simulate(Step);
+            Assert.That(Notes[Notes.Count - 1], Is.EqualTo("ball hits wall"));
+        }
+
         [TestCase(0.4f, "zone exit mover, zone enter mover, zone stay mover")]
         [TestCase(5f, "zone exit mover")]
         public void A_body_that_becomes_dynamic_leaves_its_triggers_and_enters_them_again(float place, string notes)

@@ -3,7 +3,7 @@ using System;
 namespace UnityEngine
 {
     /// Sends PhysX's reports to scripts. Enter is sent in the first step of a touch, Stay in later steps (for triggers also in the first step), and Exit in
-    /// the first step without the touch. If a collider was disabled or destroyed in between, no Exit is sent.
+    /// the first step without the touch. If a collider was disabled or destroyed in between, no Exit is sent. Messages of triggers precede those of collisions.
     sealed unsafe class Touches
     {
         struct Touch
@@ -30,11 +30,9 @@ namespace UnityEngine
             if (Orders.IsPermuted) PutExitsFirst();
             // A message may change or destroy any object, but must not step physics.
             for (var index = 0; index < count; index++)
-            {
-                if (!touches[index].StillRegistered) continue;
-                if (touches[index].IsTrigger) SendTrigger(index);
-                else SendCollision(index);
-            }
+                if (touches[index].IsTrigger && touches[index].StillRegistered) SendTrigger(index);
+            for (var index = 0; index < count; index++)
+                if (!touches[index].IsTrigger && touches[index].StillRegistered) SendCollision(index);
             Clear();
         }
 
