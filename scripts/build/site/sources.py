@@ -16,7 +16,7 @@ def text(path: str) -> str:
 
 def commands() -> list[str]:
     """Returns the names of the commands."""
-    return re.findall(r"(?m)^    ([a-z]+) {2,}\S", help_of())
+    return re.findall(r"(?m)^    ([a-z-]+)(?: {2,}\S|$)", help_of())
 
 
 def help_of(*command: str) -> str:

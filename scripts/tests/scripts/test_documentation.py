@@ -4,9 +4,11 @@ import os
 import re
 from collections.abc import Iterator
 
+import collektive
 import pytest
 
 from build.places import ROOT
+from build.site import sources
 
 MODULES = sorted({path.split(os.sep)[-2] for path in glob.glob(os.path.join(ROOT, "jvm-host/*/api"))} | {"dsl", "stdlib"})
 # All public declarations have a modifier because of Kotlin's explicit API mode. Overrides and companions inherit their documentation.
@@ -70,6 +72,10 @@ def test_the_editor_part_has_no_public_type() -> None:
             types += re.findall(r"(?m)^    ((?:\w+ )*(?:class|struct|interface|enum|delegate) \w+)", file.read())
     assert len(types) > 20
     assert [declared for declared in types if not declared.startswith("internal ")] == []
+
+
+def test_the_site_has_the_help_of_each_command() -> None:
+    assert sources.commands() == list(collektive.COMMANDS)
 
 
 def test_missing_documentation_is_found() -> None:
