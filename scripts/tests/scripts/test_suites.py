@@ -139,6 +139,15 @@ def test_projects_whose_scenarios_have_the_same_name_have_separate_results(
     assert capsys.readouterr().out == "3 passed, 1 failed\n"
 
 
+def test_a_project_in_the_folder_of_the_checkout_is_not_a_suite(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(command, "ROOT", checkout.root)
+    monkeypatch.chdir(checkout.root)
+    for name in ("herd", "bench"):
+        Path(name).mkdir()
+    Path("herd/scenario.json").touch()
+    assert [command.is_project(word) for word in ("herd", "bench", "lint")] == [True, False, False]
+
+
 def test_folders_of_programs_with_the_same_content_have_separate_tests(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("a", "b"):
         (tmp_path / name).mkdir()
