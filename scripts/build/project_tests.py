@@ -42,7 +42,7 @@ def _run(scenario: Path, plan: player.Plan, results: Path) -> int:
     class_path = [HOST_JAR, *library, TESTING_JAR, *junit, jar]
     classes = projects.test_classes(plan.parts["schema"], tests, class_path, plugin.path if plugin else compiler_plugin())
     print_progress(f"testing {folder}")
-    code = processes.call([find_jdk() / "bin/java", "-XX:+UseSerialGC", "-cp", ":".join(map(str, [*class_path, classes])),
+    code = processes.call([find_jdk() / "bin/java", "-ea", "-XX:+UseSerialGC", "-cp", ":".join(map(str, [*class_path, classes])),
                            "org.junit.platform.console.ConsoleLauncher", "execute", "--disable-banner", "--details=none", "--fail-if-no-tests",
                            f"--scan-classpath={classes}", "--include-classname=.*",
                            # Otherwise, JUnit ignores private tests and tests that return a value.

@@ -35,6 +35,8 @@ class ProjectTestsTest(Project):
         os.mkdir(self.path("project", "tests"))
         file = self.path("project", "tests", "LampsTest.kt")
         for text, code, line in ((TESTS, 1, "1 passed, 1 failed"), (TESTS.replace("(1, 2)", "(2, 2)"), 0, "2 passed, 0 failed"),
+                                 # The JVM disables assertions by default.
+                                 (TESTS.replace("assertEquals(1, 2)", "assert(1 > 2)"), 1, "1 passed, 1 failed"),
                                  # JUnit does not run tests that return a value.
                                  (TESTS.replace("assertEquals(1, 2)", "1"), 1, "0 passed, 1 failed"), ("fun wrong(", 1, None)):
             with open(file, "w") as output:
