@@ -84,6 +84,11 @@ def pages() -> list[str]:
     return [page for page in sources("*.md") if page not in ("CHANGELOG.md", "THIRD-PARTY.md")]
 
 
+def test_git_does_not_convert_line_ends() -> None:
+    result = subprocess.run(["git", "-C", ROOT, "check-attr", "text", "collektive"], capture_output=True, text=True, check=True)
+    assert result.stdout == "collektive: text: unset\n"
+
+
 def test_pages_have_no_grammar_errors() -> None:
     assert_clean("node", "scripts/checks/prose.mjs", *pages(), tools="prose")
 
