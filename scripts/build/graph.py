@@ -1,4 +1,6 @@
 """Builds targets of the build graph, which CMake describes and Ninja builds."""
+import contextlib
+import os
 import shutil
 import subprocess
 import sys
@@ -6,13 +8,16 @@ from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from build import fetch, jdk, lock, processes
+from build import depfile, fetch, jdk, lock, processes
 from build.console import Failure, run_logged
 from build.places import GRAPH, ROOT
 from build.system import NUNIT, setup_system
 
 # The arguments with which CMake has configured the build tree.
 STAMP = GRAPH / "arguments"
+# A file whose time is the beginning of the last build.
+BEGIN = GRAPH / "begin"
+SOURCES = ("cmake", "jvm-host", "native-shim", "schema", "scripts", "tools", "unity")
 
 
 def build(*targets: str, tools: Sequence[str] = ()) -> None:
@@ -30,17 +35,45 @@ def build(*targets: str, tools: Sequence[str] = ()) -> None:
             fetched = pool.submit(fetch.fetch_missing, tools)
             if not _is_configured():
                 _configure()
+            for source in _missed():
+                os.utime(source)
+            BEGIN.touch()
             if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
                 raise Failure("the build failed; the messages are above")
             fetched.result()
 
-    lock.change(lambda: not fetch.missing(tools) and _is_configured() and is_up_to_date(GRAPH, *targets), make)
+    lock.change(lambda: not fetch.missing(tools) and _is_configured() and not _missed() and is_up_to_date(GRAPH, *targets), make)
 
 
 def is_up_to_date(tree: Path, *targets: str) -> bool:
     """Returns whether Ninja finds nothing to do for targets of a build tree."""
     dry = subprocess.run(["ninja", "-n", *targets], cwd=tree, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return dry.returncode == 0 and "no work to do" in dry.stdout
+
+
+def _missed() -> list[str]:
+    """Returns sources whose changes Ninja misses, because it only compares modification times, and not with the beginning of a build.
+
+    They changed during the last build, or have earlier times than it, for example after `rsync -a`. Programs cannot set back the change times of files.
+    """
+    try:
+        begin, log = BEGIN.stat(), (GRAPH / ".ninja_log").stat()
+    except OSError:
+        return []
+    # In a copy of a checkout, such as a container image, change times are those of the copy.
+    if begin.st_ctime_ns != begin.st_mtime_ns:
+        return []
+    found = []
+    for place in SOURCES:
+        for folder, folders, files in os.walk(ROOT / place):
+            folders[:] = [name for name in folders if name not in depfile.IGNORED]
+            for path, end in [(folder, begin), *((os.path.join(folder, name), log) for name in files)]:
+                # An editor may just remove its temporary file.
+                with contextlib.suppress(FileNotFoundError):
+                    status = os.stat(path)
+                    if status.st_ctime_ns > begin.st_ctime_ns and status.st_mtime_ns <= end.st_mtime_ns:
+                        found.append(path)
+    return found
 
 
 def _arguments() -> list[str]:

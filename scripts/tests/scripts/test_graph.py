@@ -1,4 +1,5 @@
 """Tests that the build graph builds only changed targets, and that it recovers from interruptions."""
+import os
 import subprocess
 import time
 from pathlib import Path
@@ -47,6 +48,33 @@ def test_only_changed_targets_are_built(project: Checkout) -> None:
             (project.root / "in").write_text(text)
         assert project.run(MODULE).returncode == 0
         assert (project.root / "build/cmake/out").read_text() == text
+    assert project.log_lines() == ["made", "made"]
+
+
+@pytest.mark.parametrize("is_copied", [False, True])
+def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, is_copied: bool) -> None:
+    """Tests a file that changes after a step has read it, and a file with an earlier time, such as a restored copy."""
+    (project.root / "CMakeLists.txt").write_text(CMAKE.replace("/in", "/schema/in"))
+    (project.root / "step").write_text('text=$(cat "$1/schema/in") && cat "$1/gate" && echo made >>"$1/made" && printf %s "$text" >out')
+    source = project.root / "schema/in"
+    source.parent.mkdir()
+    source.write_text("one")
+    if is_copied:
+        assert project.run(MODULE).returncode == 0
+        source.write_text("two")
+        os.utime(source, (0, 0))
+    else:
+        project.close_gate()
+        build = project.start(MODULE)
+        with open(project.root / "gate", "w"):
+            time.sleep(0.02)
+            source.write_text("two")
+            time.sleep(0.02)
+        assert build.wait() == 0
+        project.open_gate()
+    for _ in range(2):
+        assert project.run(MODULE).returncode == 0
+        assert (project.root / "build/cmake/out").read_text() == "two"
     assert project.log_lines() == ["made", "made"]
 
 
