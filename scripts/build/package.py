@@ -108,7 +108,8 @@ def _stage(content: Path, all_platforms: bool) -> None:
 def _copy(source: Path, target: Path) -> None:
     target.parent.mkdir(parents=True, exist_ok=True)
     if source.is_dir():
-        shutil.copytree(source, target, dirs_exist_ok=True)
+        # Samples that were run or generated in their folders contain results, with paths of this computer, and earlier code.
+        shutil.copytree(source, target, dirs_exist_ok=True, ignore=shutil.ignore_patterns("out", "Generated"))
     else:
         shutil.copy(source, target)
 

@@ -72,6 +72,14 @@ def test_an_archive_that_cannot_be_moved_keeps_the_earlier_one(tmp_path: Path, m
         package._pack(tmp_path / "content", out, "")
 
 
+def test_outputs_in_the_folders_of_samples_are_not_packed(tmp_path: Path) -> None:
+    for name in ("Crowd/Crowd.cs", "Crowd/out/scenario-seed1/manifest.json", "Crowd/Generated/crowd/SensorData.cs"):
+        (tmp_path / "Samples~" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "Samples~" / name).touch()
+    package._copy(tmp_path / "Samples~", tmp_path / "content")
+    assert [path.name for path in (tmp_path / "content").rglob("*")] == ["Crowd", "Crowd.cs"]
+
+
 def test_an_archive_does_not_depend_on_the_umask(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     content = tmp_path / "content"
     (content / "folder").mkdir(parents=True, mode=0o700)
