@@ -64,6 +64,8 @@ def _kind(file: Path) -> str | None:
     except OSError:
         # The player reports the error.
         return SCENARIO
+    # Comments may contain the keys, and strings may contain the beginning of a comment.
+    text = re.sub(r'("(?:\\.|[^"\\])*"|\'(?:\\.|[^\'\\])*\')|//[^\n]*|/\*.*?\*/', r"\1", text, flags=re.DOTALL)
     top, nested = text.partition("{")[2], 1
     while nested:
         top, nested = re.subn(r"\{[^{}]*\}", "", top)

@@ -48,8 +48,9 @@ def test_scenarios_are_checked_while_the_outputs_are_locked(tmp_path: Path, monk
     ('{"fields": {"scenario": 1, "a": {"scenario": 2}}, scene: "standard"}', check.SCENARIO),
     ('{"set": {"fields": {"scene": 1}}, "scenario": "a.json"}', check.EXPERIMENT),
     ('{"scene": "standard", "fields": {"scenario": "{"}}', check.SCENARIO),
-    ('{"set": {"a": "}", "b": "{", "c": "{"}, "scenario": "a.json"}', check.EXPERIMENT)])
-def test_nested_keys_do_not_determine_the_kind_of_a_file(tmp_path: Path, text: str, kind: str) -> None:
+    ('{"set": {"a": "}", "b": "{", "c": "{"}, "scenario": "a.json"}', check.EXPERIMENT),
+    ('/* a {\n*/ { // "scenario": b\n"data": "http://c", "scene": "standard"}', check.SCENARIO)])
+def test_nested_keys_and_comments_do_not_determine_the_kind_of_a_file(tmp_path: Path, text: str, kind: str) -> None:
     (tmp_path / "file.json").write_text(text)
     assert check.find_files(tmp_path) == [(tmp_path / "file.json", kind)]
 
