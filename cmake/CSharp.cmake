@@ -100,6 +100,9 @@ function(generated_code TARGET FOLDER)
 endfunction()
 
 file(GLOB samples "${UNITY}/Samples~/*/*.fbs")
+# Another commit may have other schemas.
+file(GLOB folders "${UNITY}/Samples~" "${UNITY}/Samples~/*")
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${folders} "${PROJECT_SOURCE_DIR}/schema/test")
 generated_code(sample_code "${GENERATED}/samples" ${samples})
 assembly(Collektive.Samples.dll SOURCES "${UNITY}/Samples~" "${GENERATED}/samples" REFERENCES ${package} DEPENDS "${GENERATED}/samples.stamp")
 generated_code(standard_code "${GENERATED}/standard" "${HEADLESS}/Standard/standard.fbs")

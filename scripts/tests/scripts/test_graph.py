@@ -8,6 +8,7 @@ import pytest
 from checkout import Checkout
 
 from build import maven
+from build.places import GRAPH, ROOT
 
 CMAKE = """
 cmake_minimum_required(VERSION 3.25)
@@ -119,6 +120,11 @@ def test_a_failed_configuration_has_no_effect_on_later_builds(project: Checkout)
     assert project.run(f"graph.NUNIT = root / 'other'\n{MODULE}").returncode == 1
     assert project.run(MODULE).returncode == 0
     assert "other" not in (project.root / "build/cmake/seen").read_text()
+
+
+def test_the_build_is_configured_again_if_a_schema_is_added_or_renamed() -> None:
+    inputs = subprocess.run(["ninja", "-t", "query", "build.ninja"], cwd=GRAPH, capture_output=True, text=True, check=True).stdout
+    assert {str(ROOT / "unity/Samples~"), str(ROOT / "unity/Samples~/Swarm"), str(ROOT / "schema/test")} <= {line.strip("| ") for line in inputs.splitlines()}
 
 
 def test_a_moved_checkout_is_configured_again(project: Checkout) -> None:
