@@ -60,7 +60,7 @@ def _missed() -> list[str]:
         begin, log = BEGIN.stat(), (GRAPH / ".ninja_log").stat()
     except OSError:
         return []
-    # In a copy of a checkout, such as a container image, change times are those of the copy.
+    # In a copy of a checkout, such as a container image, change times are the times of copying.
     if begin.st_ctime_ns != begin.st_mtime_ns:
         return []
     found = []

@@ -4,9 +4,9 @@ import os
 import re
 from collections.abc import Iterator
 
-import collektive
 import pytest
 
+import collektive
 from build.places import ROOT
 from build.site import sources
 
