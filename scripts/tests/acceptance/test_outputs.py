@@ -100,6 +100,12 @@ class Outputs(Project):
         self.assertEqual(self.run_it("--overwrite").returncode, 3)
         self.assertEqual(self.contents(), before)
 
+    def test_an_answer_named_like_the_position_of_nodes_is_rejected_as_a_column(self) -> None:
+        self.change("light.fbs", "seen: [int];", "seen: [int]; position: float;")
+        result = self.run_it("--set", 'outputs.nodes.fields=["position"]')
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("'position' is both the node's position and a field of the answers", last_error(result))
+
     @pytest.mark.slow
     def test_a_run_that_crashes_in_its_first_tick_keeps_earlier_results(self) -> None:
         self.assertEqual(self.run_it().returncode, 0)

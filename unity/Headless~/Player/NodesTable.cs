@@ -61,10 +61,17 @@ namespace Collektive.Headless
         private static List<Column> ColumnsOf(DataSchema schema, IEnumerable<string> fields)
         {
             var answers = AnswerField.Of(schema);
-            var columns = fields.Select(field => field == Position ? new Column(field, null, typeof(Vector3)) : Find(answers, field)).ToList();
+            var columns = fields.Select(field => field == Position ? PositionOf(answers) : Find(answers, field)).ToList();
             if (columns.GroupBy(column => column.Field?.Name).FirstOrDefault(group => group.Count() > 1) is IGrouping<string, Column> repeated)
                 throw new ScenarioException("'outputs.nodes.fields' contains a field twice: " + string.Join(", ", repeated.Select(column => column.Given)));
             return columns;
+        }
+
+        private static Column PositionOf(List<AnswerField> answers)
+        {
+            if (answers.Exists(field => Normalize(field.Name) == Position))
+                throw new ScenarioException("'outputs.nodes.fields': 'position' is both the node's position and a field of the answers: rename the field");
+            return new Column(Position, null, typeof(Vector3));
         }
 
         private static Column Find(List<AnswerField> answers, string wanted)
