@@ -176,7 +176,7 @@ enum {
     PHYSICS_GRAVITY = 15,     /* x: 0 or 1 */
     PHYSICS_DAMPING = 16,     /* x: linear, y: angular */
     PHYSICS_LIMITS = 17,      /* x: linear velocity, y: angular velocity, z: velocity out of a penetration */
-    PHYSICS_FREEZE = 18,      /* x: bits 0 to 2 freeze positions along x, y, z; bits 3 to 5 rotations about them */
+    PHYSICS_FREEZE = 18,      /* x: bits 0 to 2 freeze positions along x, y, z; bits 3 to 5 rotations about the axes of the inertia */
     PHYSICS_MASS = 19,        /* x: mass */
     PHYSICS_MASS_CENTER = 20, /* in the actor's frame; a fourth value of 0 restores the computed one */
     PHYSICS_SLEEP_BELOW = 21, /* x: kinetic energy per mass */

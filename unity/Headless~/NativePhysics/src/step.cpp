@@ -90,7 +90,7 @@ void physics_world::apply(const physics_command &command) {
             if (!kinematic) body->setLinearVelocity(vector);
             break;
         case PHYSICS_SPIN:
-            if (!kinematic) body->setAngularVelocity(vector);
+            if (!kinematic) body->setAngularVelocity(without_frozen(*actor, vector));
             break;
         case PHYSICS_FORCE:
         case PHYSICS_FORCE + 1:
@@ -106,7 +106,7 @@ void physics_world::apply(const physics_command &command) {
         case PHYSICS_TORQUE + 3:
             if (kinematic) break;
             refresh_mass(*actor);
-            body->addTorque(vector, FORCE_MODES[command.kind - PHYSICS_TORQUE]);
+            body->addTorque(without_frozen(*actor, vector), FORCE_MODES[command.kind - PHYSICS_TORQUE]);
             break;
         case PHYSICS_WAKE:
             if (!kinematic) body->wakeUp();
@@ -120,7 +120,10 @@ void physics_world::apply(const physics_command &command) {
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
             removal = REMOVED;
             for (const PxShape *each : shapes_of(*body)) shapes[size_t(intptr_t(each->userData))].born = steps;
-            if (value[0] == 0.0f) body->wakeUp();
+            if (value[0] == 0.0f) {
+                if (actor->frozen) body->setAngularVelocity(without_frozen(*actor, body->getAngularVelocity()));
+                body->wakeUp();
+            }
             marks[command.actor] |= PLACED;
             break;
         }
@@ -134,7 +137,12 @@ void physics_world::apply(const physics_command &command) {
             body->setMaxAngularVelocity(std::max(0.0f, value[1]));
             body->setMaxDepenetrationVelocity(std::max(1e-3f, value[2]));
             break;
-        case PHYSICS_FREEZE: body->setRigidDynamicLockFlags(PxRigidDynamicLockFlags(PxU8(value[0]))); break;
+        case PHYSICS_FREEZE:
+            body->setRigidDynamicLockFlags(PxRigidDynamicLockFlags(PxU8(PxU8(value[0]) & 7)));
+            actor->frozen = PxU8(value[0]) >> 3;
+            mass_changed(*actor);
+            if (!kinematic && actor->frozen) body->setAngularVelocity(without_frozen(*actor, body->getAngularVelocity()), false);
+            break;
         case PHYSICS_MASS:
             actor->mass = std::max(1e-7f, value[0]);
             mass_changed(*actor);

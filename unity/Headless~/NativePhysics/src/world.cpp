@@ -194,9 +194,23 @@ void physics_world::refresh_mass(Actor &actor) {
         inertia = actor.inertia;
         center.q = actor.inertia_rotation;
     }
+    // As in Unity. PhysX's locks are about the axes of the world, and would weaken friction.
+    for (PxU32 axis = 0; axis < 3; axis++)
+        if (actor.frozen >> axis & 1) inertia[axis] = 0.0f;
     body->setCMassLocalPose(center);
     body->setMass(actor.mass);
     body->setMassSpaceInertiaTensor(inertia);
+}
+
+// Returns a spin in the frame of the world without its components about frozen axes.
+PxVec3 physics_world::without_frozen(Actor &actor, const PxVec3 &spin) {
+    if (!actor.frozen) return spin;
+    refresh_mass(actor);
+    const PxQuat axes = actor.rigid->getGlobalPose().q * actor.body()->getCMassLocalPose().q;
+    PxVec3 own = axes.rotateInv(spin);
+    for (PxU32 axis = 0; axis < 3; axis++)
+        if (actor.frozen >> axis & 1) own[axis] = 0.0f;
+    return axes.rotate(own);
 }
 
 void physics_world::drop_shape(int32_t handle) {

@@ -45,6 +45,7 @@ struct Actor {
     bool own_center = false, own_inertia = false;
     bool mass_stale = true;
     bool led = false; // kinematic, and last moved by a pose instead of a target
+    uint8_t frozen = 0; // bits 0 to 2: the axes of the inertia about which the body does not rotate
     PxVec3 center = PxVec3(0.0f), inertia = PxVec3(0.0f);
     PxQuat inertia_rotation = PxQuat(PxIdentity);
     PxTransform last_pose = PxTransform(PxIdentity);
@@ -164,6 +165,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     physx::PxMaterial *material(const physics_material &wanted);
     void mass_changed(collektive::Actor &actor) { actor.mass_stale = masses_stale = true; }
     void refresh_mass(collektive::Actor &actor);
+    physx::PxVec3 without_frozen(collektive::Actor &actor, const physx::PxVec3 &spin);
     bool is_active(int32_t actor) const;
     void drop_shape(int32_t handle);
     void drop_joint(int32_t handle);

@@ -188,6 +188,47 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Rotations_are_frozen_about_the_axes_of_the_inertia_tensor()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.angularDamping = 0f;
+            ball.rotation = Quaternion.Euler(0f, 90f, 0f);
+            ball.angularVelocity = new Vector3(0f, 0f, 5f);
+            ball.constraints = RigidbodyConstraints.FreezeRotationX;
+            ball.AddTorque(1f, 0f, 2f, ForceMode.VelocityChange);
+            ball.AddTorque(0f, 0f, 2f, ForceMode.Impulse);
+            Physics.Simulate(Step);
+            Assert.That((ball.angularVelocity - Vector3.right).magnitude, Is.LessThan(1e-3f));
+        }
+
+        [Test]
+        public void A_body_with_a_frozen_rotation_does_not_keep_the_spin_of_its_kinematic_motion()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.constraints = RigidbodyConstraints.FreezeRotation;
+            ball.isKinematic = true;
+            ball.MoveRotation(Quaternion.Euler(0f, 5f, 0f));
+            Physics.Simulate(Step);
+            ball.isKinematic = false;
+            Physics.Simulate(Step);
+            Assert.That(ball.angularVelocity, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
+        public void Friction_holds_a_ball_whose_rotation_is_frozen()
+        {
+            Floor();
+            var ball = Ball(new Vector3(0f, 0.5f, 0f));
+            ball.constraints = RigidbodyConstraints.FreezeRotation;
+            for (var step = 0; step < 100; step++)
+            {
+                ball.AddForce(5f, 0f, 0f);
+                Physics.Simulate(Step);
+            }
+            Assert.That(ball.position.x, Is.EqualTo(0f).Within(1e-3f));
+        }
+
+        [Test]
         public void A_frozen_axis_does_not_change_and_the_others_move()
         {
             var ball = Ball(new Vector3(0f, 1f, 0f));
