@@ -44,7 +44,7 @@ struct Actor {
     float mass = 1.0f;
     bool own_center = false, own_inertia = false;
     bool mass_stale = true;
-    bool led = false; // kinematic, and last moved by a pose instead of a target
+    bool led = false;   // kinematic, and last moved by a pose instead of a target
     uint8_t frozen = 0; // bits 0 to 2: the axes of the inertia about which the body does not rotate
     PxVec3 center = PxVec3(0.0f), inertia = PxVec3(0.0f);
     PxQuat inertia_rotation = PxQuat(PxIdentity);

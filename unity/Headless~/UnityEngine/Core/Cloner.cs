@@ -122,8 +122,8 @@ namespace UnityEngine
                 && !library.StartsWith("System.", StringComparison.Ordinal);
         }
 
-        /// As in Unity, copies of null are empty, and objects have the declared type, except for references. Values in each other end at a depth limit. A struct
-        /// in a field keeps the fields of its current value that are not serialised.
+        /// As in Unity, copies of null are empty, and objects have the declared type, except for references. Values in each other end at a depth limit. A
+        /// struct in a field keeps the fields of its current value that are not serialised.
         object CopyValue(object value, Type type, bool byReference, int depth, object current = null)
         {
             if (value is Object reference) return copies.TryGetValue(reference, out var copied) ? copied : reference;
