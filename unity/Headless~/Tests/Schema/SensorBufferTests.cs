@@ -163,6 +163,19 @@ namespace Collektive.Headless.Tests.Schema
         }
 
         [Test]
+        public void AnUnpairedSurrogateIsRejected()
+        {
+            tables.EnsureCapacity(1);
+            tables.Items[0].MakeMain().Name = "x";
+            foreach (var text in new[] { "x\ud83d", "\ude80x" })
+            {
+                tables.Items[0].Label = text;
+                var error = Assert.Throws<BridgeException>(() => tables.Write(builder, 1));
+                Assert.That(error.Message, Is.EqualTo("the sensor data of due node number 0: a text contains an unpaired surrogate"));
+            }
+        }
+
+        [Test]
         public void ANullInAListOfStringsIsRejected()
         {
             tables.EnsureCapacity(1);

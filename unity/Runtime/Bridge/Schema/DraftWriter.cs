@@ -16,6 +16,8 @@ namespace Collektive.Bridge
         /// <summary>The largest alignment of a field.</summary>
         private const int MaxAlignment = 8;
 
+        private static readonly UTF8Encoding Strict = new UTF8Encoding(false, throwOnInvalidBytes: true);
+
         private FlatBufferBuilder builder;
         // This is filled backwards from its end, like the frame.
         private byte[] memory = new byte[1024];
@@ -61,14 +63,14 @@ namespace Collektive.Bridge
         /// <summary>Throws an exception if a required field is missing.</summary>
         public void Require(bool present, string field)
         {
-            if (!present) throw Missing(field + " is required by the schema and was not set");
+            if (!present) throw Invalid(field + " is required by the schema and was not set");
         }
 
         /// <summary>Writes a string, and returns its place; 0 for null.</summary>
         public int String(string text)
         {
             if (text == null) return 0;
-            var bytes = Encoding.UTF8.GetByteCount(text);
+            var bytes = BytesOf(text);
             var at = Reserve(sizeof(int), sizeof(int) + bytes + 1);
             PutInt(at, bytes);
             Encoding.UTF8.GetBytes(text, 0, text.Length, memory, at + sizeof(int));
@@ -82,7 +84,7 @@ namespace Collektive.Bridge
             if (list.Count == 0 && !required) return 0;
             for (var i = 0; i < list.Count; i++)
             {
-                if (list[i] == null) throw Missing(field + "[" + i + "] is null; use an empty string instead");
+                if (list[i] == null) throw Invalid(field + "[" + i + "] is null; use an empty string instead");
                 Push(String(list[i]));
             }
             return PopVector(list.Count);
@@ -228,7 +230,19 @@ namespace Collektive.Bridge
             fixed (byte* place = &memory[at]) *(int*)place = value;
         }
 
-        private BridgeException Missing(string what)
+        private int BytesOf(string text)
+        {
+            try
+            {
+                return Strict.GetByteCount(text);
+            }
+            catch (EncoderFallbackException)
+            {
+                throw Invalid("a text contains an unpaired surrogate");
+            }
+        }
+
+        private BridgeException Invalid(string what)
         {
             var where = Element < 0 ? "the global data: " : "the sensor data of due node number " + Element + ": ";
             return new BridgeException(BridgeError.Argument, where + what);
