@@ -41,7 +41,11 @@ namespace UnityEngine
             set => Set(ref values.FrictionCombine, ToPhysx(value));
         }
 
-        public PhysicsMaterialCombine bounceCombine { get => FromPhysx(this.Existing().values.BounceCombine); set => Set(ref values.BounceCombine, ToPhysx(value)); }
+        public PhysicsMaterialCombine bounceCombine
+        {
+            get => FromPhysx(this.Existing().values.BounceCombine);
+            set => Set(ref values.BounceCombine, ToPhysx(value));
+        }
 
         void Set<T>(ref T field, T value)
         {
