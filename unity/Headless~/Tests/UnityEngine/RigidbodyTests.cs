@@ -202,6 +202,19 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Setting_the_angular_velocity_skips_frozen_axes_at_once()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.rotation = Quaternion.Euler(0f, 90f, 0f);
+            ball.constraints = RigidbodyConstraints.FreezeRotationX;
+            ball.angularVelocity = new Vector3(0f, 1f, 5f);
+            Assert.That((ball.angularVelocity - Vector3.up).magnitude, Is.LessThan(1e-5f));
+            ball.constraints = RigidbodyConstraints.FreezeRotation;
+            ball.angularVelocity = Vector3.one;
+            Assert.That(ball.angularVelocity, Is.EqualTo(Vector3.zero));
+        }
+
+        [Test]
         public void A_body_with_a_frozen_rotation_does_not_keep_the_spin_of_its_kinematic_motion()
         {
             var ball = Ball(Vector3.zero);

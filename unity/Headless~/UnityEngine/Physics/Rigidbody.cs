@@ -254,11 +254,25 @@ namespace UnityEngine
             set
             {
                 if (!Finite.Accepts(value, "Rigidbody.angularVelocity", this) || !TakesVelocity("angular")) return;
+                value = WithoutFrozen(value);
                 ref var motion = ref Motion;
                 motion.Spin = value;
                 if (!value.Equals(Vector3.zero)) motion.Asleep = 0;
                 Order(Physx.Order.Spin, value);
             }
+        }
+
+        /// Returns an angular velocity without its components about frozen axes of the inertia tensor.
+        Vector3 WithoutFrozen(Vector3 spin)
+        {
+            if (freezeRotation) return Vector3.zero;
+            if ((ownConstraints & RigidbodyConstraints.FreezeRotation) == 0) return spin;
+            Inertia(out var turn);
+            var axes = rotation * turn;
+            spin = Quaternion.Inverse(axes) * spin;
+            for (var axis = 0; axis < 3; axis++)
+                if (((int)ownConstraints & (int)RigidbodyConstraints.FreezeRotationX << axis) != 0) spin[axis] = 0f;
+            return axes * spin;
         }
 
         /// Position of the body in physics. If it is set, the transform moves at the next step.
