@@ -1,6 +1,8 @@
+using System;
 using NUnit.Framework;
 using UnityEngine;
 using UnityEngine.Headless;
+using Object = UnityEngine.Object;
 
 namespace Collektive.Headless.Tests.Engine
 {
@@ -356,6 +358,32 @@ namespace Collektive.Headless.Tests.Engine
             Physics.SyncTransforms();
             Assert.That((zone.transform.position - new Vector3(5f, 2f, 0f)).magnitude, Is.LessThan(1e-3f));
             Assert.That((zone.bounds.center - zone.transform.position).magnitude, Is.LessThan(1e-3f));
+        }
+
+        [Test]
+        public void Changes_of_gravity_constraints_mass_and_colliders_wake_a_sleeping_body()
+        {
+            Wakes(body => body.useGravity = true);
+            Wakes(body => body.constraints = RigidbodyConstraints.FreezePositionY);
+            Wakes(body => body.mass = 2f);
+            Wakes(body => body.centerOfMass = Vector3.up);
+            Wakes(body => body.inertiaTensor = Vector3.one);
+            Wakes(body => body.GetComponent<Collider>().enabled = false);
+            Wakes(body => body.gameObject.AddComponent<BoxCollider>());
+            Wakes(body => (body.useGravity, body.constraints, body.mass) = (false, RigidbodyConstraints.None, 1f), false);
+
+            static void Wakes(Action<Rigidbody> change, bool wakes = true)
+            {
+                var ball = Ball(Vector3.zero);
+                ball.useGravity = false;
+                ball.Sleep();
+                Physics.Simulate(Step);
+                change(ball);
+                Assert.That(ball.IsSleeping(), Is.EqualTo(!wakes));
+                Physics.Simulate(Step);
+                Assert.That(ball.IsSleeping(), Is.EqualTo(!wakes));
+                Object.DestroyImmediate(ball.gameObject);
+            }
         }
 
         [Test]

@@ -164,6 +164,7 @@ namespace UnityEngine
                 Detach();
                 Body = nearest;
                 Body?.Colliders.Add(this);
+                Body?.WakeUp();
             }
             TakePose();
         }
@@ -187,6 +188,7 @@ namespace UnityEngine
             }
             if (Body is null) return;
             Body.Colliders.Remove(this);
+            Body.WakeUp();
             Body = null;
         }
 

@@ -84,6 +84,7 @@ namespace UnityEngine
             get => this.Existing().gravity;
             set
             {
+                if (gravity != value) WakeUp();
                 gravity = value;
                 Order(Physx.Order.Gravity, new Vector3(value ? 1f : 0f, 0f, 0f));
             }
@@ -187,7 +188,9 @@ namespace UnityEngine
             get => this.Existing().ownMass;
             set
             {
-                ownMass = Mathf.Clamp(value, 1e-7f, 1e9f);
+                value = Mathf.Clamp(value, 1e-7f, 1e9f);
+                if (ownMass != value) WakeUp();
+                ownMass = value;
                 Order(Physx.Order.Mass, new Vector3(ownMass, 0f, 0f));
             }
         }
@@ -217,6 +220,7 @@ namespace UnityEngine
             get => this.Existing().ownConstraints;
             set
             {
+                if (ownConstraints != value) WakeUp();
                 ownConstraints = value;
                 Order(Physx.Order.Freeze, new Vector3((int)value >> 1, 0f, 0f));
             }
@@ -457,6 +461,7 @@ namespace UnityEngine
             Order(Physx.Order.Sleep, Vector3.zero);
         }
 
+        /// As in Unity, changes of gravity, constraints, mass and colliders do this too.
         public void WakeUp()
         {
             if (kinematic) return;
@@ -510,8 +515,17 @@ namespace UnityEngine
         void SendDamping() => Order(Physx.Order.Damping, new Vector3(Mathf.Min(ownLinearDamping, 1e16f), Mathf.Min(ownAngularDamping, 1e16f), 0f));
         void SendLimits() => Order(Physx.Order.Limits, new Vector3(ownMaxLinear, ownMaxAngular, ownDepenetration));
 
-        void SendCenter() => OrderPose(Physx.Order.MassCenter, ownCenter ?? Vector3.zero, new Quaternion(ownCenter == null ? 0f : 1f, 0f, 0f, 0f));
-        void SendInertia() => OrderPose(Physx.Order.Inertia, ownInertia ?? Vector3.zero, ownInertia == null ? default : ownInertiaRotation);
+        void SendCenter()
+        {
+            WakeUp();
+            OrderPose(Physx.Order.MassCenter, ownCenter ?? Vector3.zero, new Quaternion(ownCenter == null ? 0f : 1f, 0f, 0f, 0f));
+        }
+
+        void SendInertia()
+        {
+            WakeUp();
+            OrderPose(Physx.Order.Inertia, ownInertia ?? Vector3.zero, ownInertia == null ? default : ownInertiaRotation);
+        }
 
         void SendAll()
         {
