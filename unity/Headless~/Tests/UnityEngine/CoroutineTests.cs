@@ -118,6 +118,34 @@ namespace Collektive.Headless.Tests.Engine
             for (var frame = 0; frame < count; frame++) Loop.Frame(0.02f);
         }
 
+        class Endless : MonoBehaviour
+        {
+            IEnumerator Awake() => Note();
+            IEnumerator OnEnable() => Note();
+            IEnumerator Update() => Note();
+            IEnumerator OnDisable() => Note();
+
+            static IEnumerator Note()
+            {
+                Notes.Add("called");
+                yield return null;
+            }
+        }
+
+        [Test]
+        public void Messages_such_as_Update_cannot_be_coroutines()
+        {
+            var script = Add<Endless>();
+            Loop.Frame(0.02f);
+            script.enabled = false;
+            Assert.That(Notes, Is.Empty);
+            Assert.That(Errors, Is.EqualTo(new[]
+            {
+                "Script error (Endless): Awake() can not be a coroutine.", "Script error (Endless): OnEnable() can not be a coroutine.",
+                "Script error (Endless): Update() can not be a coroutine.", "Script error (Endless): OnDisable() can not be a coroutine.",
+            }));
+        }
+
         [Test]
         public void Yield_null_resumes_in_the_next_frame_between_Update_and_LateUpdate()
         {

@@ -11,6 +11,12 @@ namespace UnityEngine
     {
         static readonly Dictionary<Type, Messages> Tables = new Dictionary<Type, Messages>();
 
+        /// Messages that cannot be coroutines in Unity. Methods that are coroutines are not called.
+        static readonly string[] Uninterrupted =
+        {
+            nameof(Awake), nameof(OnEnable), nameof(FixedUpdate), nameof(Update), nameof(LateUpdate), nameof(OnDisable), nameof(OnDestroy),
+        };
+
         public readonly int Order;
         public readonly Action<Object> Awake, OnEnable, Start, FixedUpdate, Update, LateUpdate, OnDisable, OnDestroy, OnApplicationQuit;
         public readonly Action<Object> OnTransformParentChanged, OnTransformChildrenChanged;
@@ -96,7 +102,11 @@ namespace UnityEngine
         static Action<Object> Compile(Type type, string name)
         {
             var method = Find(type, name, null);
-            return method == null ? null : (Action<Object>)Emit(method, typeof(Action<Object>), typeof(Object));
+            if (method == null) return null;
+            if (method.ReturnType != typeof(IEnumerator) || Array.IndexOf(Uninterrupted, name) < 0)
+                return (Action<Object>)Emit(method, typeof(Action<Object>), typeof(Object));
+            Debug.LogError($"Script error ({type.Name}): {name}() can not be a coroutine.");
+            return null;
         }
 
         static Action<Object, T> Compile<T>(Type type, string name)
