@@ -443,7 +443,7 @@ namespace UnityEngine
 
         public void AddForceAtPosition(Vector3 force, Vector3 position) => AddForceAtPosition(force, position, ForceMode.Force);
 
-        /// Adds a force at a position. As in Unity, only the modes `Force` and `Impulse` are supported.
+        /// Adds a force at a position. With the modes `Acceleration` and `VelocityChange`, the rotation does not depend on the inertia.
         public void AddForceAtPosition(Vector3 force, Vector3 position, ForceMode mode)
         {
             AddForce(force, mode);
