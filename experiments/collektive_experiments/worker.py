@@ -59,15 +59,18 @@ class _Process:
         start = json.loads(settings or "{}")
         runtime = start.get(RUNTIME, "")
         inputs = json.dumps({key: value for key, value in hashes.items() if runtime.lower() != "builtin" or key not in ("runtimeJars", "runtimePlugin")})
+        # Runs whose scripts or programs use relative paths must not find the files of other processes.
+        self._folder = f"{os.path.abspath(log).removesuffix('.txt')}-{secrets.token_hex(4)}"
         self._channel, child_end = socket.socketpair()
         with child_end, files.open_log(log) as output:
+            os.mkdir(self._folder)
             self._process = subprocess.Popen(
                 ["mono-sgen", "--debug", os.path.join(bundle, "csharp/Collektive.Player.exe"), "serve", os.path.join(bundle, "inputs/scenario.json"),
                  "--scripts", os.path.join(bundle, "Scenario.dll"), "--jar", programs_jar(bundle, runtime),
                  # The path is relative, because a class path cannot contain colons, and the path of the bundle may contain them.
-                 "--host-jar", os.path.relpath(os.path.realpath(jar), os.path.realpath(os.path.dirname(log))),
+                 "--host-jar", os.path.relpath(os.path.realpath(jar), os.path.realpath(self._folder)),
                  "--java-home", java_home(), "--channel", str(child_end.fileno()), "--inputs", inputs, *(["--trust-jvm"] if trust else [])],
-                stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.dirname(log), start_new_session=True, pass_fds=[child_end.fileno()],
+                stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=self._folder, start_new_session=True, pass_fds=[child_end.fileno()],
                 # Nodes of a cluster may have different settings, with which scripts and programs would have different results.
                 env={**os.environ, "LC_ALL": "C.UTF-8", "TZ": "UTC", "MONO_ENV_OPTIONS": "", "MONO_CRASH_NOFILE": "1"})
         self._pids = {self._process.pid}
@@ -108,6 +111,9 @@ class _Process:
             with contextlib.suppress(OSError):
                 os.unlink(f"/tmp/.java_pid{pid}")
         self._process.wait()
+        # A folder that contains files of the runs is kept.
+        with contextlib.suppress(OSError):
+            os.rmdir(self._folder)
 
     def _send(self, request: dict[str, Any]) -> str:
         """Sends a request. Returns its id, which is random, so scripts cannot forge a response."""

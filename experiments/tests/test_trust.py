@@ -39,6 +39,7 @@ def change_scene(project: Project, build: str = "", declared: str = "", measure:
 
 STATE = [
     ("lamps += Kept<int>.Count++;", "internal static class Kept<T> { public static int Count; }"),
+    ('if (System.IO.File.Exists("lamps.txt")) lamps++; System.IO.File.WriteAllText("lamps.txt", "");', ""),
 ]
 # More examples of the same kinds of state.
 MORE_STATE = [
@@ -185,7 +186,7 @@ def test_a_script_that_closes_its_output_times_out(project: Project) -> None:
 
 @pytest.mark.slow
 def test_a_pipe_that_a_script_left_in_the_folder_is_not_read(project: Project) -> None:
-    change_scene(project, 'System.Diagnostics.Process.Start("sh", "-c \'cd ../runs/*/ && mkfifo pipe\'").WaitForExit();')
+    change_scene(project, 'System.Diagnostics.Process.Start("sh", "-c \'cd ../../runs/*/ && mkfifo pipe\'").WaitForExit();')
     result = project.sweep(vary={"seed": [1]})
     assert result.returncode == 0, result.stderr
     assert (project.run("seed=1") / "pipe").is_fifo()
