@@ -36,7 +36,8 @@ def build(*targets: str, tools: Sequence[str] = ()) -> None:
             if not _is_configured():
                 _configure()
             for source in _missed():
-                os.utime(source)
+                with contextlib.suppress(FileNotFoundError):
+                    os.utime(source)
             BEGIN.touch()
             if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
                 raise Failure("the build failed; the messages are above")

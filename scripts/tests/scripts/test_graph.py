@@ -79,6 +79,11 @@ def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, is_c
     assert project.log_lines() == ["made", "made"]
 
 
+def test_a_source_that_is_deleted_before_a_build_is_skipped(project: Checkout) -> None:
+    result = project.run(f"graph._missed = lambda: [str(root / 'deleted')]\n{MODULE}")
+    assert (result.returncode, project.log_lines()) == (0, ["made"]), result.stderr
+
+
 def test_an_up_to_date_build_does_not_wait_for_runs(project: Checkout) -> None:
     assert project.run(MODULE).returncode == 0
     project.close_gate()
