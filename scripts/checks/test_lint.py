@@ -84,7 +84,7 @@ def pages() -> list[str]:
     return [page for page in sources("*.md") if page not in ("CHANGELOG.md", "THIRD-PARTY.md")]
 
 
-def test_git_does_not_convert_line_ends() -> None:
+def test_git_does_not_convert_line_endings() -> None:
     result = subprocess.run(["git", "-C", ROOT, "check-attr", "text", "collektive"], capture_output=True, text=True, check=True)
     assert result.stdout == "collektive: text: unset\n"
 
