@@ -131,7 +131,7 @@ def bare(roots: Sequence[str]) -> int:
 def is_project(word: str) -> bool:
     """Returns whether a word is a path, not a suite. Some folders of this checkout have the names of suites, but contain no scenarios."""
     path = Path(word)
-    return path.is_file() or (path.is_dir() and (path.resolve().parent != ROOT or any(path.glob("*.json"))))
+    return path.is_file() or (path.is_dir() and (path.resolve().parent != ROOT or any(file.name != "package.json" for file in path.glob("*.json"))))
 
 
 def test_projects(paths: Sequence[Path]) -> int:

@@ -236,6 +236,11 @@ def declared() -> list[Suite]:
     return command.read_suites()
 
 
+def test_no_suite_is_a_project(declared: list[Suite], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    assert [suite.name for suite in declared if command.is_project(suite.name)] == []
+
+
 def test_a_quick_run_has_most_suites_on_one_jdk(declared: list[Suite]) -> None:
     names = [suite.name for suite in command.select_suites(declared, ["quick"])]
     assert {"lint", "scripts", "jvm-quick", "assets", "acceptance-quick"} <= set(names)
