@@ -13,6 +13,7 @@ namespace UnityEngine
         int yieldedAtFrame, yieldedInPass;
         double due;
         bool awaitsOther;
+        bool done;
         Action ended;
 
         internal Coroutine(MonoBehaviour owner, IEnumerator routine)
@@ -22,9 +23,9 @@ namespace UnityEngine
             nested.Push(routine);
         }
 
-        internal bool IsDone { get; private set; }
+        internal bool IsDone => done || Owner.destroyed;
 
-        internal void Stop() => IsDone = true;
+        internal void Stop() => done = true;
 
         internal void ResumeIfDue(CoroutinePhase now)
         {
@@ -51,14 +52,14 @@ namespace UnityEngine
                 catch (Exception exception)
                 {
                     Headless.Loop.LogFailedCall(exception, Owner);
-                    IsDone = true;
+                    done = true;
                     return;
                 }
                 if (!more)
                 {
                     nested.Pop();
                     if (nested.Count > 0) continue;
-                    IsDone = true;
+                    done = true;
                     ended?.Invoke();
                     return;
                 }

@@ -93,9 +93,7 @@ namespace UnityEngine
 
         static void SendOnDestroy(Component component)
         {
-            if (!(component is MonoBehaviour script) || !script.HasAwoken || script.destroyed) return;
-            Messages.Send(script.messages.OnDestroy, script);
-            CoroutineScheduler.StopAll(script);
+            if (component is MonoBehaviour script && script.HasAwoken && !script.destroyed) Messages.Send(script.messages.OnDestroy, script);
         }
 
         static void Collect(GameObject gameObject, List<GameObject> into)
