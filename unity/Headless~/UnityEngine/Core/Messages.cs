@@ -11,8 +11,8 @@ namespace UnityEngine
     {
         static readonly Dictionary<Type, Messages> Tables = new Dictionary<Type, Messages>();
 
-        /// Messages that cannot be coroutines in Unity. Methods that are coroutines are not called.
-        static readonly string[] Uninterrupted =
+        /// Messages whose methods cannot be coroutines in Unity. Such methods are not called.
+        static readonly string[] NonCoroutines =
         {
             nameof(Awake), nameof(OnEnable), nameof(FixedUpdate), nameof(Update), nameof(LateUpdate), nameof(OnDisable), nameof(OnDestroy),
         };
@@ -103,7 +103,7 @@ namespace UnityEngine
         {
             var method = Find(type, name, null);
             if (method == null) return null;
-            if (method.ReturnType != typeof(IEnumerator) || Array.IndexOf(Uninterrupted, name) < 0)
+            if (method.ReturnType != typeof(IEnumerator) || Array.IndexOf(NonCoroutines, name) < 0)
                 return (Action<Object>)Emit(method, typeof(Action<Object>), typeof(Object));
             Debug.LogError($"Script error ({type.Name}): {name}() can not be a coroutine.");
             return null;
