@@ -33,7 +33,7 @@ namespace UnityEngine
         }
 
         /// Metres between samples along x and z, and the maximum height in metres as y.
-        public Vector3 heightmapScale => new Vector3(size.x / (heightmapResolution - 1), ownSize.y, ownSize.z / (heightmapResolution - 1));
+        public Vector3 heightmapScale => new Vector3(ownSize.x / (heightmapResolution - 1), ownSize.y, ownSize.z / (heightmapResolution - 1));
 
         public Vector3 size
         {
@@ -46,12 +46,11 @@ namespace UnityEngine
             }
         }
 
-        public float GetHeight(int x, int y) => size.y * heights[Inside(y), Inside(x)];
+        public float GetHeight(int x, int y) => ownSize.y * heights[Inside(y), Inside(x)];
 
         /// Sets a block of heights. `heights` has a row for each sample along z.
         public void SetHeights(int xBase, int yBase, float[,] heights)
         {
-            ThrowIfDestroyed();
             int rows = heights.GetLength(0), columns = heights.GetLength(1);
             if (xBase < 0 || yBase < 0 || xBase + columns > heightmapResolution || yBase + rows > heightmapResolution)
                 throw new ArgumentException("The heights are outside the height map, which has " + heightmapResolution + " samples along each side.");
