@@ -90,7 +90,7 @@ void physics_world::apply(const physics_command &command) {
             if (!kinematic) body->setLinearVelocity(vector);
             break;
         case PHYSICS_SPIN:
-            if (!kinematic) body->setAngularVelocity(without_frozen(*actor, vector));
+            if (!kinematic) body->setAngularVelocity(vector);
             break;
         case PHYSICS_FORCE:
         case PHYSICS_FORCE + 1:
