@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -56,24 +57,27 @@ def _missed() -> list[str]:
     """Returns sources whose changes Ninja misses, because it only compares modification times, and not with the beginning of a build.
 
     They changed during the last build, or have earlier times than it, for example after `rsync -a`. Programs cannot set back the change times of files.
+    Sources with a time in the future are among them, because Ninja would build them again and again.
     """
-    try:
+    now = time.time_ns()
+    changed, folder_end, file_end = now, 0, 0
+    with contextlib.suppress(OSError):
         begin, log = BEGIN.stat(), (GRAPH / ".ninja_log").stat()
-    except OSError:
-        return []
-    # In a copy of a checkout, such as a container image, change times are the times of copying.
-    if begin.st_ctime_ns != begin.st_mtime_ns:
-        return []
+        # In a copy of a checkout, such as a container image, change times are the times of copying.
+        if begin.st_ctime_ns == begin.st_mtime_ns:
+            changed, folder_end, file_end = begin.st_ctime_ns, begin.st_mtime_ns, log.st_mtime_ns
     found = []
+    paths = [(str(ROOT / "CMakeLists.txt"), file_end)]
     for place in SOURCES:
         for folder, folders, files in os.walk(ROOT / place):
             folders[:] = [name for name in folders if name not in depfile.IGNORED]
-            for path, end in [(folder, begin), *((os.path.join(folder, name), log) for name in files)]:
-                # An editor may just remove its temporary file.
-                with contextlib.suppress(FileNotFoundError):
-                    status = os.stat(path)
-                    if status.st_ctime_ns > begin.st_ctime_ns and status.st_mtime_ns <= end.st_mtime_ns:
-                        found.append(path)
+            paths += [(folder, folder_end), *((os.path.join(folder, name), file_end) for name in files)]
+    for path, end in paths:
+        # An editor may just remove its temporary file.
+        with contextlib.suppress(FileNotFoundError):
+            status = os.stat(path)
+            if status.st_mtime_ns > now or changed < status.st_ctime_ns and status.st_mtime_ns <= end:
+                found.append(path)
     return found
 
 

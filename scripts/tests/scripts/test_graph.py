@@ -79,6 +79,28 @@ def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, is_c
     assert project.log_lines() == ["made", "made"]
 
 
+def test_sources_with_a_time_in_the_future_are_built_once(project: Checkout) -> None:
+    schema = project.root / "schema"
+    schema.mkdir()
+    (schema / "in").write_text("one")
+    dependency = f'set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "{schema}")\n'
+    (project.root / "CMakeLists.txt").write_text(CMAKE.replace("/in", "/schema/in") + dependency)
+    (project.root / "step").write_text(STEP.replace("/in", "/schema/in"))
+    for path in (schema / "in", schema):
+        os.utime(path, (time.time() + 3600, time.time() + 3600))
+    for _ in range(2):
+        assert project.run(MODULE).returncode == 0
+    assert project.log_lines() == ["made"]
+
+
+def test_a_configuration_with_an_earlier_time_is_used(project: Checkout) -> None:
+    assert project.run(MODULE).returncode == 0
+    (project.root / "CMakeLists.txt").write_text(CMAKE.replace('sh "${PROJECT_SOURCE_DIR}/step"', 'touch out "${PROJECT_SOURCE_DIR}/other" COMMAND sh -c :'))
+    os.utime(project.root / "CMakeLists.txt", (0, 0))
+    assert project.run(MODULE).returncode == 0
+    assert (project.root / "other").exists()
+
+
 def test_a_source_that_is_deleted_before_a_build_is_skipped(project: Checkout) -> None:
     result = project.run(f"graph._missed = lambda: [str(root / 'deleted')]\n{MODULE}")
     assert (result.returncode, project.log_lines()) == (0, ["made"]), result.stderr
