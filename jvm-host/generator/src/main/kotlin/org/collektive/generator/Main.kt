@@ -42,7 +42,8 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
     arguments.layouts?.let { folder ->
         val tables = reader.tables()
         val name = Layouts.name(file.fileName.toString(), tables.first().name.namespace)
-        OutputFolder(folder).write("${path(name)}.java", Templates.render("Layouts.java", Layouts.model(file.fileName.toString(), tables)))
+        val model = Layouts.model(file.fileName.toString(), tables)
+        OutputFolder(folder).apply { add("${path(name)}.java", Templates.render("Layouts.java", model)) }.write()
     }
     if (arguments.csharp == null && arguments.jvm == null) return
     val addition = reader.missingSensorData()
@@ -63,21 +64,23 @@ private fun generate(arguments: Arguments, file: Path, work: Path) {
         val csharp = CSharp(schema)
         files.forEach { sanitized.csharp(copies.of(it), work.resolve("csharp")) }
         output.copy(work.resolve("csharp")) { path, text -> if (csharp.reads(path)) CSharp.adapt(text) else null }
-        for ((name, model) in csharp.mirrors()) output.write("${path(name)}.cs", Templates.render("Mirror.cs", model))
-        for ((name, model) in csharp.drafts()) output.write("${path(name)}.cs", Templates.render("Draft.cs", model))
-        output.writeSchema("${path(schema.name)}.cs", Templates.render("Schema.cs", csharp.schema()))
+        for ((name, model) in csharp.mirrors()) output.add("${path(name)}.cs", Templates.render("Mirror.cs", model))
+        for ((name, model) in csharp.drafts()) output.add("${path(name)}.cs", Templates.render("Draft.cs", model))
+        output.addSchema("${path(schema.name)}.cs", Templates.render("Schema.cs", csharp.schema()))
     }
     jvmFolder?.let { output ->
         val kotlin = Kotlin(schema)
         files.forEach { sanitized.java(copies.of(it), work.resolve("java")) }
         // Programs only write the actuator data.
         output.copy(work.resolve("java")) { path, text -> text.takeIf { path != "${path(schema.actuator.name)}.java" } }
-        for ((name, model) in kotlin.values()) output.write("${path(name)}.kt", Templates.render("Value.kt", model))
-        output.writeSchema("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
+        for ((name, model) in kotlin.values()) output.add("${path(name)}.kt", Templates.render("Value.kt", model))
+        output.addSchema("${path(schema.name)}.kt", Templates.render("Schema.kt", kotlin.schema()))
         sanitized.binarySchema(copies.of(file), work.resolve("portable"))
-        output.write("META-INF/collektive/${schema.name}.bfbs", Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
+        output.add("META-INF/collektive/${schema.name}.bfbs", Files.readAllBytes(work.resolve("portable").resolve(binary(file))))
         output.addLine(SERVICES, "${schema.name}") { output.contains("${it.replace('.', '/')}.kt") }
     }
+    csharpFolder?.write()
+    jvmFolder?.write()
 }
 
 private const val SERVICES = "META-INF/services/org.collektive.frames.data.DataSchema"

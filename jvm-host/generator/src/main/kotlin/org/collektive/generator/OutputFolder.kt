@@ -9,14 +9,19 @@ import java.nio.file.Path
 import kotlin.io.path.extension
 import kotlin.io.path.nameWithoutExtension
 
-/** A folder of generated files. An unchanged file keeps its modification time, so that builds do not redo work. */
+/**
+ * A folder of generated files. Files are checked when they are added, and [write] writes them, so that after an error nothing is written. An unchanged file
+ * keeps its modification time, so that builds do not redo work.
+ */
 internal class OutputFolder(private val root: Path) {
-    private val written = LinkedHashSet<String>()
+    private val added = LinkedHashMap<String, ByteArray>()
+    private val changed = LinkedHashSet<String>()
+    private var previous = emptyList<String>()
 
-    fun write(path: String, text: String): Unit = write(path, text.encodeToByteArray())
+    fun add(path: String, text: String): Unit = add(path, text.encodeToByteArray())
 
-    fun write(path: String, bytes: ByteArray) {
-        written += path
+    fun add(path: String, bytes: ByteArray) {
+        added[path] = bytes
         val file = root.resolve(path)
         // Reading a pipe would wait for its writer.
         if (Files.exists(file) && !Files.isRegularFile(file)) {
@@ -28,16 +33,32 @@ internal class OutputFolder(private val root: Path) {
         if (isSource(path) && old != null && !isGenerated(old)) {
             throw GeneratorException("$file exists and was not generated: move it, or choose another folder")
         }
+        val folder = generateSequence(file.toAbsolutePath().parent, Path::getParent).first(Files::exists)
+        if (Files.isDirectory(root) && !folder.toRealPath().startsWith(root.toRealPath())) {
+            throw GeneratorException("cannot write $file: $folder is behind a symbolic link; remove it, or choose another folder")
+        }
+        if (!Files.isDirectory(folder)) throw GeneratorException("cannot write $file: $folder: it is not a folder")
+        changed += path
+    }
+
+    /** Writes all added files, and deletes generated files of the schema's previous list that no schema in the folder needs any more. */
+    fun write() {
+        changed.forEach(::write)
+        val obsolete = previous - added.keys
+        if (obsolete.isEmpty()) return
+        for (file in (obsolete - schemasIn(root).flatMap(::listedIn).toSet()).filter(::isSource).map(root::resolve)) {
+            // On systems that ignore case, a renamed type may have the same file.
+            if (isOwn(file) && added.keys.none { Files.isSameFile(root.resolve(it), file) }) Files.delete(file)
+        }
+    }
+
+    private fun write(path: String) {
+        val file = root.resolve(path)
         try {
-            if (!Files.isDirectory(root)) Files.createDirectories(root)
-            val folder = generateSequence(file.parent, Path::getParent).first(Files::exists)
-            if (!folder.toRealPath().startsWith(root.toRealPath())) {
-                throw GeneratorException("cannot write $file: $folder is behind a symbolic link; remove it, or choose another folder")
-            }
             Files.createDirectories(file.parent)
             // Writing to a hard link would also change its other names.
             Files.deleteIfExists(file)
-            Files.write(file, bytes)
+            Files.write(file, added.getValue(path))
         } catch (e: FileSystemException) {
             val reason = when (e) {
                 is FileAlreadyExistsException -> "it is not a folder"
@@ -62,19 +83,10 @@ internal class OutputFolder(private val root: Path) {
         )
     }
 
-    /**
-     * Writes the last source file of a schema. Its last line lists all source files of the schema. Deletes generated files of the previous list that neither
-     * this schema nor another one in the folder needs.
-     */
-    fun writeSchema(path: String, text: String) {
-        val previous = listedIn(root.resolve(path))
-        write(path, "$text$LIST${(written + path).filter(::isSource).joinToString()}\n")
-        val obsolete = previous - written
-        if (obsolete.isEmpty()) return
-        for (file in (obsolete - schemasIn(root).flatMap(::listedIn).toSet()).filter(::isSource).map(root::resolve)) {
-            // On systems that ignore case, a renamed type may have the same file.
-            if (isOwn(file) && written.none { Files.isSameFile(root.resolve(it), file) }) Files.delete(file)
-        }
+    /** Adds the last source file of a schema. Its last line lists all source files of the schema. */
+    fun addSchema(path: String, text: String) {
+        previous = listedIn(root.resolve(path))
+        add(path, "$text$LIST${(added.keys + path).filter(::isSource).joinToString()}\n")
     }
 
     /** Returns whether a file is generated and in this folder, not behind a link. */
@@ -91,23 +103,23 @@ internal class OutputFolder(private val root: Path) {
 
     private fun isSource(path: String): Boolean = path.substringAfterLast('.') in SOURCES
 
-    fun contains(path: String): Boolean = Files.exists(root.resolve(path))
+    fun contains(path: String): Boolean = path in added || Files.exists(root.resolve(path))
 
     /** Adds [line] to a file of sorted lines. Keeps other lines for which [isWanted] holds, because schemas share the file. */
     fun addLine(path: String, line: String, isWanted: (String) -> Boolean) {
         val file = root.resolve(path)
         val old = if (Files.isRegularFile(file)) Files.readAllLines(file).map(String::trim) else emptyList()
         val others = old.filter { it.isNotEmpty() && isWanted(it) }
-        write(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
+        add(path, (others + line).distinct().sorted().joinToString("") { "$it\n" })
     }
 
-    /** Copies files of [folder]; [edit] maps the path and the text of each to the text to write, or to `null` to skip the file. */
+    /** Copies files of [folder]; [edit] maps the path and the text of each to the text to add, or to `null` to skip the file. */
     fun copy(folder: Path, edit: (String, String) -> String?) {
         if (!Files.exists(folder)) return
         val files = Files.walk(folder).use { paths -> paths.filter(Files::isRegularFile).sorted().toList() }
         for (file in files) {
             val path = folder.relativize(file).joinToString("/")
-            edit(path, Files.readString(file))?.let { write(path, it) }
+            edit(path, Files.readString(file))?.let { add(path, it) }
         }
     }
 

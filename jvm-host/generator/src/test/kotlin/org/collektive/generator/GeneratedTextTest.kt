@@ -192,7 +192,9 @@ internal class GeneratedTextTest {
             val file = Fixture.files(output).first { "$it".endsWith(".$ending") }
             val generated = Files.readAllBytes(file)
             Files.writeString(file, "using Swarm.Generated;")
+            Fixture.files(output).filter { it != file }.forEach(Files::delete)
             val error = assertFailsWith<GeneratorException> { Fixture.generate(schema, output) }
+            assertEquals(listOf(file), Fixture.files(output))
             assertEquals("$file exists and was not generated: move it, or choose another folder", error.message)
             assertEquals("using Swarm.Generated;", Files.readString(file))
             Files.delete(file)
