@@ -264,6 +264,34 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Notes, Has.No.Member("b"));
         }
 
+        public class Ending : MonoBehaviour
+        {
+            public IEnumerator Run(System.Action<IEnumerator> end, IEnumerator[] self)
+            {
+                end(self[0]);
+                yield return null;
+                Notes.Add("continued");
+            }
+        }
+
+        [Test]
+        public void A_coroutine_can_end_before_its_first_yield()
+        {
+            var script = Add<Ending>();
+            var ends = new System.Action<IEnumerator>[]
+            {
+                self => script.StopCoroutine(self), self => script.StopAllCoroutines(), self => script.gameObject.SetActive(false),
+            };
+            foreach (var end in ends)
+            {
+                var self = new IEnumerator[1];
+                script.StartCoroutine(self[0] = script.Run(end, self));
+                script.gameObject.SetActive(true);
+                Frames(2);
+                Assert.That(Notes, Is.Empty);
+            }
+        }
+
         public class LastWish : MonoBehaviour
         {
             void OnDestroy() => StartCoroutine(Speak());

@@ -103,6 +103,9 @@ namespace UnityEngine
     static class CoroutineScheduler
     {
         static readonly List<Coroutine> Running = new List<Coroutine>();
+
+        /// The coroutines that have not reached their first yield, and can already be stopped.
+        static readonly List<Coroutine> Starting = new List<Coroutine>();
         static readonly Predicate<Coroutine> Done = coroutine => coroutine.IsDone;
 
         /// Increases at the beginning and the end of each pass over the coroutines.
@@ -117,15 +120,18 @@ namespace UnityEngine
                 return null;
             }
             var coroutine = new Coroutine(owner, routine);
+            Starting.Add(coroutine);
             coroutine.Advance();
+            Starting.Remove(coroutine);
             if (!coroutine.IsDone) Running.Add(coroutine);
             return coroutine;
         }
 
         public static void Stop(MonoBehaviour owner, IEnumerator routine)
         {
-            foreach (var coroutine in Running)
-                if (ReferenceEquals(coroutine.Owner, owner) && coroutine.Routine == routine) coroutine.Stop();
+            if (routine == null) return;
+            Stop(Starting, owner, routine);
+            Stop(Running, owner, routine);
         }
 
         public static void Stop(MonoBehaviour owner, Coroutine routine)
@@ -136,8 +142,15 @@ namespace UnityEngine
 
         public static void StopAll(MonoBehaviour owner)
         {
-            foreach (var coroutine in Running)
-                if (ReferenceEquals(coroutine.Owner, owner)) coroutine.Stop();
+            Stop(Starting, owner, null);
+            Stop(Running, owner, null);
+        }
+
+        /// Stops the coroutines of a script that run `routine`, or all if it is null.
+        static void Stop(List<Coroutine> coroutines, MonoBehaviour owner, IEnumerator routine)
+        {
+            foreach (var coroutine in coroutines)
+                if (ReferenceEquals(coroutine.Owner, owner) && (routine == null || coroutine.Routine == routine)) coroutine.Stop();
         }
 
         public static void Run(CoroutinePhase phase)
