@@ -64,6 +64,56 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("p.OnDisable c.OnDisable p.OnDestroy c.OnDestroy"));
         }
 
+        public class Undead : MonoBehaviour
+        {
+            public System.Action Die;
+            void Update() => Notes.Add("Update");
+            void OnDestroy()
+            {
+                Notes.Add("OnDestroy");
+                Die();
+            }
+        }
+
+        [Test]
+        public void An_object_is_destroyed_once_although_its_script_destroys_it_again()
+        {
+            Undead script = Add<Undead>(), component = Add<Undead>();
+            var holder = script.gameObject;
+            script.Die = () => Object.DestroyImmediate(holder);
+            Object.DestroyImmediate(holder);
+            component.Die = () => Object.DestroyImmediate(component);
+            Object.DestroyImmediate(component);
+            Assert.That(Events(), Is.EqualTo("OnDestroy OnDestroy"));
+        }
+
+        [Test]
+        public void A_destroyed_object_cannot_be_activated()
+        {
+            var script = Add<Undead>();
+            var holder = script.gameObject;
+            script.Die = () => holder.SetActive(true);
+            Object.DestroyImmediate(holder);
+            Loop.Frame(0.02f);
+            Assert.That(Events(), Is.EqualTo("OnDestroy"));
+        }
+
+        [Test]
+        public void Objects_cannot_leave_or_join_parents_that_are_destroyed()
+        {
+            var script = Add<Undead>();
+            Transform parent = script.transform, child = new GameObject("Child").transform, other = new GameObject("Other").transform;
+            child.SetParent(parent);
+            script.Die = () =>
+            {
+                child.SetParent(null);
+                other.SetParent(parent);
+            };
+            Object.DestroyImmediate(parent.gameObject);
+            Assert.That(Errors.Count, Is.EqualTo(2));
+            Assert.That(Object.FindObjectsByType<Transform>(FindObjectsSortMode.None), Is.EqualTo(new[] { other }));
+        }
+
         [Test]
         public void Destroy_with_a_delay_waits_for_that_time()
         {

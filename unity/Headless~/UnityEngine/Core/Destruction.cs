@@ -39,6 +39,8 @@ namespace UnityEngine
 
         public static void Destroy(Object target)
         {
+            // A script can destroy its object again in OnDestroy.
+            if (target.isBeingDestroyed || target is Component part && part.owner.isBeingDestroyed) return;
             switch (target)
             {
                 case Transform _:
@@ -51,6 +53,7 @@ namespace UnityEngine
                     Destroy(component);
                     break;
                 case ScriptableObject script:
+                    script.isBeingDestroyed = true;
                     var messages = Messages.Of(script.GetType());
                     Messages.Send(messages.OnDisable, script);
                     Messages.Send(messages.OnDestroy, script);
@@ -69,6 +72,7 @@ namespace UnityEngine
                 Debug.LogError($"Can't remove {component.GetType().Name} because {dependent.GetType().Name} depends on it.", component);
                 return;
             }
+            component.isBeingDestroyed = true;
             if (component.owner.activeInHierarchy) component.Deactivate();
             SendOnDestroy(component);
             component.owner.components.Remove(component);
@@ -77,9 +81,11 @@ namespace UnityEngine
 
         static void Destroy(GameObject gameObject)
         {
+            gameObject.isBeingDestroyed = true;
             gameObject.SetActive(false); // OnDisable of all, before any OnDestroy
             var toDestroy = new List<GameObject>();
             Collect(gameObject, toDestroy);
+            foreach (var one in toDestroy) one.isBeingDestroyed = true;
             foreach (var one in toDestroy)
                 for (var index = 0; index < one.components.Count; index++) SendOnDestroy(one.components[index]);
             gameObject.TransformUnchecked.Detach();

@@ -329,7 +329,7 @@ namespace UnityEngine
         internal void RefreshActivity()
         {
             var parent = ownTransform.parentOrNull;
-            var active = activeSelf && together == null && (parent is null || parent.owner.activeInHierarchy);
+            var active = activeSelf && !isBeingDestroyed && together == null && (parent is null || parent.owner.activeInHierarchy);
             if (active == activeInHierarchy) return;
             var affected = new List<Component>();
             MarkActivity(active, affected);

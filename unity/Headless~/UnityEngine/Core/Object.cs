@@ -35,7 +35,7 @@ namespace UnityEngine
         static int created;
 
         internal readonly int id = ++created;
-        internal bool destroyed;
+        internal bool destroyed, isBeingDestroyed;
         string ownName = "";
         HideFlags ownHideFlags;
 

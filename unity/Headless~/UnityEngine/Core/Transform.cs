@@ -377,6 +377,11 @@ namespace UnityEngine
             ThrowIfDestroyed();
             if (!parent) parent = null;
             if (ReferenceEquals(parent, parentOrNull)) return;
+            if (owner.isBeingDestroyed || !(parent is null) && parent.owner.isBeingDestroyed)
+            {
+                Debug.LogError($"Cannot set the parent of the GameObject '{name}' while it or its new parent is being destroyed.", this);
+                return;
+            }
             if (!(parent is null) && parent.IsChildOf(this))
             {
                 Debug.LogError($"'{parent.name}' cannot become the parent of '{name}', which is one of its ancestors.", this);
@@ -454,7 +459,7 @@ namespace UnityEngine
 
         public void DetachChildren()
         {
-            while (childCount > 0) children[0].SetParent(null);
+            foreach (var child in Existing.children.ToArray()) child.SetParent(null);
         }
 
         public int GetSiblingIndex() => parent is null ? owner.sceneOfRoot.Roots.IndexOf(owner) : parentOrNull.children.IndexOf(this);
