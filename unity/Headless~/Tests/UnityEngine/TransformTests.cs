@@ -206,6 +206,38 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Errors, Is.Empty);
         }
 
+        public class Leaver : MonoBehaviour
+        {
+            public Transform Child, Other;
+
+            void OnDisable()
+            {
+                Child.SetParent(null);
+                Other.SetParent(transform);
+                if (!gameObject.activeInHierarchy) transform.SetParent(Other);
+            }
+        }
+
+        [Test]
+        public void Children_cannot_leave_or_join_a_parent_that_is_being_activated_or_deactivated()
+        {
+            var script = Add<Leaver>("Parent");
+            script.Child = new GameObject("Child").transform;
+            script.Other = new GameObject("Other").transform;
+            script.Child.SetParent(script.transform);
+            script.gameObject.SetActive(false);
+            Assert.That((script.Child.parent, script.Other.parent, script.transform.parent), Is.EqualTo((script.transform, (Transform)null, script.Other)));
+            Assert.That(Errors, Is.EqualTo(new[]
+            {
+                "Cannot set the parent of the GameObject 'Child' while activating or deactivating the parent GameObject 'Parent'.",
+                "Cannot set the parent of the GameObject 'Other' while activating or deactivating the parent GameObject 'Parent'.",
+            }));
+            script.transform.SetParent(null);
+            script.gameObject.SetActive(true);
+            script.enabled = false;
+            Assert.That((script.Child.parent, script.Other.parent), Is.EqualTo(((Transform)null, script.transform)));
+        }
+
         [Test]
         public void A_rotation_towards_a_zero_vector_is_logged()
         {

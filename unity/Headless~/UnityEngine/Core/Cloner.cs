@@ -49,14 +49,14 @@ namespace UnityEngine
             var copy = CopyObjects(original);
             var transform = copy.transform;
             copy.name = original.name + "(Clone)";
-            transform.SetParent(parent, worldPositionStays);
+            transform.Join(parent ? parent : null, worldPositionStays);
             if (pose.HasValue) transform.SetPositionAndRotation(pose.Value.position, pose.Value.rotation);
             foreach (var pair in copies)
             {
                 if (pair.Key is MonoBehaviour script) CopyScript(script, pair.Value, typeof(MonoBehaviour));
                 else if (pair.Value is Joint joint) joint.connectedBody = (Rigidbody)CopyValue(joint.connectedBody, typeof(Rigidbody), false, 0);
             }
-            copy.SetActive(original.activeSelf);
+            if (original.activeSelf) copy.ActivateCopy();
             return copy;
         }
 

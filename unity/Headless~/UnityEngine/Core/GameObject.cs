@@ -326,14 +326,21 @@ namespace UnityEngine
         }
 
         /// Updates `activeInHierarchy` of this object and its descendants, then notifies their components.
-        internal void RefreshActivity()
+        internal void RefreshActivity(bool locksParents = true)
         {
             var parent = ownTransform.parentOrNull;
             var active = activeSelf && !isBeingDestroyed && together == null && (parent is null || parent.owner.activeInHierarchy);
             if (active == activeInHierarchy) return;
             var affected = new List<Component>();
             MarkActivity(active, affected);
-            Lifecycle.ActivityChanged(affected, active);
+            Lifecycle.ActivityChanged(affected, active, locksParents ? ownTransform : null);
+        }
+
+        /// Activates a new copy. In contrast to `SetActive`, its scripts can change the parents of its objects.
+        internal void ActivateCopy()
+        {
+            activeSelf = true;
+            RefreshActivity(false);
         }
 
         void MarkActivity(bool active, List<Component> affected)
@@ -361,7 +368,7 @@ namespace UnityEngine
             var affected = new List<Component>();
             foreach (var root in created)
                 if (root && root.ownTransform.parentOrNull is null && !root.activeInHierarchy && root.activeSelf) root.MarkActivity(true, affected);
-            Lifecycle.ActivityChanged(affected, true);
+            Lifecycle.ActivityChanged(affected, true, null);
         }
 
         // ---- Search and primitives ----------------------------------------------------------------------------------

@@ -13,6 +13,9 @@ namespace UnityEngine
         static readonly Comparison<Component> ByOrder = (a, b) => OrderOf(a).CompareTo(OrderOf(b));
         static int enablings;
 
+        /// The objects that are being activated or deactivated with their children, and their component that receives a message now.
+        static readonly List<(Transform Root, Component Notified)> Changing = new List<(Transform, Component)>();
+
         public static void Enabled(MonoBehaviour script)
         {
             script.enabling = ++enablings;
@@ -23,16 +26,31 @@ namespace UnityEngine
         }
 
         /// Notifies components of objects that became active or inactive together. Components of the engine come first, then scripts in execution order.
-        public static void ActivityChanged(List<Component> components, bool active)
+        /// The parents of their objects cannot change below `root` meanwhile.
+        public static void ActivityChanged(List<Component> components, bool active, Transform root)
         {
             Orders.Shuffle(components);
             StableSort(components);
             foreach (var component in components)
             {
                 if (component.destroyed || component.owner.activeInHierarchy != active) continue; // changed by a message to an earlier component
+                Changing.Add((root, component));
                 if (active) component.Activate();
                 else component.Deactivate();
+                Changing.RemoveAt(Changing.Count - 1);
             }
+        }
+
+        /// Whether the object is being activated or deactivated, and it or a child receives a message now.
+        public static bool IsChanging(Transform transform)
+        {
+            foreach (var (root, notified) in Changing)
+            {
+                if (root is null) continue;
+                for (var level = notified.owner.TransformUnchecked; !(level is null); level = ReferenceEquals(level, root) ? null : level.parentOrNull)
+                    if (ReferenceEquals(level, transform)) return true;
+            }
+            return false;
         }
 
         static int OrderOf(Component component) => component is MonoBehaviour script ? script.messages.Order : int.MinValue;
@@ -87,6 +105,7 @@ namespace UnityEngine
             FixedUpdating.Clear();
             Updating.Clear();
             LateUpdating.Clear();
+            Changing.Clear();
             enablings = 0;
         }
     }

@@ -376,6 +376,18 @@ namespace UnityEngine
         {
             ThrowIfDestroyed();
             if (!parent) parent = null;
+            var changing = Lifecycle.IsChanging(parentOrNull) ? parentOrNull : Lifecycle.IsChanging(parent) ? parent : null;
+            if (changing is null || ReferenceEquals(parent, parentOrNull))
+            {
+                Join(parent, worldPositionStays);
+                return;
+            }
+            Debug.LogError($"Cannot set the parent of the GameObject '{name}' while activating or deactivating the parent GameObject '{changing.name}'.", this);
+        }
+
+        /// Changes the parent even while the parent is being activated, as `Instantiate` does.
+        internal void Join(Transform parent, bool worldPositionStays)
+        {
             if (ReferenceEquals(parent, parentOrNull)) return;
             if (owner.isBeingDestroyed || !(parent is null) && parent.owner.isBeingDestroyed)
             {
