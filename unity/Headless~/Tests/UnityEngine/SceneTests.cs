@@ -61,6 +61,13 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void An_invalid_scene_has_no_root_objects()
+        {
+            Assert.Throws<System.ArgumentException>(() => default(Scene).GetRootGameObjects());
+            Assert.Throws<System.ArgumentException>(() => default(Scene).GetRootGameObjects(new List<GameObject>()));
+        }
+
+        [Test]
         public void FindObjectsByType_can_sort_by_creation()
         {
             Transform first = new GameObject().transform, second = new GameObject().transform;

@@ -37,14 +37,21 @@ namespace UnityEngine.SceneManagement
 
         public GameObject[] GetRootGameObjects()
         {
-            if (content != null && content.IsUnloaded) throw new System.ArgumentException("The scene is not loaded.");
-            return content == null ? new GameObject[0] : Roots.ToArray();
+            ThrowIfInvalid();
+            if (content.IsUnloaded) throw new System.ArgumentException("The scene is not loaded.");
+            return Roots.ToArray();
         }
 
         public void GetRootGameObjects(List<GameObject> rootGameObjects)
         {
             rootGameObjects.Clear();
-            if (content != null) rootGameObjects.AddRange(Roots);
+            ThrowIfInvalid();
+            rootGameObjects.AddRange(Roots);
+        }
+
+        void ThrowIfInvalid()
+        {
+            if (content == null) throw new System.ArgumentException("The scene is invalid.");
         }
 
         internal static IEnumerable<GameObject> AllRoots()
