@@ -61,6 +61,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Objects_that_are_not_saved_are_not_found()
+        {
+            GameObject saved = new GameObject("Saved"), unsaved = new GameObject("Unsaved") { hideFlags = HideFlags.HideAndDontSave };
+            unsaved.transform.SetAsFirstSibling();
+            Assert.That(Object.FindObjectsByType<GameObject>(FindObjectsSortMode.None), Is.EqualTo(new[] { saved }));
+            Assert.That(Object.FindAnyObjectByType<GameObject>(), Is.SameAs(saved));
+            Assert.That(Object.FindAnyObjectByType<Transform>(), Is.SameAs(saved.transform));
+        }
+
+        [Test]
         public void An_invalid_scene_has_no_root_objects()
         {
             Assert.Throws<System.ArgumentException>(() => default(Scene).GetRootGameObjects());

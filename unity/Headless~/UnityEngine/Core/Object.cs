@@ -115,7 +115,7 @@ namespace UnityEngine
 
         public static void DontDestroyOnLoad(Object target) { } // the player's scene is never replaced
 
-        /// Finds objects in scenes only, not assets.
+        /// Finds objects in scenes only, not assets or objects with HideFlags.DontSave.
         public static T[] FindObjectsByType<T>(FindObjectsSortMode sortMode) where T : Object =>
             FindObjectsByType<T>(FindObjectsInactive.Exclude, sortMode);
 
@@ -129,6 +129,7 @@ namespace UnityEngine
                 if (typeof(T) != typeof(GameObject)) found.AddRange(root.GetComponentsInChildren<T>(inactiveToo));
                 else foreach (var transform in root.GetComponentsInChildren<Transform>(inactiveToo)) found.Add((T)(Object)transform.owner);
             }
+            found.RemoveAll(one => IsUnsaved(one));
             if (sortMode == FindObjectsSortMode.InstanceID) found.Sort((a, b) => a.id.CompareTo(b.id));
             return found.ToArray();
         }
@@ -143,11 +144,18 @@ namespace UnityEngine
             var inactiveToo = findObjectsInactive == FindObjectsInactive.Include;
             foreach (var root in SceneManagement.Scene.AllRoots())
             {
-                if (type == typeof(GameObject) && (inactiveToo || root.activeInHierarchy)) return root;
-                var found = root.FindInChildren(type, inactiveToo);
-                if (!(found is null)) return found;
+                if (!inactiveToo && !root.activeInHierarchy) continue;
+                foreach (var transform in root.GetComponentsInChildren<Transform>(inactiveToo))
+                {
+                    if (type == typeof(GameObject) && !IsUnsaved(transform.owner)) return transform.owner;
+                    foreach (var component in transform.owner.components)
+                        if (type.IsInstanceOfType(component) && !IsUnsaved(component)) return component;
+                }
             }
             return null;
         }
+
+        static bool IsUnsaved(Object one) =>
+            (one.ownHideFlags & HideFlags.DontSave) == HideFlags.DontSave || one is Component component && IsUnsaved(component.owner);
     }
 }
