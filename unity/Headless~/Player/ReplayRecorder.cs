@@ -147,7 +147,8 @@ namespace Collektive.Headless
         {
             Physics.SyncTransforms();
             var colliders = new List<Collider>();
-            foreach (var root in SceneManager.GetActiveScene().GetRootGameObjects()) colliders.AddRange(root.GetComponentsInChildren<Collider>());
+            foreach (var root in SceneManager.GetActiveScene().GetRootGameObjects())
+                if (root.activeInHierarchy) colliders.AddRange(root.GetComponentsInChildren<Collider>());
             var floor = FindFloor(colliders);
             var first = manager.Nodes.Count == 0 ? Vector3.zero : manager.Nodes[0].transform.position;
             var arena = floor == null ? new Bounds(first, Vector3.zero) : new Bounds(Top(floor), new Vector3(floor.bounds.size.x, 0, floor.bounds.size.z));

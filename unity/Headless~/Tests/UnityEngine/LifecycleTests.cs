@@ -174,6 +174,21 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_search_among_children_or_parents_includes_an_inactive_object_itself()
+        {
+            GameObject parent = Add<Single>().gameObject, middle = Add<Single>().gameObject, child = Add<Single>().gameObject;
+            middle.transform.SetParent(parent.transform);
+            child.transform.SetParent(middle.transform);
+            parent.SetActive(false);
+            Assert.That(middle.GetComponentInChildren<Single>(), Is.SameAs(middle.GetComponent<Single>()));
+            Assert.That(middle.GetComponentInChildren(typeof(Single)), Is.SameAs(middle.GetComponent<Single>()));
+            Assert.That(middle.GetComponentInParent<Single>(), Is.SameAs(middle.GetComponent<Single>()));
+            Assert.That(middle.GetComponentInParent(typeof(Single)), Is.SameAs(middle.GetComponent<Single>()));
+            Assert.That(middle.GetComponentsInChildren<Single>(), Is.EqualTo(middle.GetComponents<Single>()));
+            Assert.That(middle.GetComponentsInParent<Single>(), Is.EqualTo(middle.GetComponents<Single>()));
+        }
+
+        [Test]
         public void An_exception_is_logged_and_other_components_go_on()
         {
             Add<Thrower>();

@@ -242,16 +242,14 @@ namespace UnityEngine
         public Component GetComponentInChildren(Type type) => GetComponentInChildren(type, false);
         public Component GetComponentInChildren(Type type, bool includeInactive) => FindInChildren(type, includeInactive);
 
-        internal Component FindInChildren(Type type, bool includeInactive)
+        /// As in Unity, searches this object itself even if it is inactive.
+        Component FindInChildren(Type type, bool includeInactive)
         {
-            if (activeInHierarchy || includeInactive)
-            {
-                var own = FindComponent(type);
-                if (!(own is null)) return own;
-            }
+            var own = GetComponent(type);
+            if (!(own is null)) return own;
             foreach (var child in ownTransform.children)
             {
-                var found = child.owner.FindInChildren(type, includeInactive);
+                var found = child.owner.activity || includeInactive ? child.owner.FindInChildren(type, includeInactive) : null;
                 if (!(found is null)) return found;
             }
             return null;
@@ -277,8 +275,9 @@ namespace UnityEngine
 
         void CollectInChildren<T>(bool includeInactive, List<T> results)
         {
-            if (activeInHierarchy || includeInactive) Collect(results);
-            foreach (var child in ownTransform.children) child.owner.CollectInChildren(includeInactive, results);
+            Collect(results);
+            foreach (var child in ownTransform.children)
+                if (child.owner.activity || includeInactive) child.owner.CollectInChildren(includeInactive, results);
         }
 
         public T GetComponentInParent<T>() => GetComponentInParent<T>(false);
@@ -286,7 +285,7 @@ namespace UnityEngine
         public T GetComponentInParent<T>(bool includeInactive)
         {
             for (var level = transform; !(level is null); level = level.parentOrNull)
-                if ((level.owner.activeInHierarchy || includeInactive) && level.owner.GetComponent<T>() is T found) return found;
+                if (IsSearched(level, includeInactive) && level.owner.GetComponent<T>() is T found) return found;
             return default;
         }
 
@@ -295,7 +294,7 @@ namespace UnityEngine
         public Component GetComponentInParent(Type type, bool includeInactive)
         {
             for (var level = transform; !(level is null); level = level.parentOrNull)
-                if ((level.owner.activeInHierarchy || includeInactive) && level.owner.FindComponent(type) is Component found) return found;
+                if (IsSearched(level, includeInactive) && level.owner.FindComponent(type) is Component found) return found;
             return null;
         }
 
@@ -312,8 +311,10 @@ namespace UnityEngine
         {
             results.Clear();
             for (var level = transform; !(level is null); level = level.parentOrNull)
-                if (level.owner.activeInHierarchy || includeInactive) level.owner.Collect(results);
+                if (IsSearched(level, includeInactive)) level.owner.Collect(results);
         }
+
+        bool IsSearched(Transform level, bool includeInactive) => includeInactive || level.owner.activity || ReferenceEquals(level, ownTransform);
 
         // ---- Activity -----------------------------------------------------------------------------------------------
 

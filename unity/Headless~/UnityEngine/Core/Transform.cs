@@ -418,7 +418,8 @@ namespace UnityEngine
             owner.RefreshActivity();
             PhysicsWorld.HierarchyChanged(this);
             Changed();
-            foreach (var script in owner.GetComponentsInChildren<MonoBehaviour>()) Messages.Send(script.messages.OnTransformParentChanged, script);
+            if (owner.activeInHierarchy)
+                foreach (var script in owner.GetComponentsInChildren<MonoBehaviour>()) Messages.Send(script.messages.OnTransformParentChanged, script);
             previous?.ChildrenChanged();
             parent?.ChildrenChanged();
         }
