@@ -253,6 +253,17 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(string.Join(", ", Notes), Is.EqualTo("0.02 0.02, 0.02 0.04"));
         }
 
+        [Test]
+        public void FixedUpdate_is_not_called_at_a_time_scale_of_0()
+        {
+            Add<FixedClock>();
+            Loop.Frame(0.019f);
+            Time.timeScale = 0f;
+            Time.fixedDeltaTime = 0.01f;
+            Loop.Frame(0.01f);
+            Assert.That(string.Join(", ", Notes), Is.EqualTo("0.02 0.02, 0.01 0.03"));
+        }
+
         [TestCase(0.02f, 1)]
         [TestCase(0.1f, 5)]
         [TestCase(0.05f, 2)]

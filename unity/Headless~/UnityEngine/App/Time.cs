@@ -66,11 +66,11 @@ namespace UnityEngine
             frameTime += frameDelta;
         }
 
-        /// Advances the fixed clock and returns true if it is at least one step behind the frame's time.
+        /// Advances the fixed clock and returns true if it is at least one step behind the frame's time. As in Unity, it stops at a time scale of 0.
         internal static bool BeginFixedStep()
         {
             const double rounding = 1e-6;
-            if (fixedClock + fixedDeltaTime > frameTime + rounding) return false;
+            if (frameScale == 0f || fixedClock + fixedDeltaTime > frameTime + rounding) return false;
             fixedClock += fixedDeltaTime;
             fixedUnscaledClock += fixedDeltaTime / frameScale;
             return inFixedTimeStep = true;
