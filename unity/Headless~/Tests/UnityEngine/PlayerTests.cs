@@ -69,6 +69,14 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        [Test]
+        public void A_capture_interval_replaces_the_scaled_time_only()
+        {
+            Time.captureDeltaTime = 0.1f;
+            Loop.Frame(0.03f);
+            Assert.That(new[] { Time.deltaTime, Time.time, Time.unscaledDeltaTime, Time.unscaledTime }, Is.EqualTo(new[] { 0.1f, 0.1f, 0.03f, 0.03f }));
+        }
+
         public void Quit_can_be_cancelled_by_wantsToQuit()
         {
             var allowed = false;

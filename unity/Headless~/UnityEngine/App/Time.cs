@@ -54,13 +54,13 @@ namespace UnityEngine
             startOffset = Clock.Elapsed.TotalSeconds;
         }
 
-        /// Advances the clock by `seconds`, or by `captureDeltaTime` if that is set.
+        /// Advances the clocks by `seconds`. If `captureDeltaTime` is set, it replaces them, except for unscaled times.
         internal static void BeginFrame(float seconds)
         {
-            if (captureDeltaTime > 0f) seconds = captureDeltaTime;
             frameCount++;
             unscaledFrameDelta = seconds;
             unscaledClock += seconds;
+            if (captureDeltaTime > 0f) seconds = captureDeltaTime;
             frameScale = timeScale;
             frameDelta = Mathf.Min(seconds, maximumDeltaTime) * frameScale;
             frameTime += frameDelta;
