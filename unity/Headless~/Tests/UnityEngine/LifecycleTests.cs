@@ -308,6 +308,17 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Errors.Count, Is.EqualTo(2));
         }
 
+        [DisallowMultipleComponent]
+        class SingleAmongSingles : Single { }
+
+        [Test]
+        public void DisallowMultipleComponent_of_a_base_class_applies_despite_that_of_a_subclass()
+        {
+            var holder = Add<Single>().gameObject;
+            Assert.That(holder.AddComponent<SingleAmongSingles>() == null, Is.True);
+            Assert.That(Errors.Count, Is.EqualTo(1));
+        }
+
         public class NeverPaused : MonoBehaviour
         {
             void OnApplicationPause(bool isPaused) => Notes.Add("paused");

@@ -62,12 +62,13 @@ namespace UnityEngine
             return table;
         }
 
-        /// Returns the nearest base type with [DisallowMultipleComponent], or null. An object can have only one component of such a type.
+        /// Returns the topmost base type with [DisallowMultipleComponent], or null. An object can have only one component of such a type.
         public static Type SingleBase(Type type)
         {
+            Type single = null;
             for (var level = type; level != typeof(Component); level = level.BaseType)
-                if (level.IsDefined(typeof(DisallowMultipleComponent), false)) return level;
-            return null;
+                if (level.IsDefined(typeof(DisallowMultipleComponent), false)) single = level;
+            return single;
         }
 
         /// Calls a message method. If it throws an exception, logs the exception and returns false.
