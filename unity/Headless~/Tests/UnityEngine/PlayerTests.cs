@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Threading;
 using NUnit.Framework;
 using Unity.Collections;
 using UnityEngine;
@@ -69,7 +70,6 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        [Test]
         public void A_capture_interval_replaces_the_scaled_time_only()
         {
             Time.captureDeltaTime = 0.1f;
@@ -77,6 +77,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(new[] { Time.deltaTime, Time.time, Time.unscaledDeltaTime, Time.unscaledTime }, Is.EqualTo(new[] { 0.1f, 0.1f, 0.03f, 0.03f }));
         }
 
+        [Test]
         public void Quit_can_be_cancelled_by_wantsToQuit()
         {
             var allowed = false;
@@ -87,6 +88,18 @@ namespace Collektive.Headless.Tests.Engine
             Application.Quit(3);
             Assert.That(Loop.QuitRequested, Is.True);
             Assert.That(Loop.ExitCode, Is.EqualTo(3));
+        }
+
+        [Test]
+        public void A_handler_that_throws_is_logged_and_stops_nothing()
+        {
+            Application.wantsToQuit += () => throw new Exception("wantsToQuit");
+            SceneManager.sceneLoaded += (scene, mode) => throw new Exception("sceneLoaded");
+            SceneManager.sceneUnloaded += scene => throw new Exception("sceneUnloaded");
+            Application.Quit();
+            Assert.That(Loop.QuitRequested, Is.True);
+            AdditiveScene.Unload(AdditiveScene.Load("Second", () => { }));
+            Assert.That(Errors, Is.EqualTo(new[] { "wantsToQuit", "sceneLoaded", "sceneUnloaded" }));
         }
 
         [Test]
@@ -185,6 +198,31 @@ namespace Collektive.Headless.Tests.Engine
             Application.logMessageReceived += (message, stack, type) => Debug.Log("handled " + (received += message));
             Debug.Log("message");
             Assert.That(received, Is.EqualTo("message"));
+        }
+
+        [Test]
+        public void Handlers_of_log_messages_can_throw()
+        {
+            Loop.Reset();
+            var received = 0;
+            Application.logMessageReceived += (message, stack, type) => throw new Exception(message);
+            Application.logMessageReceivedThreaded += (message, stack, type) => received++;
+            Debug.Log("message");
+            Assert.That(received, Is.EqualTo(1));
+        }
+
+        [Test]
+        public void Only_logMessageReceivedThreaded_receives_messages_of_other_threads()
+        {
+            Loop.Reset();
+            Loop.Start(1);
+            int main = 0, any = 0;
+            Application.logMessageReceived += (message, stack, type) => main++;
+            Application.logMessageReceivedThreaded += (message, stack, type) => any++;
+            var thread = new Thread(() => Debug.Log("from a thread"));
+            thread.Start();
+            thread.Join();
+            Assert.That((main, any), Is.EqualTo((0, 1)));
         }
 
         [Test]

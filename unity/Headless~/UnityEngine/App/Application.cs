@@ -47,9 +47,12 @@ namespace UnityEngine
         /// Ends the player after the current frame, unless a `wantsToQuit` handler returns false.
         public static void Quit(int exitCode)
         {
-            if (wantsToQuit != null)
-                foreach (Func<bool> allows in wantsToQuit.GetInvocationList())
-                    if (!allows()) return;
+            var allowed = true;
+            foreach (var handler in wantsToQuit?.GetInvocationList() ?? Array.Empty<Delegate>())
+            {
+                Headless.Loop.InvokeAll(() => allowed = ((Func<bool>)handler)());
+                if (!allowed) return;
+            }
             Headless.Loop.RequestQuit(exitCode);
         }
 
@@ -62,8 +65,8 @@ namespace UnityEngine
             isRaising = true;
             try
             {
-                logMessageReceived?.Invoke(message, stackTrace, type);
-                logMessageReceivedThreaded?.Invoke(message, stackTrace, type);
+                if (Headless.Loop.IsMainThread) Headless.Loop.InvokeAll(() => logMessageReceived?.Invoke(message, stackTrace, type));
+                Headless.Loop.InvokeAll(() => logMessageReceivedThreaded?.Invoke(message, stackTrace, type));
             }
             finally
             {

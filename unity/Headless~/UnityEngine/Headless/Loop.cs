@@ -15,6 +15,7 @@ namespace UnityEngine.Headless
         };
 
         static bool started;
+        static Thread main;
         static MainThreadContext tasks;
         static int searched;
         static List<MethodInfo> found;
@@ -54,12 +55,16 @@ namespace UnityEngine.Headless
         /// Number of message methods, coroutines and other callbacks that threw an exception.
         public static long FailedCalls { get; private set; }
 
+        /// Whether this is the thread of the running player. Without a player, every thread is.
+        internal static bool IsMainThread => main == null || main == Thread.CurrentThread;
+
         /// Enters play mode. Seeds `Random`, runs the methods with [RuntimeInitializeOnLoadMethod] of all loaded assemblies, and calls `buildScene` when
         /// Unity would load the first scene. Objects that were created before also belong to the scene.
         public static void Start(int seed, Action buildScene = null)
         {
             if (started) throw new InvalidOperationException("The player is already running: call Loop.Quit or Loop.Reset first.");
             started = true;
+            main = Thread.CurrentThread;
             SynchronizationContext.SetSynchronizationContext(tasks = new MainThreadContext());
             Random.InitState(seed);
             var methods = InitializeMethods();
@@ -106,6 +111,7 @@ namespace UnityEngine.Headless
             SceneManagement.SceneManager.RaiseUnloaded(SceneManagement.Scene.Active);
             SynchronizationContext.SetSynchronizationContext(null);
             started = false;
+            main = null;
         }
 
         /// Quits if needed, and resets all state between tests: objects, handlers, clocks and physics.

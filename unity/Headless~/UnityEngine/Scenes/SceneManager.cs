@@ -24,8 +24,8 @@ namespace UnityEngine.SceneManagement
         public static Scene GetActiveScene() => Scene.Active;
         public static Scene GetSceneAt(int index) => Scene.Loaded[index];
 
-        internal static void RaiseLoaded(Scene scene, LoadSceneMode mode) => sceneLoaded?.Invoke(scene, mode);
-        internal static void RaiseUnloaded(Scene scene) => sceneUnloaded?.Invoke(scene);
+        internal static void RaiseLoaded(Scene scene, LoadSceneMode mode) => Headless.Loop.InvokeAll(() => sceneLoaded?.Invoke(scene, mode));
+        internal static void RaiseUnloaded(Scene scene) => Headless.Loop.InvokeAll(() => sceneUnloaded?.Invoke(scene));
 
         internal static void ResetState()
         {
