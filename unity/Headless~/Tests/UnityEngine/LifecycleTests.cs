@@ -319,6 +319,19 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Errors.Count, Is.EqualTo(1));
         }
 
+        public class Asker : MonoBehaviour
+        {
+            void Awake() => Notes.Add("Awake " + isActiveAndEnabled);
+            void OnEnable() => Notes.Add("OnEnable " + isActiveAndEnabled);
+        }
+
+        [Test]
+        public void A_script_is_active_and_enabled_from_OnEnable_on()
+        {
+            Add<Asker>();
+            Assert.That(Events(), Is.EqualTo("Awake False OnEnable True"));
+        }
+
         public class NeverPaused : MonoBehaviour
         {
             void OnApplicationPause(bool isPaused) => Notes.Add("paused");

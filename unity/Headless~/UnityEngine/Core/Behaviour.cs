@@ -20,7 +20,10 @@ namespace UnityEngine
             }
         }
 
-        public bool isActiveAndEnabled => enabled && owner.activeInHierarchy;
+        public bool isActiveAndEnabled => enabled && owner.activeInHierarchy && HasEnabled;
+
+        /// Whether OnEnable was called.
+        internal virtual bool HasEnabled => true;
 
         internal virtual void EnabledChanged() { }
     }

@@ -27,6 +27,8 @@ namespace UnityEngine
         public void StopCoroutine(Coroutine routine) => CoroutineScheduler.Stop(this.Existing(), routine);
         public void StopAllCoroutines() => CoroutineScheduler.StopAll(this.Existing());
 
+        internal override bool HasEnabled => enabling != 0;
+
         internal override void Activate()
         {
             if (!HasAwoken)
@@ -52,7 +54,7 @@ namespace UnityEngine
 
         void Enable()
         {
-            if (enabling != 0 || !isActiveAndEnabled) return;
+            if (HasEnabled || !ownEnabled || destroyed || !owner.activeInHierarchy) return;
             Lifecycle.Enabled(this);
             Messages.Send(messages.OnEnable, this);
         }
