@@ -120,6 +120,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_random_rotation_has_four_normalised_numbers()
+        {
+            var state = UnityEngine.Random.state;
+            var numbers = new float[4];
+            for (var index = 0; index < 4; index++) numbers[index] = UnityEngine.Random.Range(-1f, 1f);
+            UnityEngine.Random.state = state;
+            Assert.That(UnityEngine.Random.rotation, Is.EqualTo(new Quaternion(numbers[0], numbers[1], numbers[2], numbers[3]).normalized));
+        }
+
+        [Test]
         public void HSV_conversions_match_known_values()
         {
             Assert.That(Color.HSVToRGB(1f / 3f, 1f, 1f) == Color.green, Is.True);

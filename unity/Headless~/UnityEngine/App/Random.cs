@@ -76,6 +76,7 @@ namespace UnityEngine
             }
         }
 
-        public static Quaternion rotation => rotationUniform;
+        /// Not uniform, as in Unity.
+        public static Quaternion rotation => new Quaternion(Range(-1f, 1f), Range(-1f, 1f), Range(-1f, 1f), Range(-1f, 1f)).normalized;
     }
 }
