@@ -336,6 +336,8 @@ namespace Collektive.Headless.Tests.Engine
         {
             void OnApplicationPause(bool isPaused) => Notes.Add("paused");
             void OnApplicationFocus() => Notes.Add("focused");
+            void Update(int times) => Notes.Add("updated");
+            void OnTriggerExit(Collision collision) => Notes.Add("left");
         }
 
         [Test]
@@ -347,6 +349,8 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.Empty);
             Assert.That(Errors, Is.EqualTo(new[]
             {
+                "Script error (NeverPaused): Update(Int32) is never called: the message has no parameter.",
+                "Script error (NeverPaused): OnTriggerExit(Collision) is never called: the parameter of the message is of type Collider.",
                 "NeverPaused.OnApplicationFocus is never called without Unity.", "NeverPaused.OnApplicationPause is never called without Unity.",
             }));
         }

@@ -9,15 +9,21 @@ namespace Collektive.Headless.Tests.Engine
     /// Tests that physics tolerates scripts that destroy or change bodies at any time.
     public sealed class RobustnessTests : PhysicsFixture
     {
+        public class Deactivator : MonoBehaviour
+        {
+            void OnCollisionEnter(Collision collision) => collision.gameObject.SetActive(false);
+            void OnTriggerEnter(Collider other) => other.gameObject.SetActive(false);
+        }
+
+        public class SelfDeactivator : MonoBehaviour
+        {
+            void OnCollisionStay(Collision collision) => gameObject.SetActive(false);
+        }
+
         public class Destroyer : MonoBehaviour
         {
             void OnCollisionEnter(Collision collision) => Object.DestroyImmediate(collision.gameObject);
-            void OnTriggerEnter(Collider other) => Object.DestroyImmediate(other.gameObject);
-        }
-
-        public class SelfDestroyer : MonoBehaviour
-        {
-            void OnCollisionStay(Collision collision) => Object.DestroyImmediate(gameObject);
+            void OnTriggerEnter(Collider other) => Object.DestroyImmediate(this);
         }
 
         public class Changer : MonoBehaviour
@@ -33,10 +39,10 @@ namespace Collektive.Headless.Tests.Engine
             }
         }
 
-        [TestCase(typeof(Destroyer))]
-        [TestCase(typeof(SelfDestroyer))]
+        [TestCase(typeof(Deactivator))]
+        [TestCase(typeof(SelfDeactivator))]
         [TestCase(typeof(Changer))]
-        public void Collision_messages_can_destroy_and_change_bodies(Type script)
+        public void Collision_messages_can_deactivate_and_change_bodies(Type script)
         {
             Floor();
             for (var index = 0; index < 100; index++)
@@ -46,15 +52,28 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
-        public void A_trigger_message_can_destroy_the_other_object()
+        public void A_trigger_message_can_deactivate_the_other_object()
         {
             var zone = Box(Vector3.zero, new Vector3(4f, 4f, 4f));
             zone.isTrigger = true;
-            zone.gameObject.AddComponent<Destroyer>();
+            zone.gameObject.AddComponent<Deactivator>();
             for (var index = 0; index < 50; index++) Ball(new Vector3(0f, index, 0f), 0.1f);
             Run(4f);
             Assert.That(Object.FindAnyObjectByType<Rigidbody>() == null, Is.True);
             Assert.That(Errors, Is.Empty);
+        }
+
+        [TestCase(false)]
+        [TestCase(true)]
+        public void Physics_messages_cannot_destroy_immediately(bool isTrigger)
+        {
+            Floor().isTrigger = isTrigger;
+            var ball = Ball(new Vector3(0f, 0.5f, 0f));
+            var destroyer = ball.gameObject.AddComponent<Destroyer>();
+            Run(0.2f);
+            Assert.That(Object.FindObjectsByType<Collider>(FindObjectsSortMode.None), Has.Length.EqualTo(2));
+            Assert.That(destroyer != null, Is.True);
+            Assert.That(Errors[0], Is.EqualTo("DestroyImmediate is not permitted in physics messages, such as OnCollisionEnter: call Destroy."));
         }
 
         [TestCase(1e30f)]

@@ -158,6 +158,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(root.GetChild(0).name, Is.EqualTo("c"));
             Assert.That(root.Find("b").GetSiblingIndex(), Is.EqualTo(2));
             Assert.That(root.GetChild(1).IsChildOf(root), Is.True);
+            Assert.Throws<System.ArgumentNullException>(() => root.IsChildOf(null));
             new GameObject("a").transform.SetParent(root);
             new GameObject("leaf").transform.SetParent(root.GetChild(3));
             Assert.That(root.Find("a/leaf").parent.GetSiblingIndex(), Is.EqualTo(3), "of two children with the name a, the second has the leaf");

@@ -102,7 +102,7 @@ namespace UnityEngine
 
         static Action<Object> Compile(Type type, string name)
         {
-            var method = Find(type, name, null);
+            var method = Find(type, name);
             if (method == null) return null;
             if (method.ReturnType != typeof(IEnumerator) || Array.IndexOf(NonCoroutines, name) < 0)
                 return (Action<Object>)Emit(method, typeof(Action<Object>), typeof(Object));
@@ -122,15 +122,20 @@ namespace UnityEngine
         }
 
         /// Returns the method with the given name in the most derived class. It may be private, and may lack the argument.
-        static MethodInfo Find(Type type, string name, Type argument)
+        static MethodInfo Find(Type type, string name, Type argument = null)
         {
+            MethodInfo other = null;
             for (var level = type; level != typeof(MonoBehaviour) && level != typeof(ScriptableObject) && level != null; level = level.BaseType)
                 foreach (var method in level.GetMethods(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic | BindingFlags.DeclaredOnly))
                 {
                     if (method.Name != name || method.IsGenericMethodDefinition) continue;
                     var parameters = method.GetParameters();
                     if (parameters.Length == 0 || parameters.Length == 1 && parameters[0].ParameterType == argument) return method;
+                    other = method;
                 }
+            if (other != null)
+                Debug.LogError($"Script error ({type.Name}): {name}({other.GetParameters()[0].ParameterType.Name}) is never called: "
+                    + (argument == null ? "the message has no parameter." : $"the parameter of the message is of type {argument.Name}."));
             return null;
         }
 

@@ -110,7 +110,9 @@ namespace UnityEngine
 
         public static void DestroyImmediate(Object obj, bool allowDestroyingAssets)
         {
-            if (obj) Destruction.Destroy(obj);
+            if (!obj) return;
+            if (PhysicsWorld.IsStepping) Debug.LogError("DestroyImmediate is not permitted in physics messages, such as OnCollisionEnter: call Destroy.", obj);
+            else Destruction.Destroy(obj);
         }
 
         public static void DontDestroyOnLoad(Object target) { } // the player's scene is never replaced

@@ -465,6 +465,7 @@ namespace UnityEngine
 
         public bool IsChildOf(Transform parent)
         {
+            if (parent is null) throw new ArgumentNullException(nameof(parent));
             for (var level = Existing; !(level is null); level = level.parentOrNull)
                 if (ReferenceEquals(level, parent)) return true;
             return false;

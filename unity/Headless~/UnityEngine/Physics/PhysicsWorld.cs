@@ -21,7 +21,8 @@ namespace UnityEngine
         static int commandCount, commandCapacity;
         static int motionCapacity;
         static IntPtr world;
-        static bool stepping;
+        /// Whether a step or its messages are not finished.
+        public static bool IsStepping { get; private set; }
         static int materialChanges, terrainChanges;
 
         /// Motions of the bodies, indexed by PhysX's handle of the body. PhysX writes them during steps, and scripts between steps. The native memory is
@@ -73,7 +74,7 @@ namespace UnityEngine
             Ignored.Clear();
             commandCount = 0;
             StepCount = 0;
-            stepping = false;
+            IsStepping = false;
             Physics.ResetState();
             if (world != IntPtr.Zero) Physx.physics_world_destroy(world);
             world = IntPtr.Zero;
@@ -239,12 +240,12 @@ namespace UnityEngine
 
         public static void Step(float step)
         {
-            if (stepping) throw new InvalidOperationException("Physics.Simulate was called in a physics message, such as OnCollisionEnter: call it elsewhere.");
+            if (IsStepping) throw new InvalidOperationException("Physics.Simulate was called in a physics message, such as OnCollisionEnter: call it elsewhere.");
             SyncTransforms();
             if (step <= 0f) return;
             RefreshMaterials();
             RefreshTerrains();
-            stepping = true;
+            IsStepping = true;
             try
             {
                 var gravity = Physics.gravity;
@@ -267,7 +268,7 @@ namespace UnityEngine
             }
             finally
             {
-                stepping = false;
+                IsStepping = false;
             }
         }
 
