@@ -50,6 +50,15 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_cast_of_length_0_finds_colliders_that_contain_its_start()
+        {
+            var wall = Wall();
+            Assert.That(Physics.SphereCastAll(new Vector3(8.5f, 0f, 0f), 1f, Vector3.up, 0f)[0].collider, Is.SameAs(wall));
+            Assert.That(Physics.SphereCastAll(new Vector3(7f, 0f, 0f), 1f, Vector3.up, 0f), Is.Empty);
+            Assert.That(Physics.SphereCast(new Vector3(8.5f, 0f, 0f), 1f, Vector3.up, out _, 0f), Is.False);
+        }
+
+        [Test]
         public void Box_and_capsule_casts_stop_at_their_surfaces()
         {
             Wall();

@@ -50,6 +50,14 @@ namespace UnityEngine
             return length > 0f ? direction / length : Vector3.zero;
         }
 
+        /// Like `Line`, for a sweep. As in Unity, a sweep of length 0 finds the shapes that it overlaps.
+        static bool SweepLine(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
+        {
+            var hasLength = Line(origin, direction, maxDistance == 0f ? 1f : maxDistance, out line);
+            line.Distance = maxDistance;
+            return hasLength;
+        }
+
         /// Like `Line`, for a direction of length 1.
         static bool UnitLine(Vector3 origin, Vector3 direction, float maxDistance, out Physx.RayLine line)
         {
@@ -131,7 +139,7 @@ namespace UnityEngine
             QueryTriggerInteraction triggers)
         {
             nearest = default;
-            if (!Line(pose.Position, direction, maxDistance, out var line)) return false;
+            if (!SweepLine(pose.Position, direction, maxDistance, out var line)) return false;
             var filter = Filter(layerMask, triggers);
             Physx.Hit hit;
             if (Physx.physics_sweep(World, &geometry, &pose, &line.Direction, line.Distance, &filter, &hit, 0) == 0) return false;
@@ -143,7 +151,7 @@ namespace UnityEngine
         public static int SweepAll(Physx.Geometry geometry, Physx.Pose pose, Vector3 direction, RaycastHit[] results, float maxDistance, int layerMask,
             QueryTriggerInteraction triggers)
         {
-            if (results.Length == 0 || !Line(pose.Position, direction, maxDistance, out var line)) return 0;
+            if (results.Length == 0 || !SweepLine(pose.Position, direction, maxDistance, out var line)) return 0;
             Reserve(ref hits, results.Length);
             var filter = Filter(layerMask, triggers);
             int count;
@@ -155,7 +163,7 @@ namespace UnityEngine
         public static bool Sweep(Rigidbody body, Vector3 direction, out RaycastHit nearest, float maxDistance, QueryTriggerInteraction triggers)
         {
             nearest = default;
-            if (!body.Registered || !Line(body.position, direction, maxDistance, out var line)) return false;
+            if (!body.Registered || !SweepLine(body.position, direction, maxDistance, out var line)) return false;
             Physx.Hit hit;
             if (Physx.physics_sweep_actor(World, body.Handle, &line.Direction, line.Distance, HitsTriggers(triggers) ? 1 : 0, &hit, 0) == 0) return false;
             nearest = new RaycastHit(hit);
@@ -164,7 +172,7 @@ namespace UnityEngine
 
         public static RaycastHit[] SweepAll(Rigidbody body, Vector3 direction, float maxDistance, QueryTriggerInteraction triggers)
         {
-            if (!body.Registered || !Line(body.position, direction, maxDistance, out var line)) return new RaycastHit[0];
+            if (!body.Registered || !SweepLine(body.position, direction, maxDistance, out var line)) return new RaycastHit[0];
             int count;
             do
             {
