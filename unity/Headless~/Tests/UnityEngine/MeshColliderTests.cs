@@ -49,7 +49,7 @@ namespace Collektive.Headless.Tests.Engine
         public void Normals_of_a_mesh_are_copies()
         {
             var normals = new[] { Vector3.up };
-            var mesh = new Mesh { normals = normals };
+            var mesh = new Mesh { vertices = new Vector3[1], normals = normals };
             normals[0] = Vector3.down;
             mesh.normals[0] = Vector3.left;
             Assert.That(mesh.normals[0], Is.EqualTo(Vector3.up));

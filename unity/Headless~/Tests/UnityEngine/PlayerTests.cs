@@ -275,5 +275,24 @@ namespace Collektive.Headless.Tests.Engine
             mesh.triangles = new[] { 3, 4, 5 };
             Assert.That(mesh.triangles, Is.EqualTo(new[] { 3, 4, 5 }));
         }
+
+        [Test]
+        public void Arrays_that_do_not_fit_a_mesh_are_errors_and_change_nothing()
+        {
+            var mesh = new Mesh { triangles = new[] { 0, 1, 2 } };
+            Assert.That((mesh.triangles.Length, Errors.Count), Is.EqualTo((0, 1)));
+            mesh.vertices = new Vector3[3];
+            mesh.triangles = new[] { 0, 1, 2 };
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            mesh.triangles = new[] { 0, 1, 2, 0 };
+            mesh.triangles = new[] { 0, 1, 3 };
+            mesh.triangles = new[] { 0, 1, -1 };
+            mesh.vertices = new Vector3[2];
+            mesh.normals = new Vector3[2];
+            mesh.colors = new Color[4];
+            Assert.That(Errors.Count, Is.EqualTo(7));
+            Assert.That((mesh.vertexCount, mesh.normals.Length, mesh.colors.Length), Is.EqualTo((3, 0, 0)));
+            Assert.That(mesh.triangles, Is.EqualTo(new[] { 0, 1, 2 }));
+        }
     }
 }

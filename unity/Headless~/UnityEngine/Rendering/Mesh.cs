@@ -20,7 +20,13 @@ namespace UnityEngine
         readonly List<Color> ownColors = new List<Color>();
         Bounds ownBounds;
         IndexFormat format;
-        readonly List<List<int>> submeshes = new List<List<int>> { new List<int>() };
+        readonly List<Submesh> submeshes = new List<Submesh> { new Submesh() };
+
+        sealed class Submesh
+        {
+            public readonly List<int> Indices = new List<int>();
+            public MeshTopology Topology;
+        }
 
         /// Number of times that vertices or triangles were changed.
         internal int Version { get; private set; }
@@ -35,11 +41,14 @@ namespace UnityEngine
             set
             {
                 ThrowIfDestroyed();
-                while (submeshes.Count < value) submeshes.Add(new List<int>());
+                while (submeshes.Count < value) submeshes.Add(new Submesh());
                 submeshes.RemoveRange(value, submeshes.Count - value);
                 Version++;
             }
         }
+
+        /// Whether all indices belong to triangles.
+        internal bool HasOnlyTriangles => submeshes.TrueForAll(submesh => submesh.Topology == MeshTopology.Triangles || submesh.Indices.Count == 0);
 
         public Vector3[] vertices { get => this.Existing().ownVertices.ToArray(); set => SetVertices(value); }
 
@@ -48,7 +57,7 @@ namespace UnityEngine
             get
             {
                 var all = new List<int>();
-                foreach (var submesh in this.Existing().submeshes) all.AddRange(submesh);
+                foreach (var submesh in this.Existing().submeshes) all.AddRange(submesh.Indices);
                 return all.ToArray();
             }
             set
@@ -58,7 +67,7 @@ namespace UnityEngine
             }
         }
 
-        public Vector3[] normals { get => (Vector3[])this.Existing().ownNormals.Clone(); set => this.Existing().ownNormals = (Vector3[])value.Clone(); }
+        public Vector3[] normals { get => (Vector3[])this.Existing().ownNormals.Clone(); set => SetNormals(value); }
 
         public Color[] colors
         {
@@ -72,15 +81,48 @@ namespace UnityEngine
             vertices.AddRange(this.Existing().ownVertices);
         }
 
-        public void SetVertices(List<Vector3> inVertices) => Replace(ownVertices, inVertices);
-        public void SetVertices(Vector3[] inVertices) => Replace(ownVertices, inVertices);
+        public void SetVertices(List<Vector3> inVertices) => ReplaceVertices(inVertices);
+        public void SetVertices(Vector3[] inVertices) => ReplaceVertices(inVertices);
 
-        public void SetVertices(List<Vector3> inVertices, int start, int length) => Replace(ownVertices, inVertices.GetRange(start, length));
+        public void SetVertices(List<Vector3> inVertices, int start, int length) => ReplaceVertices(inVertices.GetRange(start, length));
 
-        public void SetVertices(Vector3[] inVertices, int start, int length) => Replace(ownVertices, new ArraySegment<Vector3>(inVertices, start, length));
+        public void SetVertices(Vector3[] inVertices, int start, int length) => ReplaceVertices(new ArraySegment<Vector3>(inVertices, start, length));
 
-        public void SetColors(List<Color> inColors) => Replace(ownColors, inColors);
-        public void SetColors(Color[] inColors) => Replace(ownColors, inColors);
+        void ReplaceVertices(ICollection<Vector3> vertices)
+        {
+            foreach (var submesh in submeshes)
+                foreach (var index in submesh.Indices)
+                {
+                    if (index < vertices.Count) continue;
+                    Reject("vertices", $"triangles use vertex {index}, but the array has {vertices.Count} vertices. Set the triangles to an empty array first.");
+                    return;
+                }
+            Replace(ownVertices, vertices);
+        }
+
+        void SetNormals(Vector3[] normals)
+        {
+            if (HasOnePerVertex("normals", normals)) ownNormals = (Vector3[])normals.Clone();
+        }
+
+        public void SetColors(List<Color> inColors) => ReplaceColors(inColors);
+        public void SetColors(Color[] inColors) => ReplaceColors(inColors);
+
+        void ReplaceColors(ICollection<Color> colors)
+        {
+            if (HasOnePerVertex("colors", colors)) Replace(ownColors, colors);
+        }
+
+        bool HasOnePerVertex<T>(string kind, ICollection<T> values) => values.Count == vertexCount || values.Count == 0
+            || Reject(kind, $"the mesh has {vertexCount} vertices, but the array has {values.Count} values.");
+
+        /// As in Unity, arrays that do not fit the mesh are errors and change nothing.
+        bool Reject(string kind, string reason)
+        {
+            Debug.LogError($"Failed setting {kind} of mesh '{name}': {reason}", this);
+            return false;
+        }
+
         public void SetTriangles(int[] triangles, int submesh) => SetIndices(triangles, MeshTopology.Triangles, submesh);
         public void SetTriangles(List<int> triangles, int submesh) => SetIndices(triangles, MeshTopology.Triangles, submesh);
 
@@ -90,10 +132,22 @@ namespace UnityEngine
         {
             if (submesh < 0 || submesh >= subMeshCount)
             {
-                Debug.LogError($"Failed setting indices of mesh '{name}': submesh {submesh} does not exist. Set subMeshCount first.", this);
+                Reject("indices", $"submesh {submesh} does not exist. Set subMeshCount first.");
                 return;
             }
-            Replace(submeshes[submesh], indices.ConvertAll(index => index + baseVertex));
+            if (topology == MeshTopology.Triangles && indices.Count % 3 != 0)
+            {
+                Reject("triangles", $"{indices.Count} indices are not a multiple of 3.");
+                return;
+            }
+            foreach (var index in indices)
+            {
+                if (index + baseVertex >= 0 && index + baseVertex < vertexCount) continue;
+                Reject("indices", $"vertex {index + baseVertex} does not exist. The mesh has {vertexCount} vertices.");
+                return;
+            }
+            submeshes[submesh].Topology = topology;
+            Replace(submeshes[submesh].Indices, indices.ConvertAll(index => index + baseVertex));
             if (calculateBounds) RecalculateBounds();
         }
 
@@ -110,7 +164,7 @@ namespace UnityEngine
         public void Clear(bool keepVertexLayout)
         {
             subMeshCount = 1;
-            submeshes[0].Clear();
+            submeshes[0].Indices.Clear();
             ownVertices.Clear();
             ownNormals = Array.Empty<Vector3>();
             ownColors.Clear();
@@ -120,8 +174,12 @@ namespace UnityEngine
         internal Mesh Copy(string name)
         {
             var copy = new Mesh { name = name, indexFormat = indexFormat, bounds = bounds, vertices = vertices, normals = normals, colors = colors };
-            copy.submeshes.Clear();
-            foreach (var submesh in submeshes) copy.submeshes.Add(new List<int>(submesh));
+            copy.subMeshCount = subMeshCount;
+            for (var index = 0; index < subMeshCount; index++)
+            {
+                copy.submeshes[index].Topology = submeshes[index].Topology;
+                copy.submeshes[index].Indices.AddRange(submeshes[index].Indices);
+            }
             return copy;
         }
 
