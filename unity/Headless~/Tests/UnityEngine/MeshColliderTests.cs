@@ -122,6 +122,15 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_mesh_of_lines_is_rejected()
+        {
+            var lines = Ramp();
+            lines.SetIndices(new[] { 0, 1, 2, 3, 1, 2 }, MeshTopology.Lines, 0);
+            AddMeshCollider(lines, false);
+            Assert.That(Errors[0], Is.StringContaining("has lines, points or quads"));
+        }
+
+        [Test]
         public void A_mesh_without_a_convex_hull_is_reported_by_name()
         {
             AddMeshCollider(Ramp(), true);

@@ -53,6 +53,7 @@ namespace UnityEngine
             if (!ownConvex && !(Body is null) && !Body.isKinematic)
                 return Refuse("Non-convex MeshCollider with non-kinematic Rigidbody is no longer supported since Unity 5.\n"
                     + "If you want to use a non-convex mesh either make the Rigidbody kinematic or remove the Rigidbody component.");
+            if (!ownMesh.HasOnlyTriangles) return Refuse($"The mesh '{ownMesh.name}' has lines, points or quads, which cannot be a collider.");
             if (!ownConvex && isTrigger) return Refuse("Triggers on concave MeshColliders are not supported.");
             var isStale = cookedVersion != ownMesh.Version || !cookedScale.Equals(scale);
             if (cooked.Handle != IntPtr.Zero && isStale)
