@@ -156,6 +156,17 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Settings_of_a_renderer_are_copied_by_Instantiate()
+        {
+            var original = Add<MeshRenderer>();
+            original.shadowCastingMode = UnityEngine.Rendering.ShadowCastingMode.Off;
+            original.receiveShadows = false;
+            original.sortingOrder = 3;
+            var copy = UnityEngine.Object.Instantiate(original);
+            Assert.That((copy.shadowCastingMode, copy.receiveShadows, copy.sortingOrder), Is.EqualTo((original.shadowCastingMode, false, 3)));
+        }
+
+        [Test]
         public void Draws_are_recorded_for_one_frame()
         {
             var parameters = new RenderParams(new Material(Shader.Find("Standard")));

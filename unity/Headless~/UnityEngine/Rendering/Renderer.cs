@@ -99,6 +99,9 @@ namespace UnityEngine
         {
             var other = (Renderer)original;
             enabled = other.enabled;
+            shadowCastingMode = other.shadowCastingMode;
+            receiveShadows = other.receiveShadows;
+            sortingOrder = other.sortingOrder;
             assigned.AddRange(other.assigned);
         }
     }
