@@ -167,6 +167,18 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void The_first_array_of_a_property_determines_its_length()
+        {
+            var block = new MaterialPropertyBlock();
+            block.SetVectorArray("_Places", new[] { new Vector4(1f, 0f, 0f, 0f), new Vector4(2f, 0f, 0f, 0f) });
+            block.SetVectorArray("_Places", new[] { new Vector4(3f, 0f, 0f, 0f) });
+            Assert.That(Array.ConvertAll(block.GetVectorArray("_Places"), place => place.x), Is.EqualTo(new[] { 3f, 2f }));
+            block.SetVectorArray("_Places", new List<Vector4>(new Vector4[3]));
+            Assert.That(block.GetVectorArray("_Places"), Is.EqualTo(new Vector4[2]));
+            Assert.Throws<ArgumentException>(() => block.SetVectorArray("_None", new Vector4[0]));
+        }
+
+        [Test]
         public void Draws_are_recorded_for_one_frame()
         {
             var parameters = new RenderParams(new Material(Shader.Find("Standard")));

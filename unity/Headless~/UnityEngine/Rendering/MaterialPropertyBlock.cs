@@ -1,3 +1,4 @@
+using System;
 using System.Collections.Generic;
 
 namespace UnityEngine
@@ -30,8 +31,15 @@ namespace UnityEngine
         public void SetVector(int nameID, Vector4 value) => values[nameID] = value;
         public void SetVectorArray(string name, Vector4[] values) => SetVectorArray(Shader.PropertyToID(name), values);
         public void SetVectorArray(string name, List<Vector4> values) => SetVectorArray(Shader.PropertyToID(name), values);
-        public void SetVectorArray(int nameID, Vector4[] values) => values.CopyTo(ArrayOf(nameID, values.Length), 0);
-        public void SetVectorArray(int nameID, List<Vector4> values) => values.CopyTo(ArrayOf(nameID, values.Count), 0);
+        public void SetVectorArray(int nameID, List<Vector4> values) => SetVectorArray(nameID, values.ToArray());
+
+        /// As in Unity, the first array determines the length. Values beyond it are ignored.
+        public void SetVectorArray(int nameID, Vector4[] values)
+        {
+            if (values.Length == 0) throw new ArgumentException("An array property needs at least one value.", nameof(values));
+            if (!arrays.TryGetValue(nameID, out var array)) arrays[nameID] = array = new Vector4[values.Length];
+            Array.Copy(values, array, Math.Min(values.Length, array.Length));
+        }
 
         public void SetBuffer(string name, GraphicsBuffer value) => SetBuffer(Shader.PropertyToID(name), value);
         public void SetBuffer(int nameID, GraphicsBuffer value) => buffers[nameID] = value;
@@ -49,12 +57,6 @@ namespace UnityEngine
         public Vector4[] GetVectorArray(int nameID) => arrays.TryGetValue(nameID, out var array) ? (Vector4[])array.Clone() : null;
 
         internal bool Has(int nameID) => values.ContainsKey(nameID) || arrays.ContainsKey(nameID);
-
-        Vector4[] ArrayOf(int nameID, int length)
-        {
-            if (!arrays.TryGetValue(nameID, out var array) || array.Length < length) arrays[nameID] = array = new Vector4[length];
-            return array;
-        }
 
         internal void CopyFrom(MaterialPropertyBlock other)
         {
