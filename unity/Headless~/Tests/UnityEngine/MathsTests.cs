@@ -24,6 +24,8 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That($"{Quaternion.identity} {Color.red}", Is.EqualTo("(0.00000, 0.00000, 0.00000, 1.00000) RGBA(1.000, 0.000, 0.000, 1.000)"));
             Assert.That(new Bounds(Vector3.zero, Vector3.one).ToString(), Is.EqualTo("Center: (0.00, 0.00, 0.00), Extents: (0.50, 0.50, 0.50)"));
             Assert.That($"{vector:F1}", Is.EqualTo("(1.2, 2.0, -3.0)"));
+            Assert.That($"{new Bounds(vector, Vector3.one):F1}", Is.EqualTo("Center: (1.2, 2.0, -3.0), Extents: (0.5, 0.5, 0.5)"));
+            Assert.That($"{new Ray(vector, Vector3.up):F1}", Is.EqualTo("Origin: (1.2, 2.0, -3.0), Dir: (0.0, 1.0, 0.0)"));
         }
 
         [Test]

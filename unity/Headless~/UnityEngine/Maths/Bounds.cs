@@ -2,7 +2,7 @@ using System;
 
 namespace UnityEngine
 {
-    public struct Bounds : IEquatable<Bounds>
+    public struct Bounds : IEquatable<Bounds>, IFormattable
     {
         public Bounds(Vector3 center, Vector3 size)
         {
@@ -40,6 +40,9 @@ namespace UnityEngine
         public readonly bool Equals(Bounds other) => center.Equals(other.center) && extents.Equals(other.extents);
         public override readonly bool Equals(object other) => other is Bounds bounds && Equals(bounds);
         public override readonly int GetHashCode() => center.GetHashCode() ^ (extents.GetHashCode() << 2);
-        public override readonly string ToString() => $"Center: {center}, Extents: {extents}";
+        public override readonly string ToString() => ToString(null);
+        public readonly string ToString(string format) => ToString(format, null);
+        public readonly string ToString(string format, IFormatProvider formatProvider) =>
+            $"Center: {center.ToString(format, formatProvider)}, Extents: {extents.ToString(format, formatProvider)}";
     }
 }

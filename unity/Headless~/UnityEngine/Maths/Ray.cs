@@ -1,6 +1,8 @@
+using System;
+
 namespace UnityEngine
 {
-    public struct Ray
+    public struct Ray : IFormattable
     {
         Vector3 unitDirection;
 
@@ -13,6 +15,9 @@ namespace UnityEngine
         public Vector3 origin { readonly get; set; }
         public Vector3 direction { readonly get => unitDirection; set => unitDirection = value.normalized; }
         public readonly Vector3 GetPoint(float distance) => origin + unitDirection * distance;
-        public override readonly string ToString() => $"Origin: {origin}, Dir: {unitDirection}";
+        public override readonly string ToString() => ToString(null);
+        public readonly string ToString(string format) => ToString(format, null);
+        public readonly string ToString(string format, IFormatProvider formatProvider) =>
+            $"Origin: {origin.ToString(format, formatProvider)}, Dir: {unitDirection.ToString(format, formatProvider)}";
     }
 }
