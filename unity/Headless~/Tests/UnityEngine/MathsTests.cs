@@ -84,6 +84,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Bounds_with_negative_extents_contain_no_points()
+        {
+            var bounds = new Bounds(Vector3.zero, -2f * Vector3.one);
+            Assert.That(bounds.Contains(bounds.min) || bounds.Contains(bounds.max) || bounds.Contains(Vector3.zero), Is.False);
+            bounds.Encapsulate(new Bounds(Vector3.zero, -4f * Vector3.one));
+            Assert.That(bounds.Contains(new Vector3(2f, -2f, 0f)));
+            Assert.That(bounds.Contains(new Vector3(2.1f, 0f, 0f)), Is.False);
+        }
+
+        [Test]
         public void Vector_functions_match_known_values()
         {
             Assert.That(new Vector3(3f, 4f, 0f).magnitude, Is.EqualTo(5f));

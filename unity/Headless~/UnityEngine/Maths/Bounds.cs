@@ -23,14 +23,21 @@ namespace UnityEngine
         }
 
         public void Encapsulate(Vector3 point) => SetMinMax(Vector3.Min(min, point), Vector3.Max(max, point));
-        public void Encapsulate(Bounds bounds) => SetMinMax(Vector3.Min(min, bounds.min), Vector3.Max(max, bounds.max));
+
+        public void Encapsulate(Bounds bounds)
+        {
+            Encapsulate(bounds.min);
+            Encapsulate(bounds.max);
+        }
+
         public void Expand(float amount) => extents += Vector3.one * (amount * 0.5f);
         public void Expand(Vector3 amount) => extents += amount * 0.5f;
 
         public readonly bool Intersects(Bounds bounds) =>
             min.x <= bounds.max.x && max.x >= bounds.min.x && min.y <= bounds.max.y && max.y >= bounds.min.y && min.z <= bounds.max.z && max.z >= bounds.min.z;
 
-        public readonly bool Contains(Vector3 point) => ClosestPoint(point).Equals(point);
+        /// As in Unity, bounds with negative extents contain no points.
+        public readonly bool Contains(Vector3 point) => Vector3.Max(min, point).Equals(point) && Vector3.Min(max, point).Equals(point);
         public readonly Vector3 ClosestPoint(Vector3 point) => Vector3.Max(min, Vector3.Min(max, point));
         public readonly float SqrDistance(Vector3 point) => (ClosestPoint(point) - point).sqrMagnitude;
 
