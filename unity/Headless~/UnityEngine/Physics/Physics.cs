@@ -39,7 +39,7 @@ namespace UnityEngine
         {
             if (simulationMode != SimulationMode.Script)
             {
-                Debug.LogError("Physics.Simulate(...) was called but simulation mode is not set to Script. Ignoring.");
+                Debug.LogWarning("Physics.Simulate(...) was called but simulation mode is not set to Script. Ignoring.");
                 return;
             }
             if (step < 0f) throw new ArgumentOutOfRangeException(nameof(step), step, "A step must be 0 s or longer.");
