@@ -32,10 +32,16 @@ struct Outside final : PxQueryFilterCallback {
     }
 };
 
+// Returns the index that the hit triangle had before cooking, which reorders triangles.
+int32_t triangle(const PxLocationHit &hit, const PxGeometry &geometry) {
+    if (geometry.getType() != PxGeometryType::eTRIANGLEMESH) return PHYSICS_NONE;
+    const PxTriangleMesh &mesh = *static_cast<const PxTriangleMeshGeometry &>(geometry).triangleMesh;
+    return hit.faceIndex < mesh.getNbTriangles() ? int32_t(mesh.getTrianglesRemap()[hit.faceIndex]) : PHYSICS_NONE;
+}
+
 physics_hit to_hit(const PxLocationHit &from, const PxShape &shape) {
-    const bool mesh = shape.getGeometry().getType() == PxGeometryType::eTRIANGLEMESH;
     // PhysX sets no position for an overlap at the start of a sweep.
-    return {int32_t(intptr_t(shape.userData)), mesh ? int32_t(from.faceIndex) : PHYSICS_NONE,
+    return {int32_t(intptr_t(shape.userData)), triangle(from, shape.getGeometry()),
             from.hadInitialOverlap() ? physics_vector{0, 0, 0} : vec(from.position), vec(from.normal), from.distance};
 }
 

@@ -46,6 +46,22 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_hit_has_the_index_of_the_triangle_in_the_mesh()
+        {
+            var plane = GameObject.CreatePrimitive(PrimitiveType.Plane).GetComponent<MeshCollider>();
+            Vector3[] vertices = plane.sharedMesh.vertices;
+            int[] triangles = plane.sharedMesh.triangles;
+            for (var index = 0; index < triangles.Length; index += 3)
+            {
+                var centre = (vertices[triangles[index]] + vertices[triangles[index + 1]] + vertices[triangles[index + 2]]) / 3f;
+                Assert.That(Physics.Raycast(centre + Vector3.up, Vector3.down, out var hit), Is.True);
+                Assert.That(hit.triangleIndex, Is.EqualTo(index / 3));
+                Assert.That(Physics.SphereCast(centre + Vector3.up, 0.01f, Vector3.down, out hit), Is.True);
+                Assert.That(hit.triangleIndex, Is.EqualTo(index / 3));
+            }
+        }
+
+        [Test]
         public void Normals_of_a_mesh_are_copies()
         {
             var normals = new[] { Vector3.up };
