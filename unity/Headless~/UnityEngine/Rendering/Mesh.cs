@@ -94,7 +94,7 @@ namespace UnityEngine
                 foreach (var index in submesh.Indices)
                 {
                     if (index < vertices.Count) continue;
-                    Reject("vertices", $"triangles use vertex {index}, but the array has {vertices.Count} vertices. Set the triangles to an empty array first.");
+                    Reject("vertices", $"triangles use vertex {index}, but the array has {vertices.Count} vertices. First, remove the triangles.");
                     return;
                 }
             Replace(ownVertices, vertices);
