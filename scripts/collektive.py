@@ -184,8 +184,8 @@ def check_environment() -> None:
     stack, _ = resource.getrlimit(resource.RLIMIT_STACK)
     if stack != resource.RLIM_INFINITY and stack < STACK_KB * 1024:
         raise Failure(f"the stack limit is {stack // 1024} KB, and the tools need {STACK_KB} KB: run ulimit -s 8192")
-    # ":" and ";" separate paths, "mono --aot" passes the path to a shell in double quotes, and CMake rejects definitions with "#".
-    for character in ":;\"$`\\#":
+    # ":", ";" and "," separate paths, "mono --aot" passes the path to a shell in double quotes, and CMake rejects definitions with "#".
+    for character in ":;,\"$`\\#":
         if character in str(ROOT):
             raise Failure(f"the path of this checkout, '{ROOT}', contains '{character}', which the build tools do not support: move or rename the folder")
 

@@ -15,7 +15,7 @@ from build import experiments
 from build.places import ROOT
 
 
-@pytest.mark.parametrize("character", ":;\"$`\\#")
+@pytest.mark.parametrize("character", ":;,\"$`\\#")
 def test_a_checkout_path_that_the_build_tools_do_not_support_is_rejected(checkout: Checkout, character: str) -> None:
     checkout.root = checkout.root.rename(checkout.root.with_name(f"a{character}b"))
     command = checkout.start_command("clean")
