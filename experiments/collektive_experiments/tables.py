@@ -129,6 +129,7 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     for table in reversed(opened.values()):
         table.publish()
     columns.warn()
+    _warn_of_different_jvms(store)
     _warn_of_keys_without_effect(experiment, store, ["digest", *columns.metrics, *(CONVERGED + name for name in columns.converged)])
     return _count_rows(experiment, store, columns.rows)
 
@@ -149,6 +150,14 @@ def _count_rows(experiment: Experiment, store: Store, rows: dict[str, int]) -> i
     written, series = (Counter(read_parquet(store.folder, name, columns=["run"])["run"].to_pylist()) for name in ("runs", "series"))
     return sum(written[run.name] == 1 and series[run.name] == rows.get(run.name, 0)
                and (record := store.record(run)) is not None and not store.changed_files(run, record) for run in experiment.runs())
+
+
+def _warn_of_different_jvms(store: Store) -> None:
+    """Prints a warning if a sweep was resumed with another JVM, or nodes of a cluster have different ones."""
+    jvms = sorted({*read_parquet(store.folder, "runs", columns=["version.jvm"])["version.jvm"].to_pylist()} - {None})
+    if len(jvms) > 1:
+        print(f"collektive: the runs have {len(jvms)} values of version.jvm ({', '.join(map(repr, jvms))}), so results of functions such as Math.sin can "
+              "differ between them", file=sys.stderr)
 
 
 def _warn_of_keys_without_effect(experiment: Experiment, store: Store, results: list[str]) -> None:

@@ -554,6 +554,20 @@ def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project)
         tables.write(experiment, store, False)
 
 
+def test_runs_on_different_jvms_are_reported(project: Project, capsys: pytest.CaptureFixture[str]) -> None:
+    experiment = read(project.experiment(vary={"seed": [1, 2, 3]}))
+    for run, jvm in zip(experiment.runs(), ("Java 17", "Java 25", "Java 25")):
+        folder = project.folder / "runs" / run.name
+        folder.mkdir(parents=True)
+        (folder / "manifest.json").write_text(json.dumps({"end": {}, "converged": {}, "versions": {"jvm": jvm, "os": run.name}}))
+        (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *tables.TIMES]) + "\n")
+        hashes = {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in ("manifest.json", "metrics.csv")}
+        (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": hashes}))
+    tables.write(experiment, Store(str(project.folder)), False)
+    assert [line for line in capsys.readouterr().err.splitlines() if "version" in line] == [
+        "collektive: the runs have 2 values of version.jvm ('Java 17', 'Java 25'), so results of functions such as Math.sin can differ between them"]
+
+
 @pytest.mark.parametrize("header", [
     "", ",".join(["second", "m", *tables.COUNTS, *tables.TIMES[1:]]), ",".join(["second", *tables.COUNTS, "retried", *tables.TIMES])])
 def test_metrics_of_another_version_are_rejected_before_other_runs(header: str, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
