@@ -76,7 +76,7 @@ def _missed() -> list[str]:
         # An editor may just remove its temporary file.
         with contextlib.suppress(FileNotFoundError):
             status = os.stat(path)
-            if status.st_mtime_ns > now or changed < status.st_ctime_ns and status.st_mtime_ns <= end:
+            if status.st_mtime_ns > now or (changed < status.st_ctime_ns and status.st_mtime_ns <= end):
                 found.append(path)
     return found
 

@@ -240,7 +240,7 @@ namespace UnityEngine
 
         public static void Step(float step)
         {
-            if (IsStepping) throw new InvalidOperationException("Physics.Simulate was called in a physics message, such as OnCollisionEnter: call it elsewhere.");
+            if (IsStepping) throw new InvalidOperationException("Physics.Simulate was called in a message such as OnCollisionEnter: call it elsewhere.");
             SyncTransforms();
             if (step <= 0f) return;
             RefreshMaterials();

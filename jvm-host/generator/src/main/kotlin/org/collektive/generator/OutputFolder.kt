@@ -10,7 +10,7 @@ import kotlin.io.path.extension
 import kotlin.io.path.nameWithoutExtension
 
 /**
- * A folder of generated files. Files are checked when they are added, and [write] writes them, so that after an error nothing is written. An unchanged file
+ * A folder of generated files. All files are checked when they are added, before [write] writes the first one. An unchanged file
  * keeps its modification time, so that builds do not redo work.
  */
 internal class OutputFolder(private val root: Path) {
