@@ -34,22 +34,25 @@ namespace UnityEngine.TestTools
             Expected.Clear();
             Unexpected.Clear();
             ignoreFailingMessages = false;
-            Application.logMessageReceived += Receive;
+            Application.logMessageReceivedThreaded += Receive;
         }
 
         /// Ends a test. For the runner.
         public static void End()
         {
-            Application.logMessageReceived -= Receive;
+            Application.logMessageReceivedThreaded -= Receive;
             if (Expected.Count > 0) throw new LogAssertException("missing from the log: " + Expected[0].Type + ": " + Expected[0].Text);
             NoUnexpectedReceived();
         }
 
         static void Receive(string message, string stack, LogType type)
         {
-            var index = Expected.FindIndex(expectation => expectation.Matches(message, type));
-            if (index >= 0) Expected.RemoveAt(index);
-            else if (type != LogType.Log && type != LogType.Warning && !ignoreFailingMessages) Unexpected.Add(type + ": " + message);
+            lock (Expected)
+            {
+                var index = Expected.FindIndex(expectation => expectation.Matches(message, type));
+                if (index >= 0) Expected.RemoveAt(index);
+                else if (type != LogType.Log && type != LogType.Warning && !ignoreFailingMessages) Unexpected.Add(type + ": " + message);
+            }
         }
     }
 

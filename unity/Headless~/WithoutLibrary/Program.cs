@@ -25,7 +25,7 @@ namespace Collektive.Headless.WithoutLibrary
 
         private static int Main(string[] arguments)
         {
-            Application.logMessageReceived += Count;
+            Application.logMessageReceivedThreaded += Count;
             Loop.IsEditor = arguments[0] == "editor";
             EditorApplication.isPlaying = Loop.IsEditor;
             Loop.Start(1);
@@ -83,8 +83,11 @@ namespace Collektive.Headless.WithoutLibrary
 
         private static void Count(string message, string stack, LogType type)
         {
-            if (type == LogType.Exception) exceptions++;
-            if (type == LogType.Error || type == LogType.Exception) errors.Add(message);
+            lock (errors)
+            {
+                if (type == LogType.Exception) exceptions++;
+                if (type == LogType.Error || type == LogType.Exception) errors.Add(message);
+            }
         }
     }
 }

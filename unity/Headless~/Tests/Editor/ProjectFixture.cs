@@ -25,7 +25,7 @@ namespace Collektive.Headless.Tests.Editor
         {
             Loop.Reset();
             Log.Clear();
-            Application.logMessageReceived += Keep;
+            Application.logMessageReceivedThreaded += Keep;
             before = Directory.GetCurrentDirectory();
             folder = Path.Combine(Path.GetTempPath(), "collektive-editor-" + Guid.NewGuid().ToString("N"));
             Directory.CreateDirectory(folder);
@@ -51,7 +51,7 @@ namespace Collektive.Headless.Tests.Editor
         [TearDown]
         public void RemoveProject()
         {
-            Application.logMessageReceived -= Keep;
+            Application.logMessageReceivedThreaded -= Keep;
             EditorApplication.isPlaying = false;
             Loop.IsBatchMode = true;
             Unity.Editor.CompilerProcess.Kill();
@@ -90,6 +90,9 @@ namespace Collektive.Headless.Tests.Editor
             File.Copy(Path.Combine(Root, built), target);
         }
 
-        private void Keep(string message, string stack, LogType type) => Log.Add(type + ": " + message);
+        private void Keep(string message, string stack, LogType type)
+        {
+            lock (Log) Log.Add(type + ": " + message);
+        }
     }
 }

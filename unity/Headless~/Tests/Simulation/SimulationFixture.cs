@@ -26,7 +26,7 @@ namespace Collektive.Headless.Tests.Simulation
             Loop.Reset();
             errors.Clear();
             Log.Clear();
-            Application.logMessageReceived += Keep;
+            Application.logMessageReceivedThreaded += Keep;
             Installation.HostJar = TestJvm.HostJar;
             Installation.JavaHome = TestJvm.Home;
             Loop.Start(1);
@@ -37,7 +37,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void StopPlaying()
         {
             Loop.Quit();
-            Application.logMessageReceived -= Keep;
+            Application.logMessageReceivedThreaded -= Keep;
         }
 
         protected SimulationManager MakeManager(string program, Action<SimulationSettings> change = null)
@@ -87,8 +87,12 @@ namespace Collektive.Headless.Tests.Simulation
 
         private void Keep(string message, string stack, LogType type)
         {
-            Log.Add(message);
-            if (type == LogType.Error || type == LogType.Exception) errors.Add(message);
+            // Threads of the JVM log messages, too.
+            lock (errors)
+            {
+                Log.Add(message);
+                if (type == LogType.Error || type == LogType.Exception) errors.Add(message);
+            }
         }
     }
 

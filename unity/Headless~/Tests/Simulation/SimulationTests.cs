@@ -29,7 +29,7 @@ namespace Collektive.Headless.Tests.Simulation
             Steps.Clear();
             callAt = null;
             log.Clear();
-            Application.logMessageReceived += Keep;
+            Application.logMessageReceivedThreaded += Keep;
             Physics.simulationMode = SimulationMode.Script;
             Installation.HostJar = TestJvm.HostJar;
             Installation.JavaHome = TestJvm.Home;
@@ -48,7 +48,7 @@ namespace Collektive.Headless.Tests.Simulation
         public void End()
         {
             simulation.End();
-            Application.logMessageReceived -= Keep;
+            Application.logMessageReceivedThreaded -= Keep;
             Loop.Reset();
         }
 
@@ -178,7 +178,8 @@ namespace Collektive.Headless.Tests.Simulation
 
         private void Keep(string message, string stack, LogType type)
         {
-            if (type != LogType.Log) log.Add(message);
+            if (type == LogType.Log) return;
+            lock (log) log.Add(message);
         }
 
         private static void Note(string step)
