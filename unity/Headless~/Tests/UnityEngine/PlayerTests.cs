@@ -315,7 +315,20 @@ namespace Collektive.Headless.Tests.Engine
             mesh.colors = new Color[4];
             Assert.That(Errors.Count, Is.EqualTo(7));
             Assert.That((mesh.vertexCount, mesh.normals.Length, mesh.colors.Length), Is.EqualTo((3, 0, 0)));
+            mesh.subMeshCount = 2;
+            mesh.triangles = new[] { 0, 1, 3 };
+            Assert.That((mesh.subMeshCount, Errors.Count), Is.EqualTo((2, 8)));
             Assert.That(mesh.triangles, Is.EqualTo(new[] { 0, 1, 2 }));
+        }
+
+        [Test]
+        public void A_copy_of_a_mesh_has_its_normals_and_colours_even_if_vertices_were_added()
+        {
+            var mesh = new Mesh { vertices = new Vector3[1], normals = new[] { Vector3.up }, colors = new[] { Color.red } };
+            mesh.vertices = new Vector3[2];
+            var copy = UnityEngine.Object.Instantiate(mesh);
+            Assert.That(Errors, Is.Empty);
+            Assert.That((copy.vertexCount, copy.normals[0], copy.colors[0]), Is.EqualTo((2, Vector3.up, Color.red)));
         }
     }
 }

@@ -62,8 +62,8 @@ namespace UnityEngine
             }
             set
             {
-                subMeshCount = 1;
-                SetTriangles(value, 0);
+                if (subMeshCount == 0) subMeshCount = 1;
+                if (ReplaceIndices(new List<int>(value), MeshTopology.Triangles, 0, true, 0)) subMeshCount = 1;
             }
         }
 
@@ -128,27 +128,23 @@ namespace UnityEngine
 
         public void SetIndices(int[] indices, MeshTopology topology, int submesh) => SetIndices(new List<int>(indices), topology, submesh);
 
-        public void SetIndices(List<int> indices, MeshTopology topology, int submesh, bool calculateBounds = true, int baseVertex = 0)
+        public void SetIndices(List<int> indices, MeshTopology topology, int submesh, bool calculateBounds = true, int baseVertex = 0) =>
+            ReplaceIndices(indices, topology, submesh, calculateBounds, baseVertex);
+
+        bool ReplaceIndices(List<int> indices, MeshTopology topology, int submesh, bool calculateBounds, int baseVertex)
         {
-            if (submesh < 0 || submesh >= subMeshCount)
-            {
-                Reject("indices", $"submesh {submesh} does not exist. Set subMeshCount first.");
-                return;
-            }
+            if (submesh < 0 || submesh >= subMeshCount) return Reject("indices", $"submesh {submesh} does not exist. Set subMeshCount first.");
             if (topology == MeshTopology.Triangles && indices.Count % 3 != 0)
-            {
-                Reject("triangles", $"{indices.Count} indices are not a multiple of 3.");
-                return;
-            }
+                return Reject("triangles", $"{indices.Count} indices are not a multiple of 3.");
             foreach (var index in indices)
             {
                 if (index + baseVertex >= 0 && index + baseVertex < vertexCount) continue;
-                Reject("indices", $"vertex {index + baseVertex} does not exist. The mesh has {vertexCount} vertices.");
-                return;
+                return Reject("indices", $"vertex {index + baseVertex} does not exist. The mesh has {vertexCount} vertices.");
             }
             submeshes[submesh].Topology = topology;
             Replace(submeshes[submesh].Indices, indices.ConvertAll(index => index + baseVertex));
             if (calculateBounds) RecalculateBounds();
+            return true;
         }
 
         void Replace<T>(List<T> target, IEnumerable<T> values)
@@ -173,7 +169,10 @@ namespace UnityEngine
 
         internal Mesh Copy(string name)
         {
-            var copy = new Mesh { name = name, indexFormat = indexFormat, bounds = bounds, vertices = vertices, normals = normals, colors = colors };
+            var copy = new Mesh { name = name, indexFormat = indexFormat, bounds = bounds, vertices = vertices };
+            // The number of normals and colours differs from that of vertices if vertices were replaced.
+            copy.ownNormals = normals;
+            copy.ownColors.AddRange(ownColors);
             copy.subMeshCount = subMeshCount;
             for (var index = 0; index < subMeshCount; index++)
             {
