@@ -264,8 +264,15 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Notes, Has.No.Member("b"));
         }
 
-        public class Ending : MonoBehaviour
+        public class SelfStopping : MonoBehaviour
         {
+            public IEnumerator WaitFor(Coroutine other, bool stops)
+            {
+                if (stops) StopAllCoroutines();
+                yield return other;
+                Notes.Add("waited");
+            }
+
             public IEnumerator Run(System.Action<IEnumerator> end, IEnumerator[] self)
             {
                 end(self[0]);
@@ -277,7 +284,7 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void A_coroutine_can_end_before_its_first_yield()
         {
-            var script = Add<Ending>();
+            var script = Add<SelfStopping>();
             var ends = new System.Action<IEnumerator>[]
             {
                 self => script.StopCoroutine(self), self => script.StopAllCoroutines(), self => script.gameObject.SetActive(false),
@@ -290,6 +297,23 @@ namespace Collektive.Headless.Tests.Engine
                 Frames(2);
                 Assert.That(Notes, Is.Empty);
             }
+        }
+
+        [Test]
+        public void A_coroutine_that_stopped_itself_does_not_wait_for_another()
+        {
+            var script = Add<SelfStopping>();
+            var awaited = Add<SelfStopping>("other").StartCoroutine(Pause());
+            script.StartCoroutine(script.WaitFor(awaited, true));
+            script.StartCoroutine(script.WaitFor(awaited, false));
+            Frames(2);
+            Assert.That(Errors, Is.Empty);
+            Assert.That(Events(), Is.EqualTo("waited"));
+        }
+
+        static IEnumerator Pause()
+        {
+            yield return null;
         }
 
         public class LastWish : MonoBehaviour

@@ -55,6 +55,8 @@ namespace UnityEngine
                     done = true;
                     return;
                 }
+                // A coroutine can stop itself before a yield, and then waits for nothing.
+                if (more && IsDone) return;
                 if (!more)
                 {
                     nested.Pop();
@@ -163,6 +165,10 @@ namespace UnityEngine
             Pass++;
         }
 
-        public static void ResetState() => Running.Clear();
+        public static void ResetState()
+        {
+            Starting.Clear();
+            Running.Clear();
+        }
     }
 }

@@ -35,9 +35,15 @@ namespace UnityEngine
             {
                 if (component.destroyed || component.owner.activeInHierarchy != active) continue; // changed by a message to an earlier component
                 Changing.Add((root, component));
-                if (active) component.Activate();
-                else component.Deactivate();
-                Changing.RemoveAt(Changing.Count - 1);
+                try
+                {
+                    if (active) component.Activate();
+                    else component.Deactivate();
+                }
+                finally
+                {
+                    Changing.RemoveAt(Changing.Count - 1);
+                }
             }
         }
 
