@@ -64,25 +64,25 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("p.OnDisable c.OnDisable p.OnDestroy c.OnDestroy"));
         }
 
-        public class Undead : MonoBehaviour
+        public class DestroyHandler : MonoBehaviour
         {
-            public System.Action Die;
+            public System.Action OnDestroyed;
             void Update() => Notes.Add("Update");
             void OnDestroy()
             {
                 Notes.Add("OnDestroy");
-                Die();
+                OnDestroyed();
             }
         }
 
         [Test]
         public void An_object_is_destroyed_once_although_its_script_destroys_it_again()
         {
-            Undead script = Add<Undead>(), component = Add<Undead>();
+            DestroyHandler script = Add<DestroyHandler>(), component = Add<DestroyHandler>();
             var holder = script.gameObject;
-            script.Die = () => Object.DestroyImmediate(holder);
+            script.OnDestroyed = () => Object.DestroyImmediate(holder);
             Object.DestroyImmediate(holder);
-            component.Die = () => Object.DestroyImmediate(component);
+            component.OnDestroyed = () => Object.DestroyImmediate(component);
             Object.DestroyImmediate(component);
             Assert.That(Events(), Is.EqualTo("OnDestroy OnDestroy"));
         }
@@ -90,9 +90,9 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void A_destroyed_object_cannot_be_activated()
         {
-            var script = Add<Undead>();
+            var script = Add<DestroyHandler>();
             var holder = script.gameObject;
-            script.Die = () => holder.SetActive(true);
+            script.OnDestroyed = () => holder.SetActive(true);
             Object.DestroyImmediate(holder);
             Loop.Frame(0.02f);
             Assert.That(Events(), Is.EqualTo("OnDestroy"));
@@ -101,10 +101,10 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void Objects_cannot_leave_or_join_parents_that_are_destroyed()
         {
-            var script = Add<Undead>();
+            var script = Add<DestroyHandler>();
             Transform parent = script.transform, child = new GameObject("Child").transform, other = new GameObject("Other").transform;
             child.SetParent(parent);
-            script.Die = () =>
+            script.OnDestroyed = () =>
             {
                 child.SetParent(null);
                 other.SetParent(parent);

@@ -319,7 +319,7 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Errors.Count, Is.EqualTo(1));
         }
 
-        public class Asker : MonoBehaviour
+        public class StateLogger : MonoBehaviour
         {
             void Awake() => Notes.Add("Awake " + isActiveAndEnabled);
             void OnEnable() => Notes.Add("OnEnable " + isActiveAndEnabled);
@@ -328,30 +328,30 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void A_script_is_active_and_enabled_from_OnEnable_on()
         {
-            Add<Asker>();
+            Add<StateLogger>();
             Assert.That(Events(), Is.EqualTo("Awake False OnEnable True"));
         }
 
-        public class NeverPaused : MonoBehaviour
+        public class UnsentMessages : MonoBehaviour
         {
             void OnApplicationPause(bool isPaused) => Notes.Add("paused");
             void OnApplicationFocus() => Notes.Add("focused");
             void Update(int times) => Notes.Add("updated");
-            void OnTriggerExit(Collision collision) => Notes.Add("left");
+            void OnTriggerExit(Collider other, Collision collision) => Notes.Add("left");
         }
 
         [Test]
         public void Messages_that_are_never_sent_are_logged_once_per_type()
         {
-            Add<NeverPaused>();
-            Add<NeverPaused>();
+            Add<UnsentMessages>();
+            Add<UnsentMessages>();
             Loop.Frame(0.02f);
             Assert.That(Events(), Is.Empty);
             Assert.That(Errors, Is.EqualTo(new[]
             {
-                "Script error (NeverPaused): Update(Int32) is never called: the message has no parameter.",
-                "Script error (NeverPaused): OnTriggerExit(Collision) is never called: the parameter of the message is of type Collider.",
-                "NeverPaused.OnApplicationFocus is never called without Unity.", "NeverPaused.OnApplicationPause is never called without Unity.",
+                "Script error (UnsentMessages): Update(Int32) is never called: the message has no parameter.",
+                "Script error (UnsentMessages): OnTriggerExit(Collider, Collision) is never called: the message has one parameter, of type Collider.",
+                "UnsentMessages.OnApplicationFocus is never called without Unity.", "UnsentMessages.OnApplicationPause is never called without Unity.",
             }));
         }
     }

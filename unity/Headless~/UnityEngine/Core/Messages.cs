@@ -133,9 +133,10 @@ namespace UnityEngine
                     if (parameters.Length == 0 || parameters.Length == 1 && parameters[0].ParameterType == argument) return method;
                     other = method;
                 }
-            if (other != null)
-                Debug.LogError($"Script error ({type.Name}): {name}({other.GetParameters()[0].ParameterType.Name}) is never called: "
-                    + (argument == null ? "the message has no parameter." : $"the parameter of the message is of type {argument.Name}."));
+            if (other == null) return null;
+            var types = string.Join(", ", Array.ConvertAll(other.GetParameters(), parameter => parameter.ParameterType.Name));
+            Debug.LogError($"Script error ({type.Name}): {name}({types}) is never called: "
+                + (argument == null ? "the message has no parameter." : $"the message has one parameter, of type {argument.Name}."));
             return null;
         }
 

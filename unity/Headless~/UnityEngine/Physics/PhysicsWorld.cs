@@ -21,8 +21,10 @@ namespace UnityEngine
         static int commandCount, commandCapacity;
         static int motionCapacity;
         static IntPtr world;
+
         /// Whether a step or its messages are not finished.
         public static bool IsStepping { get; private set; }
+
         static int materialChanges, terrainChanges;
 
         /// Motions of the bodies, indexed by PhysX's handle of the body. PhysX writes them during steps, and scripts between steps. The native memory is
