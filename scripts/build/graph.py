@@ -57,7 +57,7 @@ def _missed() -> list[str]:
     """Returns sources whose changes Ninja misses, because it only compares modification times, and not with the beginning of a build.
 
     They changed during the last build, or have earlier times than it, for example after `rsync -a`. Programs cannot set back the change times of files.
-    Sources with a time in the future are among them, because Ninja would build them again and again.
+    Sources with a time in the future are included, because Ninja would build them every time. Files that cannot be touched are left as they are.
     """
     now = time.time_ns()
     changed, folder_end, file_end = now, 0, 0
@@ -76,7 +76,7 @@ def _missed() -> list[str]:
         # An editor may just remove its temporary file.
         with contextlib.suppress(FileNotFoundError):
             status = os.stat(path)
-            if status.st_mtime_ns > now or (changed < status.st_ctime_ns and status.st_mtime_ns <= end):
+            if (status.st_mtime_ns > now and os.access(path, os.W_OK)) or (changed < status.st_ctime_ns and status.st_mtime_ns <= end):
                 found.append(path)
     return found
 
