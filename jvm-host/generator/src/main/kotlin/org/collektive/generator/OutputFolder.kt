@@ -33,15 +33,16 @@ internal class OutputFolder(private val root: Path) {
         if (isSource(path) && old != null && !isGenerated(old)) {
             throw GeneratorException("$file exists and was not generated: move it, or choose another folder")
         }
-        val folder = generateSequence(file.toAbsolutePath().parent, Path::getParent).first(Files::exists)
+        val folder = generateSequence(file.toAbsolutePath().parent, Path::getParent).first { Files.exists(it, NOFOLLOW_LINKS) }
+        if (!Files.isDirectory(folder)) throw GeneratorException("cannot write $file: $folder: it is not a folder")
+        if (!Files.isWritable(folder)) throw GeneratorException("cannot write $file: $folder: permission denied")
         if (Files.isDirectory(root) && !folder.toRealPath().startsWith(root.toRealPath())) {
             throw GeneratorException("cannot write $file: $folder is behind a symbolic link; remove it, or choose another folder")
         }
-        if (!Files.isDirectory(folder)) throw GeneratorException("cannot write $file: $folder: it is not a folder")
         changed += path
     }
 
-    /** Writes all added files, and deletes generated files of the schema's previous list that no schema in the folder needs any more. */
+    /** Writes all added files, and deletes generated files of the schema's previous list that no schema in the folder lists any more. */
     fun write() {
         changed.forEach(::write)
         val obsolete = previous - added.keys
