@@ -340,6 +340,18 @@ namespace Collektive.Headless.Tests.Engine
             void OnTriggerExit(Collider other, Collision collision) => Notes.Add("left");
         }
 
+        public class StartableAsset : ScriptableObject
+        {
+            void Start(int seed) => Notes.Add("started");
+        }
+
+        [Test]
+        public void A_scriptable_object_can_have_methods_with_names_of_messages()
+        {
+            ScriptableObject.CreateInstance<StartableAsset>();
+            Assert.That(Errors, Is.Empty);
+        }
+
         [Test]
         public void Messages_that_are_never_sent_are_logged_once_per_type()
         {

@@ -133,7 +133,8 @@ namespace UnityEngine
                     if (parameters.Length == 0 || parameters.Length == 1 && parameters[0].ParameterType == argument) return method;
                     other = method;
                 }
-            if (other == null) return null;
+            // Scriptable objects receive few of these messages.
+            if (other == null || !type.IsSubclassOf(typeof(MonoBehaviour))) return null;
             var types = string.Join(", ", Array.ConvertAll(other.GetParameters(), parameter => parameter.ParameterType.Name));
             Debug.LogError($"Script error ({type.Name}): {name}({types}) is never called: "
                 + (argument == null ? "the message has no parameter." : $"the message has one parameter, of type {argument.Name}."));
