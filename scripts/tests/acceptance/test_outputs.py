@@ -183,6 +183,7 @@ class Outputs(Project):
         self.assertEqual((manifest["folder"], manifest["scenario"]["seed"]), (os.path.realpath(self.path("elsewhere", "project")), 1))
         self.assertTrue(os.path.exists(self.path("elsewhere", "profiled", "profile.jfr")))
 
+    @pytest.mark.alone
     def test_a_player_killed_by_a_shell_limit_is_reported_in_one_line(self) -> None:
         # Compiles the project, which the limit would prevent.
         self.assertEqual(collektive("check", self.path("project", "lamps.json")).returncode, 0)
