@@ -166,6 +166,31 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Notes, Has.Member("waited"));
         }
 
+        [TestCase(0.02f, 1)]
+        [TestCase(0.02f, 50)]
+        [TestCase(0.02f, 6000)]
+        [TestCase(0.1f, 3)]
+        [TestCase(1f / 60f, 999)]
+        public void WaitForSeconds_and_delayed_destruction_take_the_exact_number_of_frames(float deltaTime, int frames)
+        {
+            var runner = Add<Runner>();
+            for (var frame = 0; frame < 13; frame++) Loop.Frame(deltaTime);
+            var seconds = (float)System.Math.Round(frames * (double)deltaTime, 2);
+            runner.StartCoroutine(runner.Seconds(seconds));
+            var other = new GameObject("other");
+            Object.Destroy(other, seconds);
+            var waited = 0;
+            var lived = 0;
+            for (var frame = 1; frame <= frames + 2; frame++)
+            {
+                Loop.Frame(deltaTime);
+                if (!Notes.Contains("waited")) waited = frame;
+                if (other != null) lived = frame;
+                Notes.RemoveAll(note => note.EndsWith("Update"));
+            }
+            Assert.That((waited + 1, lived + 1), Is.EqualTo((frames, frames)));
+        }
+
         [Test]
         public void Nested_coroutines_are_awaited()
         {

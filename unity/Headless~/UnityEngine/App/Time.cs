@@ -5,6 +5,9 @@ namespace UnityEngine
     /// Times in seconds. As in Unity, times return the fixed clock's values within a fixed step.
     public class Time
     {
+        /// Tolerance of a clock that is the sum of many floats, in seconds.
+        const double Rounding = 1e-6;
+
         static readonly Stopwatch Clock = Stopwatch.StartNew();
         static double frameTime, fixedClock, unscaledClock, fixedUnscaledClock, startOffset;
         static float frameDelta, unscaledFrameDelta, fixedStep, scale, frameScale;
@@ -69,11 +72,17 @@ namespace UnityEngine
         /// Advances the fixed clock and returns true if it is at least one step behind the frame's time. As in Unity, it stops at a time scale of 0.
         internal static bool BeginFixedStep()
         {
-            const double rounding = 1e-6;
-            if (frameScale == 0f || fixedClock + fixedDeltaTime > frameTime + rounding) return false;
+            if (frameScale == 0f || fixedClock + fixedDeltaTime > frameTime + Rounding) return false;
             fixedClock += fixedDeltaTime;
             fixedUnscaledClock += fixedDeltaTime / frameScale;
             return inFixedTimeStep = true;
+        }
+
+        /// Returns the time at which a delay ends. It is slightly early, so that a delay of n frames ends in the n-th frame: 50 times 0.02f is less than 1.
+        internal static double EndOf(float delay)
+        {
+            const double relativeRounding = 2.0 / (1 << 24); // of the delay and of the frames' lengths
+            return timeAsDouble + delay * (1 - relativeRounding) - Rounding;
         }
 
         internal static void EndFixedStep() => inFixedTimeStep = false;

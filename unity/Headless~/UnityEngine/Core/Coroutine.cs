@@ -82,7 +82,7 @@ namespace UnityEngine
             yieldedInPass = CoroutineScheduler.Pass;
             switch (instruction)
             {
-                case WaitForSeconds wait: due = Time.timeAsDouble + wait.seconds; break;
+                case WaitForSeconds wait: due = Time.EndOf(wait.seconds); break;
                 case WaitForFixedUpdate _: phase = CoroutinePhase.FixedUpdate; break;
                 case WaitForEndOfFrame _: phase = CoroutinePhase.EndOfFrame; break;
                 case Coroutine other:

@@ -20,7 +20,7 @@ namespace UnityEngine
 
         static readonly List<Request> Requests = new List<Request>();
 
-        public static void Schedule(Object target, float delay) => Requests.Add(new Request(target, Time.timeAsDouble + delay));
+        public static void Schedule(Object target, float delay) => Requests.Add(new Request(target, Time.EndOf(delay)));
 
         /// Destroys all objects that are due, including objects whose destruction is requested meanwhile.
         public static void RunDue()
