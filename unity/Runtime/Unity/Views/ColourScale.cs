@@ -40,7 +40,7 @@ namespace Collektive.Unity
         {
             // In double precision, because the difference of two floats may overflow.
             var fraction = ((double)value - lowest) / ((double)highest - lowest);
-            return fraction > 0 ? (int)Math.Min(fraction * Steps, Steps - 1) : 0;
+            return fraction >= 1 ? Steps - 1 : fraction > 0 ? (int)(fraction * Steps) : 0;
         }
 
         /// <summary>Begins a tick by resetting the ends of an automatic scale.</summary>
