@@ -18,6 +18,7 @@ from build.system import NUNIT, setup_system
 STAMP = GRAPH / "arguments"
 # A file whose time is the beginning of the last build.
 BEGIN = GRAPH / "begin"
+NINJA_LOG = GRAPH / ".ninja_log"
 SOURCES = ("cmake", "jvm-host", "native-shim", "schema", "scripts", "tools", "unity")
 
 
@@ -37,6 +38,10 @@ def build(*targets: str, tools: Sequence[str] = ()) -> None:
             if not _is_configured():
                 _configure()
             for source in _missed():
+                if os.path.islink(source):
+                    # The time of the file outside is not changed. Without its log, Ninja builds everything.
+                    NINJA_LOG.unlink(missing_ok=True)
+                    continue
                 with contextlib.suppress(FileNotFoundError):
                     os.utime(source)
             BEGIN.touch()
@@ -57,12 +62,12 @@ def _missed() -> list[str]:
     """Returns sources whose changes Ninja misses, because it only compares modification times, and not with the beginning of a build.
 
     They changed during the last build, or have earlier times than it, for example after `rsync -a`. Programs cannot set back the change times of files.
-    Sources with a time in the future are included, because Ninja would build them every time. Files that cannot be touched are left as they are.
+    Sources with a time in the future are included, because Ninja would build them every time. Links and files that cannot be touched are left as they are.
     """
     now = time.time_ns()
     changed, folder_end, file_end = now, 0, 0
     with contextlib.suppress(OSError):
-        begin, log = BEGIN.stat(), (GRAPH / ".ninja_log").stat()
+        begin, log = BEGIN.stat(), NINJA_LOG.stat()
         # In a copy of a checkout, such as a container image, change times are the times of copying.
         if begin.st_ctime_ns == begin.st_mtime_ns:
             changed, folder_end, file_end = begin.st_ctime_ns, begin.st_mtime_ns, log.st_mtime_ns
@@ -76,7 +81,8 @@ def _missed() -> list[str]:
         # An editor may just remove its temporary file.
         with contextlib.suppress(FileNotFoundError):
             status = os.stat(path)
-            if (status.st_mtime_ns > now and os.access(path, os.W_OK)) or (changed < status.st_ctime_ns and status.st_mtime_ns <= end):
+            is_future = status.st_mtime_ns > now and os.access(path, os.W_OK) and not os.path.islink(path)
+            if is_future or (changed < status.st_ctime_ns and status.st_mtime_ns <= end):
                 found.append(path)
     return found
 

@@ -93,6 +93,24 @@ def test_sources_with_a_time_in_the_future_are_built_once(project: Checkout) -> 
     assert project.log_lines() == ["made"]
 
 
+@pytest.mark.parametrize("hours", [-1, 1])
+def test_a_linked_source_is_built_without_changing_its_time(project: Checkout, hours: int) -> None:
+    schema = project.root / "schema"
+    schema.mkdir()
+    target = project.root.parent / "in"
+    target.write_text("one")
+    (schema / "in").symlink_to(target)
+    (project.root / "CMakeLists.txt").write_text(CMAKE.replace("/in", "/schema/in"))
+    (project.root / "step").write_text(STEP.replace("/in", "/schema/in"))
+    assert project.run(MODULE).returncode == 0
+    target.write_text("two")
+    changed = int(time.time()) + hours * 3600
+    os.utime(target, (changed, changed))
+    assert project.run(MODULE).returncode == 0
+    assert (project.root / "build/cmake/out").read_text() == "two"
+    assert target.stat().st_mtime == changed
+
+
 def test_a_configuration_with_an_earlier_time_is_used(project: Checkout) -> None:
     assert project.run(MODULE).returncode == 0
     (project.root / "CMakeLists.txt").write_text(CMAKE.replace('sh "${PROJECT_SOURCE_DIR}/step"', 'touch out "${PROJECT_SOURCE_DIR}/other" COMMAND sh -c :'))
