@@ -1,7 +1,9 @@
 """Builds targets of the build graph, which CMake describes and Ninja builds."""
 import contextlib
+import json
 import os
 import shutil
+import stat
 import subprocess
 import sys
 import time
@@ -16,7 +18,7 @@ from build.system import NUNIT, setup_system
 
 # The arguments with which CMake has configured the build tree.
 STAMP = GRAPH / "arguments"
-# A file whose time is the beginning of the last build.
+# The change times of all sources in nanoseconds. The file's time is the beginning of the last build.
 BEGIN = GRAPH / "begin"
 NINJA_LOG = GRAPH / ".ninja_log"
 SOURCES = ("cmake", "jvm-host", "native-shim", "schema", "scripts", "tools", "unity")
@@ -44,7 +46,7 @@ def build(*targets: str, tools: Sequence[str] = ()) -> None:
                     continue
                 with contextlib.suppress(FileNotFoundError):
                     os.utime(source)
-            BEGIN.touch()
+            BEGIN.write_text(json.dumps({path: status.st_ctime_ns for path, status in _sources().items()}))
             if processes.call(["ninja", *targets], cwd=GRAPH, stdout=sys.stderr.fileno()) != 0:
                 raise Failure("the build failed; the messages are above")
             fetched.result()
@@ -61,29 +63,38 @@ def is_up_to_date(tree: Path, *targets: str) -> bool:
 def _missed() -> list[str]:
     """Returns sources whose changes Ninja misses, because it only compares modification times, and not with the beginning of a build.
 
-    They changed during the last build, or have earlier times than it, for example after `rsync -a`. Programs cannot set back the change times of files.
-    Sources with a time in the future are included, because Ninja would build them every time. Links and files that cannot be touched are left as they are.
+    They changed during the last build, or have earlier times than it, for example after `rsync -a` or if the clock was set back. Programs cannot set the
+    change times of files. Sources with a time in the future are included, because Ninja would build them every time. Links and files that cannot be touched
+    are left as they are.
     """
     now = time.time_ns()
-    changed, folder_end, file_end = now, 0, 0
-    with contextlib.suppress(OSError):
+    known: dict[str, int] = {}
+    folder_end, file_end = 0, 0
+    with contextlib.suppress(OSError, ValueError):
         begin, log = BEGIN.stat(), NINJA_LOG.stat()
         # In a copy of a checkout, such as a container image, change times are the times of copying.
         if begin.st_ctime_ns == begin.st_mtime_ns:
-            changed, folder_end, file_end = begin.st_ctime_ns, begin.st_mtime_ns, log.st_mtime_ns
+            known, folder_end, file_end = json.loads(BEGIN.read_bytes()), begin.st_mtime_ns, log.st_mtime_ns
     found = []
-    paths = [(str(ROOT / "CMakeLists.txt"), file_end)]
+    for path, status in _sources().items():
+        is_future = status.st_mtime_ns > now and os.access(path, os.W_OK) and not os.path.islink(path)
+        end = folder_end if stat.S_ISDIR(status.st_mode) else file_end
+        if is_future or (status.st_mtime_ns <= end and known.get(path) != status.st_ctime_ns):
+            found.append(path)
+    return found
+
+
+def _sources() -> dict[str, os.stat_result]:
+    paths = [str(ROOT / "CMakeLists.txt")]
     for place in SOURCES:
         for folder, folders, files in os.walk(ROOT / place):
             folders[:] = [name for name in folders if name not in depfile.IGNORED]
-            paths += [(folder, folder_end), *((os.path.join(folder, name), file_end) for name in files)]
-    for path, end in paths:
+            paths += [folder, *(os.path.join(folder, name) for name in files)]
+    found = {}
+    for path in paths:
         # An editor may just remove its temporary file.
         with contextlib.suppress(FileNotFoundError):
-            status = os.stat(path)
-            is_future = status.st_mtime_ns > now and os.access(path, os.W_OK) and not os.path.islink(path)
-            if is_future or (changed < status.st_ctime_ns and status.st_mtime_ns <= end):
-                found.append(path)
+            found[path] = os.stat(path)
     return found
 
 

@@ -52,18 +52,20 @@ def test_only_changed_targets_are_built(project: Checkout) -> None:
     assert project.log_lines() == ["made", "made"]
 
 
-@pytest.mark.parametrize("is_copied", [False, True])
-def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, is_copied: bool) -> None:
-    """Tests a file that changes after a step has read it, and a file with an earlier time, such as a restored copy."""
+@pytest.mark.parametrize("case", ["during the build", "copied", "clock set back"])
+def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, case: str) -> None:
+    """Tests a file that changes after a step has read it, a restored copy with an earlier time, and a change that seems to be older than the last build."""
     (project.root / "CMakeLists.txt").write_text(CMAKE.replace("/in", "/schema/in"))
     (project.root / "step").write_text('text=$(cat "$1/schema/in") && cat "$1/gate" && echo made >>"$1/made" && printf %s "$text" >out')
     source = project.root / "schema/in"
     source.parent.mkdir()
     source.write_text("one")
-    if is_copied:
+    if case != "during the build":
         assert project.run(MODULE).returncode == 0
         source.write_text("two")
         os.utime(source, (0, 0))
+        if case == "clock set back":
+            os.utime(project.root / "build/cmake/begin")
     else:
         project.close_gate()
         build = project.start(MODULE)
