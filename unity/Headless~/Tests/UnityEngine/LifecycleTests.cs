@@ -287,6 +287,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void OnApplicationQuit_is_also_sent_to_disabled_scripts_of_active_objects()
+        {
+            Add<Witness>("disabled").enabled = false;
+            Add<Witness>("inactive").gameObject.SetActive(false);
+            Notes.Clear();
+            Loop.Quit();
+            Assert.That(Events(), Is.EqualTo("disabled.OnApplicationQuit disabled.OnDestroy inactive.OnDestroy"));
+        }
+
+        [Test]
         public void Required_components_are_added()
         {
             var holder = Add<RequiresComponents>().gameObject;

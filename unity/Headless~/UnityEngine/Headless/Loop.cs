@@ -105,7 +105,7 @@ namespace UnityEngine.Headless
             var scripts = new List<MonoBehaviour>();
             foreach (var root in SceneManagement.Scene.AllRoots()) scripts.AddRange(root.GetComponentsInChildren<MonoBehaviour>());
             foreach (var script in scripts)
-                if (script && script.isActiveAndEnabled) Messages.Send(script.messages.OnApplicationQuit, script);
+                if (script && script.gameObject.activeInHierarchy) Messages.Send(script.messages.OnApplicationQuit, script);
             Application.RaiseQuitting();
             Destruction.DestroyScene();
             SceneManagement.SceneManager.RaiseUnloaded(SceneManagement.Scene.Active);
