@@ -318,6 +318,14 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Errors.Count, Is.EqualTo(2));
         }
 
+        [Test]
+        public void An_object_has_at_most_one_MeshFilter_and_one_MeshRenderer()
+        {
+            var cube = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            Assert.That(cube.AddComponent<MeshFilter>() == null && cube.AddComponent<MeshRenderer>() == null, Is.True);
+            Assert.That(Errors.Count, Is.EqualTo(2));
+        }
+
         [DisallowMultipleComponent]
         class SingleAmongSingles : Single { }
 

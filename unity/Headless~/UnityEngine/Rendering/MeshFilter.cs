@@ -1,5 +1,6 @@
 namespace UnityEngine
 {
+    [DisallowMultipleComponent]
     public sealed class MeshFilter : Component
     {
         Mesh shared;

@@ -106,6 +106,7 @@ namespace UnityEngine
         }
     }
 
+    [DisallowMultipleComponent]
     public class MeshRenderer : Renderer { }
 }
 
