@@ -120,6 +120,7 @@ namespace Collektive.Headless.Tests.Engine
             var flat = new GameObject("flat").transform;
             flat.localScale = new Vector3(2f, 0f, 1f);
             Near(flat.InverseTransformPoint(Vector3.one), new Vector3(0.5f, 0f, 1f), 1e-5f);
+            Near(flat.worldToLocalMatrix.MultiplyPoint3x4(Vector3.one), new Vector3(0.5f, 0f, 1f), 1e-5f);
             var child = new GameObject("child").transform;
             child.SetParent(flat);
             child.position = Vector3.one;

@@ -281,7 +281,17 @@ namespace UnityEngine
             }
         }
 
-        public Matrix4x4 worldToLocalMatrix => localToWorldMatrix.inverse;
+        // Not the inverse of localToWorldMatrix, which does not exist if a scale is 0.
+        public Matrix4x4 worldToLocalMatrix
+        {
+            get
+            {
+                Vector4 origin = InverseTransformPoint(Vector3.zero);
+                origin.w = 1f;
+                return new Matrix4x4(
+                    InverseTransformVector(Vector3.right), InverseTransformVector(Vector3.up), InverseTransformVector(Vector3.forward), origin);
+            }
+        }
 
         // ---- Conversions ----------------------------------------------------------------------------------------------
 
