@@ -171,6 +171,26 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(root.childCount, Is.EqualTo(0));
         }
 
+        [TestCase("", "arm")]
+        [TestCase("hand/", "hand")]
+        [TestCase("..", "robot")]
+        [TestCase("../", "robot")]
+        [TestCase("../leg", "leg")]
+        [TestCase("hand/../../leg", "leg")]
+        [TestCase("../..", null)]
+        [TestCase("/robot", "robot")]
+        [TestCase("/robot/leg", "leg")]
+        [TestCase("/leg", null)]
+        public void Find_follows_paths_upwards_and_from_the_roots(string path, string expected)
+        {
+            Transform robot = new GameObject("robot").transform, arm = new GameObject("arm").transform;
+            arm.SetParent(robot);
+            new GameObject("hand").transform.SetParent(arm);
+            new GameObject("leg").transform.SetParent(robot);
+            robot.gameObject.SetActive(false);
+            Assert.That(arm.Find(path)?.name, Is.EqualTo(expected));
+        }
+
         public class Parent : MonoBehaviour
         {
             void OnTransformChildrenChanged() => Notes.Add(name + " " + transform.childCount);

@@ -460,16 +460,30 @@ namespace UnityEngine
         public int childCount => Existing.children.Count;
         public Transform GetChild(int index) => Existing.children[index];
 
+        /// Finds a child or, by its path, a descendant. As in Unity, ".." is the parent, "" the object itself, and a path with a leading slash begins at a root.
         public Transform Find(string n)
         {
-            var slash = n.IndexOf('/');
-            var first = slash < 0 ? n : n.Substring(0, slash);
-            foreach (var child in Existing.children)
+            ThrowIfDestroyed();
+            if (n.Length == 0 || n[0] != '/') return FindFrom(n);
+            foreach (var root in Scene.AllRoots())
             {
-                if (child.NameImpl != first) continue;
-                if (slash < 0) return child;
-                if (child.Find(n.Substring(slash + 1)) is Transform found) return found;
+                var start = "/" + root.name;
+                if (n == start) return root.transform;
+                if (n.StartsWith(start + "/", StringComparison.Ordinal) && root.transform.FindFrom(n.Substring(start.Length + 1)) is Transform found)
+                    return found;
             }
+            return null;
+        }
+
+        Transform FindFrom(string path)
+        {
+            if (path.Length == 0) return this;
+            var slash = path.IndexOf('/');
+            var first = slash < 0 ? path : path.Substring(0, slash);
+            var rest = slash < 0 ? "" : path.Substring(slash + 1);
+            if (first == "..") return parentOrNull?.FindFrom(rest);
+            foreach (var child in children)
+                if (child.NameImpl == first && child.FindFrom(rest) is Transform found) return found;
             return null;
         }
 
