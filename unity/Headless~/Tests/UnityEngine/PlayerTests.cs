@@ -114,6 +114,24 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(heard, Is.EqualTo(new[] { "Log: note", "Warning: 1 of 2", "Exception: InvalidOperationException: broken" }));
         }
 
+        sealed class Arguments : ILogHandler
+        {
+            public readonly List<object> All = new List<object>();
+            public void LogFormat(LogType logType, UnityEngine.Object context, string format, params object[] args) => All.AddRange(args);
+            public void LogException(Exception exception, UnityEngine.Object context) { }
+        }
+
+        [Test]
+        public void Log_handlers_receive_messages_as_text()
+        {
+            var arguments = new Arguments();
+            Debug.unityLogger.logHandler = arguments;
+            Debug.Log(1.5f);
+            Debug.unityLogger.Log("tag", new Vector2(1f, 2f));
+            Debug.Log(null);
+            Assert.That(arguments.All, Is.EqualTo(new object[] { "1.5", "tag", "(1.00, 2.00)", "Null" }));
+        }
+
         [Test]
         public void Accessing_material_creates_a_copy_for_the_renderer()
         {

@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace UnityEngine
 {
@@ -28,12 +29,12 @@ namespace UnityEngine
 
         public void Log(LogType logType, object message, Object context)
         {
-            if (IsLogTypeAllowed(logType)) logHandler.LogFormat(logType, context, "{0}", message ?? "Null");
+            if (IsLogTypeAllowed(logType)) logHandler.LogFormat(logType, context, "{0}", TextOf(message));
         }
 
         public void Log(LogType logType, string tag, object message, Object context)
         {
-            if (IsLogTypeAllowed(logType)) logHandler.LogFormat(logType, context, "{0}: {1}", tag, message ?? "Null");
+            if (IsLogTypeAllowed(logType)) logHandler.LogFormat(logType, context, "{0}: {1}", tag, TextOf(message));
         }
 
         public void LogFormat(LogType logType, Object context, string format, params object[] args)
@@ -44,6 +45,12 @@ namespace UnityEngine
         public void LogException(Exception exception, Object context)
         {
             if (logEnabled) logHandler.LogException(exception, context);
+        }
+
+        static string TextOf(object message)
+        {
+            if (message == null) return "Null";
+            return message is IFormattable value ? value.ToString(null, CultureInfo.InvariantCulture) : message.ToString();
         }
     }
 }
