@@ -173,6 +173,50 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("c.OnDisable c.OnEnable"));
         }
 
+        public class Reviver : MonoBehaviour
+        {
+            public GameObject Revived;
+
+            void OnEnable() => Notes.Add("OnEnable");
+
+            void OnDisable()
+            {
+                Notes.Add("OnDisable");
+                Revived.SetActive(!Revived.activeSelf);
+            }
+        }
+
+        [TestCase("object")]
+        [TestCase("parent")]
+        public void SetActive_activates_nothing_that_is_being_deactivated(string revived)
+        {
+            var script = Add<Reviver>();
+            var parent = new GameObject("parent");
+            script.transform.SetParent(parent.transform);
+            script.Revived = revived == "parent" ? parent : script.gameObject;
+            script.Revived.SetActive(false);
+            Assert.That(Errors, Is.EqualTo(new[] { $"The GameObject '{revived}' is already being activated or deactivated." }));
+            Assert.That((script.Revived.activeSelf, script.isActiveAndEnabled), Is.EqualTo((true, false)));
+            Assert.That(Events(), Is.EqualTo("OnEnable OnDisable"));
+        }
+
+        [Test]
+        public void OnDisable_can_activate_other_objects_and_deactivate_its_own_for_later()
+        {
+            var script = Add<Reviver>();
+            script.Revived = new GameObject();
+            script.Revived.SetActive(false);
+            script.enabled = false;
+            Assert.That(script.Revived.activeInHierarchy, Is.True);
+            script.enabled = true;
+            var parent = new GameObject("parent");
+            script.transform.SetParent(parent.transform);
+            script.Revived = script.gameObject;
+            parent.SetActive(false);
+            parent.SetActive(true);
+            Assert.That((script.gameObject.activeSelf, script.isActiveAndEnabled), Is.EqualTo((false, false)));
+        }
+
         [Test]
         public void A_search_among_children_or_parents_includes_an_inactive_object_itself()
         {

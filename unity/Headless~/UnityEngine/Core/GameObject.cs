@@ -323,7 +323,8 @@ namespace UnityEngine
             ThrowIfDestroyed();
             if (activeSelf == value) return;
             activeSelf = value;
-            RefreshActivity();
+            if (isBeingDestroyed || !Lifecycle.IsDeactivating(ownTransform)) RefreshActivity();
+            else Debug.LogError($"The GameObject '{NameImpl}' is already being activated or deactivated.", this);
         }
 
         /// Updates `activeInHierarchy` of this object and its descendants, then notifies their components.

@@ -14,7 +14,7 @@ namespace UnityEngine
         static int enablings;
 
         /// The objects that are being activated or deactivated with their children, and their component that receives a message now.
-        static readonly List<(Transform Root, Component Notified)> Changing = new List<(Transform, Component)>();
+        static readonly List<(Transform Root, bool Active, Component Notified)> Changing = new List<(Transform, bool, Component)>();
 
         public static void Enabled(MonoBehaviour script)
         {
@@ -34,7 +34,7 @@ namespace UnityEngine
             foreach (var component in components)
             {
                 if (component.destroyed || component.owner.activeInHierarchy != active) continue; // changed by a message to an earlier component
-                Changing.Add((root, component));
+                Changing.Add((root, active, component));
                 try
                 {
                     if (active) component.Activate();
@@ -48,11 +48,15 @@ namespace UnityEngine
         }
 
         /// Whether the object is being activated or deactivated, and it or a child receives a message now.
-        public static bool IsChanging(Transform transform)
+        public static bool IsChanging(Transform transform) => IsChanging(transform, true) || IsDeactivating(transform);
+
+        public static bool IsDeactivating(Transform transform) => IsChanging(transform, false);
+
+        static bool IsChanging(Transform transform, bool toActive)
         {
-            foreach (var (root, notified) in Changing)
+            foreach (var (root, active, notified) in Changing)
             {
-                if (root is null) continue;
+                if (root is null || active != toActive) continue;
                 for (var level = notified.owner.TransformUnchecked; !(level is null); level = ReferenceEquals(level, root) ? null : level.parentOrNull)
                     if (ReferenceEquals(level, transform)) return true;
             }
