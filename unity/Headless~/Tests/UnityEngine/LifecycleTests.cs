@@ -38,6 +38,16 @@ namespace Collektive.Headless.Tests.Engine
             void Update() => throw new InvalidOperationException("update failed");
         }
 
+        public class EagerRandom : MonoBehaviour
+        {
+            public Vector3 Place = UnityEngine.Random.insideUnitSphere;
+            void Awake() => Place = UnityEngine.Random.insideUnitSphere;
+        }
+
+        public class EagerTime : MonoBehaviour { public float Since = Time.time; }
+        public class EagerSearch : MonoBehaviour { public GameObject Leader = GameObject.Find("leader"); }
+        public class EagerLayer : MonoBehaviour { public int Layer = LayerMask.NameToLayer("Water"); }
+
         public class ThrowsInAwake : MonoBehaviour
         {
             void Awake() => throw new InvalidOperationException("awake failed");
@@ -243,6 +253,19 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("w.Start w.Update w.LateUpdate w.Update w.LateUpdate"));
             Assert.That(Errors, Is.EqualTo(new[] { "start failed", "update failed", "update failed" }));
             Assert.That(Loop.FailedCalls, Is.EqualTo(3));
+        }
+
+        [TestCase(typeof(EagerRandom), "Random")]
+        [TestCase(typeof(EagerTime), "Time")]
+        [TestCase(typeof(EagerSearch), "Find")]
+        [TestCase(typeof(EagerLayer), "NameToLayer")]
+        public void A_field_initialiser_that_uses_the_engine_is_logged_once_per_object(Type script, string member)
+        {
+            new GameObject().AddComponent(script);
+            Assert.That(Errors, Is.EqualTo(new[]
+            {
+                $"{member} is not allowed to be called from the constructor or a field initialiser of {script.Name}: call it in Awake or Start instead.",
+            }));
         }
 
         [Test]

@@ -19,6 +19,7 @@ namespace UnityEngine
 
         public static int NameToLayer(string layerName)
         {
+            Construction.Check(nameof(NameToLayer));
             var layer = string.IsNullOrEmpty(layerName) ? -1 : Array.IndexOf(Names, layerName);
             if (layer < 0 && Unknown.Add(layerName ?? ""))
                 Debug.LogWarning($"The layer '{layerName}' is unknown. Without Unity, only built-in layers have names. Use its number.");

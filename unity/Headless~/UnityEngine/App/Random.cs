@@ -27,6 +27,7 @@ namespace UnityEngine
 
         static uint Next()
         {
+            Construction.Check(nameof(Random));
             var t = generator.s0 ^ (generator.s0 << 11);
             generator.s0 = generator.s1;
             generator.s1 = generator.s2;

@@ -15,7 +15,15 @@ namespace UnityEngine
         static Time() => ResetState();
 
         public static float time => (float)timeAsDouble;
-        public static double timeAsDouble => inFixedTimeStep ? fixedClock : frameTime;
+        public static double timeAsDouble
+        {
+            get
+            {
+                Construction.Check(nameof(Time));
+                return inFixedTimeStep ? fixedClock : frameTime;
+            }
+        }
+
         public static float timeSinceLevelLoad => time;
         public static double timeSinceLevelLoadAsDouble => timeAsDouble;
         public static float deltaTime => inFixedTimeStep ? fixedDeltaTime : frameDelta;

@@ -30,7 +30,7 @@ namespace UnityEngine
                     cloner.CloneHierarchy(component.gameObject, parent, pose, worldPositionStays);
                     return cloner.copies[component];
                 case ScriptableObject script:
-                    var copy = (ScriptableObject)Activator.CreateInstance(script.GetType(), true);
+                    var copy = (ScriptableObject)Construction.Create(script.GetType());
                     copy.name = script.name + "(Clone)";
                     cloner.CopyScript(script, copy, typeof(ScriptableObject));
                     copy.Awaken();
@@ -69,7 +69,7 @@ namespace UnityEngine
             {
                 Component added;
                 if (component is Transform) added = copy.transform;
-                else copy.Own(added = (Component)Activator.CreateInstance(component.GetType(), true));
+                else copy.Own(added = (Component)Construction.Create(component.GetType()));
                 added.hideFlags = component.hideFlags;
                 if (component is Behaviour behaviour) ((Behaviour)added).ownEnabled = behaviour.ownEnabled;
                 added.CopyFrom(component);
@@ -163,7 +163,7 @@ namespace UnityEngine
         /// As in Unity, classes need no constructor without parameters.
         static object Create(Type type) =>
             type.IsValueType || type.GetConstructor(BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic, null, Type.EmptyTypes, null) != null
-                ? Activator.CreateInstance(type, true)
+                ? Construction.Create(type)
                 : FormatterServices.GetUninitializedObject(type);
 
         sealed class Identity : IEqualityComparer<object>

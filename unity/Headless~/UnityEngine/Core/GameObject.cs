@@ -114,7 +114,7 @@ namespace UnityEngine
             {
                 Adding.RemoveAt(Adding.Count - 1);
             }
-            var component = (Component)Activator.CreateInstance(componentType, true);
+            var component = (Component)Construction.Create(componentType);
             Own(component);
             if (component is Collider collider && GetComponent<MeshFilter>()?.sharedMesh is Mesh mesh && mesh && mesh.vertexCount > 0) collider.Fit(mesh);
             if (activeInHierarchy) component.Activate();
@@ -377,6 +377,7 @@ namespace UnityEngine
 
         public static GameObject Find(string name)
         {
+            Construction.Check(nameof(Find));
             if (string.IsNullOrEmpty(name)) return null;
             var path = name.TrimStart('/');
             foreach (var root in Scene.AllRoots())

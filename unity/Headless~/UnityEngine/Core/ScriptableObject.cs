@@ -8,7 +8,7 @@ namespace UnityEngine
 
         public static ScriptableObject CreateInstance(Type type)
         {
-            var instance = (ScriptableObject)Activator.CreateInstance(type, true);
+            var instance = (ScriptableObject)Construction.Create(type);
             instance.Awaken();
             return instance;
         }
