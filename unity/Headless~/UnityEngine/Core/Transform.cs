@@ -460,7 +460,7 @@ namespace UnityEngine
         public int childCount => Existing.children.Count;
         public Transform GetChild(int index) => Existing.children[index];
 
-        /// Finds a child or, by its path, a descendant. As in Unity, ".." is the parent, "" the object itself, and a path with a leading slash begins at a root.
+        /// Finds a child or, by its path, a descendant. As in Unity, ".." is the parent, "" this object, and a path with a leading slash begins at a root.
         public Transform Find(string n)
         {
             ThrowIfDestroyed();
