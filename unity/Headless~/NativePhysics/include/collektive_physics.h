@@ -26,7 +26,7 @@
 extern "C" {
 #endif
 
-#define PHYSICS_VERSION 6
+#define PHYSICS_VERSION 7
 #define PHYSICS_NONE (-1)
 #define PHYSICS_BACK_FACES 1
 #define PHYSICS_ALL_FACES 2
@@ -66,6 +66,10 @@ PHYSICS_API void physics_ignore_layers(physics_world *world, const uint32_t rows
  * Handles of shapes that do not exist are PHYSICS_NONE. */
 PHYSICS_API void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t shape, int32_t other_shape,
                                      int32_t ignore);
+
+/* Sets whether the total friction of a contact is at most its normal force times the coefficient. Otherwise, as at first, friction between
+ * surfaces that touch at several points can be twice as strong. */
+PHYSICS_API void physics_improve_friction(physics_world *world, int32_t improved);
 
 /* ---- Actors ---- */
 

@@ -168,6 +168,7 @@ PxMaterial *physics_world::material(const physics_material &wanted) {
                                                 std::min(1.0f, std::max(0.0f, finite_or(wanted.bounciness, 0.0f))));
     made->setFrictionCombineMode(PxCombineMode::Enum(wanted.friction_combine & 3)); // the numbers are PhysX's
     made->setRestitutionCombineMode(PxCombineMode::Enum(wanted.bounce_combine & 3));
+    made->setFlag(PxMaterialFlag::eIMPROVED_PATCH_FRICTION, improved_friction);
     return materials[key] = made;
 }
 
@@ -274,6 +275,11 @@ void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other
     if (!changed || !first || !second) return;
     filter_again(world, *first);
     filter_again(world, *second);
+}
+
+void physics_improve_friction(physics_world *world, int32_t improved) {
+    world->improved_friction = improved != 0;
+    for (auto &entry : world->materials) entry.second->setFlag(PxMaterialFlag::eIMPROVED_PATCH_FRICTION, world->improved_friction);
 }
 
 int32_t physics_actor_create(physics_world *world, int32_t kind, const physics_pose *at) {

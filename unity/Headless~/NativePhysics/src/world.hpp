@@ -134,6 +134,7 @@ struct physics_world final : physx::PxSimulationEventCallback, physx::PxSimulati
     // Keys of the pairs of actors whose joints disable collisions, as of the last step, and of the pairs whose joints changed since.
     std::unordered_set<uint64_t> separated, rejoined;
     std::unordered_map<std::string, physx::PxMaterial *> materials;
+    bool improved_friction = false; // of the materials
     collektive::Ignored ignored;
     size_t placed = 0;         // shapes created or moved since the last step
     bool masses_stale = false; // of any actor

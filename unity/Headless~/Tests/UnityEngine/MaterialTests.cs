@@ -6,6 +6,9 @@ namespace Collektive.Headless.Tests.Engine
     /// Tests the friction and the bounce of PhysicsMaterial.
     public sealed class MaterialTests : PhysicsFixture
     {
+        [SetUp]
+        public void LimitFriction() => Physics.improvedPatchFriction = true;
+
         /// Returns the distance in metres that a resting box slides in two seconds. Gravity tilts during the first second.
         static float SlideDistance(float degrees, PhysicsMaterial floor, PhysicsMaterial box)
         {
@@ -52,6 +55,24 @@ namespace Collektive.Headless.Tests.Engine
             box.linearVelocity = new Vector3(5f, 0f, 0f);
             Run(1f);
             Assert.That(box.linearVelocity.x, Is.EqualTo(5f - 0.2f * 9.81f).Within(0.1f));
+        }
+
+        [Test]
+        public void Friction_of_a_box_is_twice_as_strong_without_the_improved_mode()
+        {
+            Floor();
+            var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
+            box.constraints = RigidbodyConstraints.FreezeRotation;
+            Physics.improvedPatchFriction = false;
+            box.linearVelocity = new Vector3(5f, 0f, 0f);
+            Run(0.2f);
+            var speed = box.linearVelocity.x;
+            Run(0.1f);
+            Assert.That(speed - box.linearVelocity.x, Is.EqualTo(2f * 0.6f * 9.81f * 0.1f).Within(0.01f));
+            Physics.improvedPatchFriction = true;
+            speed = box.linearVelocity.x;
+            Run(0.1f);
+            Assert.That(speed - box.linearVelocity.x, Is.EqualTo(0.6f * 9.81f * 0.1f).Within(0.01f));
         }
 
         [TestCase(PhysicsMaterialCombine.Average, PhysicsMaterialCombine.Average, 0.5f)]

@@ -135,6 +135,7 @@ namespace Collektive.Headless.Tests.Engine
         [Test]
         public void Friction_stops_a_sliding_box()
         {
+            Physics.improvedPatchFriction = true;
             Floor();
             var box = Box(new Vector3(0f, 0.5f, 0f), Vector3.one).gameObject.AddComponent<Rigidbody>();
             Run(0.2f);

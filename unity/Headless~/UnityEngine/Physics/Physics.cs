@@ -28,11 +28,25 @@ namespace UnityEngine
         public static bool queriesHitTriggers { get; set; }
         public static SimulationMode simulationMode { get; set; }
 
+        static bool isFrictionImproved;
+
+        /// Whether friction does not exceed the normal force times the coefficient. By default, it can be twice as strong, for example for boxes.
+        public static bool improvedPatchFriction
+        {
+            get => isFrictionImproved;
+            set
+            {
+                isFrictionImproved = value;
+                Physx.physics_improve_friction(PhysicsWorld.Handle, value ? 1 : 0);
+            }
+        }
+
         internal static void ResetState()
         {
             gravity = new Vector3(0f, -9.81f, 0f);
             queriesHitTriggers = true;
             simulationMode = SimulationMode.FixedUpdate;
+            isFrictionImproved = false;
         }
 
         public static void Simulate(float step)

@@ -6,7 +6,7 @@ namespace UnityEngine
     /// The C interface of the library collektive_physics. Its header, NativePhysics/include/collektive_physics.h, documents it.
     static unsafe class Physx
     {
-        public const int Version = 6;
+        public const int Version = 7;
         public const int None = -1;
 
         const string Library = "collektive_physics";
@@ -213,6 +213,7 @@ namespace UnityEngine
         [DllImport(Library)] public static extern void physics_ignore_layers(IntPtr world, int* rows);
         [DllImport(Library)] public static extern void physics_ignore_pair(IntPtr world, uint identity, uint other, int shape, int otherShape,
             int ignore);
+        [DllImport(Library)] public static extern void physics_improve_friction(IntPtr world, int improved);
 
         [DllImport(Library)] public static extern int physics_actor_create(IntPtr world, int dynamic, Pose* pose);
         [DllImport(Library)] public static extern void physics_actor_destroy(IntPtr world, int actor);
