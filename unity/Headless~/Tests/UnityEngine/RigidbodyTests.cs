@@ -305,6 +305,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void MoveRotation_does_not_move_a_dynamic_body()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.MovePosition(Vector3.right);
+            ball.position = Vector3.left;
+            ball.MoveRotation(Quaternion.Euler(0f, 5f, 0f));
+            Assert.That(ball.position, Is.EqualTo(Vector3.left));
+        }
+
+        [Test]
         public void A_moving_kinematic_body_keeps_its_velocity_when_it_becomes_dynamic()
         {
             var ball = Ball(Vector3.zero);

@@ -392,7 +392,7 @@ namespace UnityEngine
 
         public void MoveRotation(Quaternion rotation) => Move(HasTarget ? targetPosition : position, rotation);
 
-        bool HasTarget => targetStep == PhysicsWorld.StepCount;
+        bool HasTarget => kinematic && targetStep == PhysicsWorld.StepCount;
 
         public void Move(Vector3 position, Quaternion rotation)
         {
