@@ -430,6 +430,19 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Rotations_that_are_not_of_unit_length_are_rejected_and_change_nothing()
+        {
+            var ball = Ball(Vector3.zero);
+            var turn = Quaternion.Euler(0f, 90f, 0f);
+            ball.rotation = turn;
+            ball.rotation = default;
+            ball.MoveRotation(new Quaternion(0f, 1f, 0f, 1f));
+            Assert.That(ball.rotation == turn, Is.True);
+            Assert.That(Errors.Count, Is.EqualTo(2));
+            Assert.That(Errors[0], Is.StringContaining("'ball'"));
+        }
+
+        [Test]
         public void A_pose_that_is_set_before_the_first_step_is_kept()
         {
             var prefab = Ball(Vector3.zero);

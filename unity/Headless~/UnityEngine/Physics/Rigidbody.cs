@@ -289,7 +289,19 @@ namespace UnityEngine
         public Quaternion rotation
         {
             get => Registered ? Motion.Pose.Rotation : transform.rotation;
-            set => Teleport(position, value.normalized);
+            set
+            {
+                if (AcceptsRotation(value, "Rigidbody.rotation")) Teleport(position, value.normalized);
+            }
+        }
+
+        /// As in Unity, bodies reject rotations that are not normalised, for example `default`.
+        bool AcceptsRotation(Quaternion value, string what)
+        {
+            if (!Finite.Accepts(value, what, this)) return false;
+            if (Mathf.Abs(Quaternion.Dot(value, value) - 1f) < 1e-3f) return true;
+            Debug.LogError($"Rotation quaternions must be unit length. {what} of '{NameImpl}' is not set to {value}.", this);
+            return false;
         }
 
         // ---- Mass -----------------------------------------------------------------------------------------------------
@@ -396,7 +408,7 @@ namespace UnityEngine
 
         public void Move(Vector3 position, Quaternion rotation)
         {
-            if (!Finite.Accepts(position, "Rigidbody.MovePosition", this) || !Finite.Accepts(rotation, "Rigidbody.MoveRotation", this)) return;
+            if (!Finite.Accepts(position, "Rigidbody.MovePosition", this) || !AcceptsRotation(rotation, "Rigidbody.MoveRotation")) return;
             targetPosition = position;
             targetRotation = rotation.normalized;
             targetStep = PhysicsWorld.StepCount;
