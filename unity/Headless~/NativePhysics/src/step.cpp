@@ -117,6 +117,8 @@ void physics_world::apply(const physics_command &command) {
         case PHYSICS_KINEMATIC: {
             removal = ENDS;
             actor->led = false;
+            // Otherwise PhysX would report an error. A command with the detection follows.
+            if (value[0] != 0.0f) body->setRigidBodyFlag(PxRigidBodyFlag::eENABLE_CCD, false);
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
             removal = REMOVED;
             for (const PxShape *each : shapes_of(*body)) shapes[size_t(intptr_t(each->userData))].born = steps;

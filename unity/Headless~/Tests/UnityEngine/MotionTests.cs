@@ -121,6 +121,16 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_continuous_body_can_become_kinematic()
+        {
+            var body = Ball(Vector3.zero);
+            body.collisionDetectionMode = CollisionDetectionMode.Continuous;
+            body.isKinematic = true;
+            Physics.Simulate(Step);
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void A_body_without_colliders_has_an_inertia_of_1()
         {
             var body = new GameObject().AddComponent<Rigidbody>();
