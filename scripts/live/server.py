@@ -373,6 +373,8 @@ class Live:
             if plan.content != self.plan.content and await self.file_values() != self.plan["file"]:
                 raise Failure(f"'{Path(self.scenario).name}' changed since the start of the run; press Restart first")
             values = plan["file"]
+            if "scenario" in values:
+                raise Failure(f"'{Path(self.scenario).name}' is the manifest of a run, which cannot be changed; open its scenario")
             if self.seed is not None:
                 values["seed"] = int(self.seed)
             self._keep_texts(values.get("fields", {}), changes)

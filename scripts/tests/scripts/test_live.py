@@ -264,6 +264,16 @@ def test_a_scenario_that_changed_during_the_run_is_not_saved_under_another_name(
     assert not (tmp_path / "b.json").exists()
 
 
+def test_the_manifest_of_a_run_is_not_saved_as_a_scenario(tmp_path: Path, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    # The player ignores changes of a manifest, so they would be missing in the saved file.
+    live_run = server.Live({"scenario": str(tmp_path / "manifest.json"), "trust_jvm": False, "seed": None, "values": []}, tmp_path)
+    live_run.plan = server.player.Plan({"file": {"scenario": {"fields": {"nodes": 5}}, "folder": "/project"}}, {})
+    monkeypatch.setattr(server.player, "plan", lambda *_: live_run.plan)
+    message = asyncio.run(live_run.save_scenario("b.json", {"fields.nodes": 7}))
+    assert message == "not saved: 'manifest.json' is the manifest of a run, which cannot be changed; open its scenario"
+    assert not (tmp_path / "b.json").exists()
+
+
 def test_a_program_that_changes_before_the_page_reads_it_does_not_run(tmp_path: Path, server: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     scenario, program = tmp_path / "a.json", tmp_path / "programs/A.kt"
     program.parent.mkdir()
