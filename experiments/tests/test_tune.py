@@ -177,6 +177,8 @@ def test_a_search_that_was_killed_at_its_start_keeps_its_direction(project: Proj
     ({"parameters": {"fields.lamps": {"from": 3, "to": 3}}}, "'from' must be below 'to'"),
     ({"parameters": {"fields.lamps": {"from": 3, "too": 5}}}, "must be a list, or an object with the numbers 'from' and 'to'"),
     ({"parameters": {"fields.lamps": {"from": 3, "to": 2 ** 53 + 1}}}, "'tune.parameters.fields.lamps': whole numbers in a range must be from -2^53 to 2^53"),
+    ({"parameters": {"fields.lamps": {"from": 3, "to": 5, "step": 4}}}, "'step' must be at most the difference of 'to' and 'from'"),
+    ({"parameters": {"fields.lamps": {"from": -1e308, "to": 1e308}}}, "the difference of 'to' and 'from', which must be finite"),
     ({"parameters": {"fields.lmps": [3, 4]}}, "no public field 'lmps'"),
     ({"parameters": {"programs": ["a", "b"]}}, "'programs' cannot vary"),
     ({"direction": "up"}, "'tune.direction' is \"up\"; it must be one of: minimize, maximize"),
