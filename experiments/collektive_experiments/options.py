@@ -2,6 +2,11 @@
 import argparse
 import os
 import re
+from collections.abc import Callable
+
+MAX_JOBS = 10_000
+MAX_NUMBER = 10 ** 9
+"""The maximum number of trials and seconds. Python cannot wait longer than about 9 * 10^9 seconds."""
 
 
 def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
@@ -16,7 +21,7 @@ def add_sweep_arguments(parser: argparse.ArgumentParser) -> None:
 def add_tune_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of ./collektive tune."""
     _add_run_arguments(parser, "out/NAME-tuned")
-    parser.add_argument("--trials", type=_positive, metavar="N", help="total number of trials (default: the number in the experiment file, or 50)")
+    parser.add_argument("--trials", type=_up_to(MAX_NUMBER), metavar="N", help="total number of trials (default: the number in the experiment file, or 50)")
     parser.add_argument("--resume", action="store_true", help="continue a search; complete runs are not repeated")
 
 
@@ -24,9 +29,9 @@ def _add_run_arguments(parser: argparse.ArgumentParser, out: str) -> "argparse._
     """Adds the arguments of commands that execute runs. Returns the group of options that select other machines."""
     parser.add_argument("experiment", metavar="EXPERIMENT.json")
     parser.add_argument("--out", metavar="DIR", help=f"folder for the results (default: {out})")
-    parser.add_argument("--jobs", type=_positive, default=len(os.sched_getaffinity(0)), metavar="N",
+    parser.add_argument("--jobs", type=_up_to(MAX_JOBS), default=len(os.sched_getaffinity(0)), metavar="N",
                         help="simultaneous runs (default: the number of processors)")
-    parser.add_argument("--time-limit", type=_positive, default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
+    parser.add_argument("--time-limit", type=_up_to(MAX_NUMBER), default=3600, metavar="SECONDS", help="stop a run after this many seconds (default: 3600)")
     parser.add_argument("--trust-jvm", action="store_true", help="see ./collektive run --help")
     parser.add_argument("--keep-going", action="store_true", help="continue even if the first runs all fail in the same way")
     group = parser.add_mutually_exclusive_group()
@@ -50,7 +55,11 @@ def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--experiment", metavar="EXPERIMENT.json", help="use the figures and labels of this file instead of those during the sweep")
 
 
-def _positive(text: str) -> int:
-    if not text.isdecimal() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
-    return int(text)
+def _up_to(most: int) -> Callable[[str], int]:
+    """Returns a function that reads a whole number from 1 to `most`."""
+    def read(text: str) -> int:
+        if not re.fullmatch("[0-9]{1,20}", text) or not 1 <= int(text) <= most:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from 1 to {most:,}")
+        return int(text)
+
+    return read

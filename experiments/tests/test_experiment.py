@@ -10,6 +10,7 @@ import pyarrow as pa
 import pytest
 
 from collektive_experiments import ExperimentError, read
+from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import name_of
 from collektive_experiments.positions import Located
 from collektive_experiments.sweep import _check_figures
@@ -174,3 +175,11 @@ def test_values_of_a_column_stay_different() -> None:
 def test_a_sweep_starts_without_the_packages_for_figures() -> None:
     code = "import sys, collektive_experiments.__main__; print({'matplotlib', 'pandas'} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True).stdout == "set()\n"
+
+
+@pytest.mark.parametrize(("option", "most"), [("--jobs", "10,000"), ("--time-limit", "1,000,000,000"), ("--trials", "1,000,000,000")])
+def test_numbers_that_are_too_large_are_a_one_line_error(option: str, most: str, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["tune", "experiment.json", option, "9999999999"])
+    assert capsys.readouterr().err == (
+        f"collektive: tune: argument {option}: '9999999999' is not a whole number from 1 to {most} (see ./collektive tune --help)\n")
