@@ -298,6 +298,7 @@ namespace UnityEngine
         /// As in Unity, bodies reject rotations that are not normalised, for example `default`.
         bool AcceptsRotation(Quaternion value, string what)
         {
+            ThrowIfDestroyed();
             if (!Finite.Accepts(value, what, this)) return false;
             if (Mathf.Abs(Quaternion.Dot(value, value) - 1f) < 1e-3f) return true;
             Debug.LogError($"Rotation quaternions must be unit length. {what} of '{NameImpl}' is not set to {value}.", this);
