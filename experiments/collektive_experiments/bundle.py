@@ -82,6 +82,12 @@ def prepare(scenario: Located, bundle: str, trust: bool, runtimes: Sequence[str]
         files.remove(work)
 
 
+def require_unchanged(bundle: str) -> None:
+    """Raises `ExperimentError` if the bundle was changed during a sweep or search, whose processes read its files at different times."""
+    if not _is_unchanged(bundle):
+        raise ExperimentError(f"'{bundle}' was changed during the runs, which may have different inputs: name another folder with --out")
+
+
 def _is_unchanged(bundle: str) -> bool:
     path = os.path.join(bundle, FINGERPRINT)
     if not os.path.isfile(path):

@@ -19,6 +19,7 @@ import pyarrow.csv
 import pyarrow.parquet as pq
 
 from . import files
+from .bundle import require_unchanged
 from .experiment import Experiment, Run, text
 from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
@@ -97,8 +98,13 @@ class Table:
 
 
 def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
-    """Writes the tables of all finished runs. Returns the number of runs that the tables contain completely."""
+    """
+    Writes the tables of all finished runs. Returns the number of runs that the tables contain completely.
+
+    Raises `ExperimentError` if the sweep's inputs were changed since its first run.
+    """
     store.require_owned()
+    require_unchanged(store.bundle)
     columns = _Columns(experiment, store)
     # Existing CSV tables are always written again, so that they do not become outdated.
     with_csv = with_csv or any(os.path.exists(os.path.join(store.folder, f"{name}.csv")) for name in ("runs", "series"))

@@ -14,7 +14,7 @@ import optuna
 import sqlalchemy
 from optuna.trial import TrialState
 
-from .bundle import prepare
+from .bundle import prepare, require_unchanged
 from .experiment import Experiment, Run, name_of, text
 from .figure_options import CONVERGED
 from .files import write
@@ -81,6 +81,7 @@ def _tune(experiment: Experiment, search: Search, store: Store, pool: Callable[[
                 study.tell(trial.number, state=TrialState.FAIL)
             else:
                 study.tell(trial.number, mean)
+    require_unchanged(store.bundle)
     _write(study, search, os.path.join(store.folder, "trials.csv"))
     finished_trials = _finished(study, search)
     done = [trial for trial in finished_trials if trial.value is not None]

@@ -368,6 +368,21 @@ def test_resume_rejects_a_changed_bundle(lamps: Project, tmp_path: Path, name: s
     assert "bundle' was changed after the earlier runs: " in result.stderr
 
 
+def test_a_bundle_that_changes_during_the_sweep_is_an_error(project: Project, monkeypatch: pytest.MonkeyPatch,
+                                                            capsys: pytest.CaptureFixture[str]) -> None:
+    finish = Store.finish
+
+    def change_and_finish(store: Store, run: Run, outcome: Outcome, seconds: float) -> None:
+        with open(os.path.join(store.bundle, "inputs/scenario.json"), "a") as file:
+            file.write("\n")
+        finish(store, run, outcome, seconds)
+
+    monkeypatch.setattr(Store, "finish", change_and_finish)
+    assert main(["sweep", project.experiment(vary={"seed": [1, 2]}), "--out", str(project.folder / "out"), "--jobs", "1"]) == 1
+    assert "bundle' was changed during the runs, which may have different inputs: name another folder with --out" in capsys.readouterr().err
+    assert not (project.folder / "out/runs.parquet").exists()
+
+
 def test_resume_accepts_a_bundle_of_an_earlier_version(lamps: Project, tmp_path: Path) -> None:
     out = tmp_path / "out"
     shutil.copytree(lamps.folder / "out", out)
