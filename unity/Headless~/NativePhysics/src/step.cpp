@@ -52,7 +52,7 @@ struct Finish final : PxLightCpuTask {
 
 bool physics_world::is_active(int32_t actor) const {
     const PxRigidDynamic *body = actors[actor].body();
-    return marks[actor] & PLACED || (body && !body->isSleeping());
+    return marks[actor] & (PLACED | MOVED_BEFORE) || (body && !body->isSleeping());
 }
 
 void physics_world::apply(const physics_command &command) {
@@ -304,8 +304,8 @@ void physics_world::collect_overlaps() {
         const Actor &actor_a = actors[a.actor], &actor_b = actors[b.actor];
         const bool was = overlap.touching;
         if (!overlap.tested || is_active(a.actor) || is_active(b.actor)) {
-            const PxTransform at_a = PxShapeExt::getGlobalPose(*a.shape, *actor_a.rigid),
-                              at_b = PxShapeExt::getGlobalPose(*b.shape, *actor_b.rigid);
+            // Like PhysX's contacts, overlaps are those of the poses before the step.
+            const PxTransform at_a = actor_a.last_pose * a.shape->getLocalPose(), at_b = actor_b.last_pose * b.shape->getLocalPose();
             const PxGeometry &first = a.shape->getGeometry(), &second = b.shape->getGeometry();
             if (first.getType() == PxGeometryType::eSPHERE && second.getType() == PxGeometryType::eSPHERE)
                 overlap.touching = spheres_overlap(static_cast<const PxSphereGeometry &>(first), at_a.p,
@@ -337,7 +337,7 @@ void physics_world::collect_motions(int32_t step, physics_motion *motions) {
             else
                 moved.push_back(int32_t(handle));
         }
-        marks[handle] = 0;
+        marks[handle] = marks[handle] & MOVED ? MOVED_BEFORE : 0;
     }
     std::atomic<bool> infinite{false};
     workers.each(int(moved.size()), [this, step, motions, &infinite](int first, int end) {

@@ -58,6 +58,17 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Notes[Notes.Count - 1], Is.EqualTo("ball hits wall"));
         }
 
+        [Test]
+        public void A_trigger_finds_a_body_that_was_inside_only_before_a_step()
+        {
+            Zone();
+            var ball = Ball(Vector3.left, 0.05f);
+            ball.useGravity = false;
+            ball.linearVelocity = Vector3.right / Step;
+            for (var step = 0; step < 3; step++) Physics.Simulate(Step);
+            Assert.That(string.Join(", ", Notes), Is.EqualTo("zone enter ball, zone stay ball, zone exit ball"));
+        }
+
         [TestCase(0.4f, "zone exit mover, zone enter mover, zone stay mover")]
         [TestCase(5f, "zone exit mover")]
         public void A_body_that_becomes_dynamic_leaves_its_triggers_and_enters_them_again(float place, string notes)
