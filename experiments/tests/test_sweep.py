@@ -342,7 +342,8 @@ def test_a_dry_run_whose_trial_fails_prints_no_estimate(project: Project) -> Non
 
 
 @pytest.mark.parametrize(("given", "seed"), [({}, 1), ({"seed": (1 << 64) - 1}, (1 << 64) - 1)])
-def test_runs_without_a_manifest_have_a_seed(project: Project, given: dict[str, Any], seed: int) -> None:
+def test_runs_without_a_manifest_have_a_seed(project: Project, given: dict[str, Any], seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tables, "require_unchanged", lambda *_: None)
     experiment = read(project.experiment(set=given))
     store = Store(str(project.folder / "out"))
     (run,) = experiment.runs()
@@ -542,7 +543,8 @@ def test_a_slurm_array_job_gives_the_same_digests(lamps: Project) -> None:
     assert lamps.digests("slurm") == {run: digest for run, digest in digests.items() if "lamps=5" in run}
 
 
-def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project) -> None:
+def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tables, "require_unchanged", lambda *_: None)
     experiment = read(project.experiment(vary={"seed": [1]}))
     (run,) = experiment.runs()
     store = Store(str(project.folder))
@@ -554,7 +556,8 @@ def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project)
         tables.write(experiment, store, False)
 
 
-def test_runs_on_different_jvms_are_reported(project: Project, capsys: pytest.CaptureFixture[str]) -> None:
+def test_runs_on_different_jvms_are_reported(project: Project, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tables, "require_unchanged", lambda *_: None)
     experiment = read(project.experiment(vary={"seed": [1, 2, 3]}))
     for run, jvm in zip(experiment.runs(), ("Java 17", "Java 25", "Java 25")):
         folder = project.folder / "runs" / run.name
@@ -571,7 +574,7 @@ def test_runs_on_different_jvms_are_reported(project: Project, capsys: pytest.Ca
 @pytest.mark.parametrize("header", [
     "", ",".join(["second", "m", *tables.COUNTS, *tables.TIMES[1:]]), ",".join(["second", *tables.COUNTS, "retried", *tables.TIMES])])
 def test_metrics_of_another_version_are_rejected_before_other_runs(header: str, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
-    for place, name in ((sweep, "prepare"), (sweep, "check_keys"), (Store, "open"), (Store, "write_settings")):
+    for place, name in ((sweep, "prepare"), (sweep, "check_keys"), (tables, "require_unchanged"), (Store, "open"), (Store, "write_settings")):
         monkeypatch.setattr(place, name, lambda *_: None)
     experiment = read(project.experiment(vary={"seed": [1, 2]}))
     run = next(iter(experiment.runs()))
