@@ -37,6 +37,10 @@ def build(*targets: str, tools: Sequence[str] = ()) -> None:
     def make() -> None:
         with ThreadPoolExecutor(1) as pool:
             fetched = pool.submit(fetch.fetch_missing, tools)
+            if NINJA_LOG.exists() and NINJA_LOG.stat().st_mtime_ns > time.time_ns():
+                # The clock was set back, so changed sources can be older than outputs. Without its log, Ninja builds everything.
+                STAMP.unlink(missing_ok=True)
+                NINJA_LOG.unlink()
             if not _is_configured():
                 _configure()
             for source in _missed():

@@ -1,5 +1,6 @@
 """Tests that the build graph builds only changed targets, and that it recovers from interruptions."""
 import os
+import re
 import subprocess
 import time
 from pathlib import Path
@@ -78,6 +79,25 @@ def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, case
     for _ in range(2):
         assert project.run(MODULE).returncode == 0
         assert (project.root / "build/cmake/out").read_text() == "two"
+    assert project.log_lines() == ["made", "made"]
+
+
+def test_changes_are_built_while_outputs_have_times_in_the_future(project: Checkout) -> None:
+    """Tests a clock that was set back before the change, and was not corrected."""
+    schema, tree, later = project.root / "schema", project.root / "build/cmake", time.time() + 3600
+    schema.mkdir()
+    (schema / "in").write_text("one")
+    (project.root / "CMakeLists.txt").write_text(CMAKE.replace("/in", "/schema/in"))
+    (project.root / "step").write_text(STEP.replace("/in", "/schema/in"))
+    assert project.run(MODULE).returncode == 0
+    log = tree / ".ninja_log"
+    log.write_text(re.sub(r"(?m)^(\d+\t\d+\t)\d+", rf"\g<1>{int(later * 1e9)}", log.read_text()))
+    for path in (log, tree / "out", tree / "build.ninja"):
+        os.utime(path, (later, later))
+    (schema / "in").write_text("two")
+    for _ in range(2):
+        assert project.run(MODULE).returncode == 0
+        assert (tree / "out").read_text() == "two"
     assert project.log_lines() == ["made", "made"]
 
 
