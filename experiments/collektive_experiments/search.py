@@ -2,6 +2,7 @@
 import json
 import math
 from dataclasses import dataclass
+from decimal import Decimal
 from typing import Any
 
 from .experiment import Experiment, identity, reject_fixed_key
@@ -75,11 +76,12 @@ def _values(located: Located, key: str, given: Any) -> Any:
     low, high, step, log = given["from"], given["to"], given.get("step"), given.get("log", False)
     if low >= high or (log and (low <= 0 or step is not None)) or (step is not None and step <= 0):
         raise located.error(f"'tune.parameters.{key}': 'from' must be below 'to', 'step' above 0, and 'log' needs 'from' above 0 and no 'step'", *place)
-    # Optuna computes with the difference, and would reduce a range below one step to its first value.
-    if not math.isfinite(high - low) or (step is not None and step > high - low):
-        raise located.error(f"'tune.parameters.{key}': 'step' must be at most the difference of 'to' and 'from', which must be finite", *place)
     if is_int(low) and is_int(high) and max(-low, high) > MAX_INT:
         raise located.error(f"'tune.parameters.{key}': whole numbers in a range must be from -2^53 to 2^53; use a list for other values", *place)
+    # Optuna computes with the difference, and would reduce a range below one step to its first value. Like Optuna, the test uses decimal numbers.
+    is_short = step is not None and Decimal(str(step)) > Decimal(str(high)) - Decimal(str(low))
+    if is_short or not math.isfinite(high - low):
+        raise located.error(f"'tune.parameters.{key}': 'step' must be at most the difference of 'to' and 'from', which must be finite", *place)
     return given
 
 

@@ -169,6 +169,12 @@ def test_a_search_that_was_killed_at_its_start_keeps_its_direction(project: Proj
         tuning._study(read_search(read(project.experiment(tune={**TUNE, "direction": "minimize"}))), store)
 
 
+def test_a_range_of_one_step_is_searched(project: Project) -> None:
+    # In binary numbers, 1.4 - 1.1 is less than 0.3.
+    values = {"from": 1.1, "to": 1.4, "step": 0.3}
+    assert read_search(read(project.experiment(tune={**TUNE, "parameters": {"fields.lamps": values}}))).parameters == {"fields.lamps": values}
+
+
 @pytest.mark.parametrize(("changes", "message"), [
     ({"metric": "agreement"}, "'tune.metric' is 'agreement', which does not exist; existing metrics: agreeing"),
     ({"parameters": {}}, "'tune.parameters' must be an object with the values of each key"),
@@ -177,6 +183,7 @@ def test_a_search_that_was_killed_at_its_start_keeps_its_direction(project: Proj
     ({"parameters": {"fields.lamps": {"from": 3, "to": 3}}}, "'from' must be below 'to'"),
     ({"parameters": {"fields.lamps": {"from": 3, "too": 5}}}, "must be a list, or an object with the numbers 'from' and 'to'"),
     ({"parameters": {"fields.lamps": {"from": 3, "to": 2 ** 53 + 1}}}, "'tune.parameters.fields.lamps': whole numbers in a range must be from -2^53 to 2^53"),
+    ({"parameters": {"fields.lamps": {"from": -10 ** 308, "to": 10 ** 308}}}, "whole numbers in a range must be from -2^53 to 2^53"),
     ({"parameters": {"fields.lamps": {"from": 3, "to": 5, "step": 4}}}, "'step' must be at most the difference of 'to' and 'from'"),
     ({"parameters": {"fields.lamps": {"from": -1e308, "to": 1e308}}}, "the difference of 'to' and 'from', which must be finite"),
     ({"parameters": {"fields.lmps": [3, 4]}}, "no public field 'lmps'"),
