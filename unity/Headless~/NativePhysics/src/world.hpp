@@ -55,8 +55,8 @@ struct Actor {
 
 // Of an actor.
 enum Marks : uint8_t {
-    PLACED = 1, // moved by a command since the last step
-    MOVED = 2,  // in the current step
+    PLACED = 1,      // moved by a command since the last step
+    MOVED = 2,       // in the current step
     MOVED_BEFORE = 4 // in the previous step
 };
 
