@@ -24,10 +24,10 @@ namespace UnityEngine
         /// Logs an error at the first call in a constructor, in which Unity throws an exception.
         public static void Check(string member)
         {
-            var type = constructed;
-            if (type is null) return;
+            var name = constructed?.Name;
+            if (name == null) return;
             constructed = null;
-            Debug.LogError($"{member} is not allowed to be called from the constructor or a field initialiser of {type.Name}: call it in Awake or Start instead.");
+            Debug.LogError($"{member} is not allowed to be called from the constructor or a field initialiser of {name}: call it in Awake or Start instead.");
         }
     }
 }
