@@ -474,6 +474,8 @@ SCENES: list[tuple[dict[str, Any], float, dict[str, tuple[float, float]]]] = [
     ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"}}, 0.1, {"sum(degree)": (2, 2)}),
     ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"},
       "obstacles": [{"polygon": [[1, -1], [1.5, -1], [1.5, 1], [1, 1]]}]}, 0.1, {"sum(degree)": (0, 0)}),
+    ({"deployment": {"nodes": 2, "columns": 2, "spacing": 2}, "neighbourhood": {"kind": "LineOfSight"},
+      "obstacles": [{"polygon": [[0.65, -1], [1.05, -1], [1.35, 1], [0.95, 1]], "height": 300}]}, 0.1, {"sum(degree)": (0, 0)}),
     ({"movement": {"kind": "RandomWaypoint", "speed": 2}}, 2, {f"max({SPEED})": (1.99, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
     ({"movement": {"kind": "LevyWalk", "speed": 2}}, 9, {f"max({SPEED})": (1.9, 2.01), "min(min(x, z))": (0, 27), "max(max(x, z))": (0, 27)}),
     # Steps of 2 mm add up, even where single-precision numbers are multiples of 8 mm.

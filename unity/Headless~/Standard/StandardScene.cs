@@ -16,6 +16,9 @@ namespace Collektive.Standard
         private const int MaxSets = 32;
         internal const float WallWidth = 0.1f;
 
+        /// <summary>The part of an obstacle below the ground, as a share of its height. Otherwise, lines of sight along the ground could miss it.</summary>
+        private const float Foundation = 0.01f;
+
         /// <summary>Time limit for the evaluation of an expression when the scene is checked before the run.</summary>
         private const int CheckMs = 1000;
 
@@ -208,10 +211,11 @@ namespace Collektive.Standard
 
         private void MakeObstacle(Obstacle obstacle)
         {
-            var middle = obstacle.height / 2;
+            var middle = obstacle.height * (1 - Foundation) / 2;
+            var height = obstacle.height * (1 + Foundation);
             if (obstacle.polygon.Count == 0)
             {
-                MakeBox("Obstacle", new Vector3(obstacle.box[0], middle, obstacle.box[1]), new Vector3(obstacle.size[0], obstacle.height, obstacle.size[1]));
+                MakeBox("Obstacle", new Vector3(obstacle.box[0], middle, obstacle.box[1]), new Vector3(obstacle.size[0], height, obstacle.size[1]));
                 return;
             }
             for (var i = 0; i < obstacle.polygon.Count; i++)
@@ -220,7 +224,7 @@ namespace Collektive.Standard
                 var b = obstacle.polygon[(i + 1) % obstacle.polygon.Count];
                 var way = new Vector3(b[0] - a[0], 0, b[1] - a[1]);
                 if (way.magnitude == 0) continue;
-                var wall = MakeBox("Wall", new Vector3((a[0] + b[0]) / 2, middle, (a[1] + b[1]) / 2), new Vector3(WallWidth, obstacle.height, way.magnitude));
+                var wall = MakeBox("Wall", new Vector3((a[0] + b[0]) / 2, middle, (a[1] + b[1]) / 2), new Vector3(WallWidth, height, way.magnitude));
                 wall.transform.rotation = Quaternion.LookRotation(way);
             }
         }
