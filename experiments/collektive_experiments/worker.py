@@ -11,6 +11,7 @@ import socket
 import subprocess
 import time
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Any
 
 from . import files
@@ -19,6 +20,8 @@ from .experiment import RUNTIME
 from .programs import can_leave_state
 
 MAX_TAIL = 4000
+TIMES = 9
+"""The number of the last columns of metrics.csv, which contain times."""
 MAX_START_SECONDS = 120.0
 """The time limit in seconds until a new process accepts runs."""
 MAX_EXIT_SECONDS = 2.0
@@ -194,7 +197,7 @@ class Worker:
         again = self._run(settings, process, second, limit, fresh=True)
         if again.status != "complete":
             return Outcome(again.status, f"in the repetition: {again.message}")
-        problem = _difference(_manifest(out), _manifest(second))
+        problem = _difference(_manifest(out), _manifest(second)) or _table_difference(out, second)
         shutil.rmtree(second)
         return Outcome("differs", problem) if problem else outcome
 
@@ -285,10 +288,25 @@ def _difference(first: dict[str, Any], second: dict[str, Any]) -> str:
     """Describes the first difference between the results of a run and its repetition. Returns an empty string if the results are equal."""
     if first.get("digest") != second.get("digest"):
         return f"the digest was {first.get('digest')}, but {second.get('digest')} when repeated in a fresh process"
-    for key in ("ticks", "nodes", "errors", "end", "converged"):
+    for key in ("ticks", "nodes", "errors", "start", "end", "converged"):
         if first.get(key) != second.get(key):
             return (f"'{key}' was {json.dumps(first.get(key))}, but {json.dumps(second.get(key))} when repeated in a fresh process "
                     f"(digest {first.get('digest')} in both)")
+    return ""
+
+
+def _table_difference(first: str, second: str) -> str:
+    """Describes the first difference between the tables in two folders, except for times. Returns an empty string if the tables are equal."""
+    for name in ("metrics.csv", "nodes.csv"):
+        paths = [os.path.join(folder, name) for folder in (first, second)]
+        if not any(map(os.path.exists, paths)):
+            continue
+        with open(paths[0], newline="\n", encoding="utf-8") as file, open(paths[1], newline="\n", encoding="utf-8") as other_file:
+            for number, (line, other) in enumerate(zip_longest(file, other_file, fillvalue=""), 1):
+                if name == "metrics.csv":
+                    line, other = (text.rsplit(",", TIMES)[0] for text in (line, other))
+                if line != other:
+                    return f"line {number} of {name} was {line.strip()}, but {other.strip()} when repeated in a fresh process"
     return ""
 
 

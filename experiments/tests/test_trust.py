@@ -20,7 +20,7 @@ from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
 from collektive_experiments.programs import can_leave_state
 from collektive_experiments.store import Store
-from collektive_experiments.worker import Outcome, Worker
+from collektive_experiments.worker import Outcome, Worker, _table_difference
 
 TWO = {"vary": {"seed": "1-2"}}
 
@@ -158,6 +158,21 @@ def test_a_difference_between_a_run_and_its_repetition_stops_the_sweep(project: 
     assert result.returncode == 1
     assert re.search(r"differs: the digest was [0-9a-f]{16}, but [0-9a-f]{16} when repeated in a fresh process", result.stderr)
     assert "the sweep stopped" in result.stderr
+
+
+@pytest.mark.parametrize(("name", "old", "new", "line"), [
+    ("metrics.csv", "1,0.25,", "1,0.5,", 3), ("metrics.csv", "1,0.25,7,1,2,3,4,5,6,7,8,9\n", "", 3), ("metrics.csv", ",8,9\n", ",8.5,9.5\n", 0),
+    ("nodes.csv", '"a"', '"b"', 2), ("nodes.csv", "0,7,", "0,8,", 2),
+])
+def test_a_repetition_has_equal_tables_except_for_times(name: str, old: str, new: str, line: int, tmp_path: Path) -> None:
+    header = ",".join(("second", "share", "links", *tables.TIMES))
+    texts = {"metrics.csv": header + "\n0,0,7,1,2,3,4,5,6,7,8,9\n1,0.25,7,1,2,3,4,5,6,7,8,9\n", "nodes.csv": 'second,id,text\n0,7,"a"\n'}
+    for folder in ("first", "second"):
+        (tmp_path / folder).mkdir()
+        for table, text in texts.items():
+            (tmp_path / folder / table).write_text(text.replace(old, new) if folder == "second" and table == name else text)
+    problem = _table_difference(str(tmp_path / "first"), str(tmp_path / "second"))
+    assert problem.startswith(f"line {line} of {name} was ") if line else problem == ""
 
 
 PRINTED = """
