@@ -107,7 +107,7 @@ def write(experiment: Experiment, store: Store, with_csv: bool) -> int:
     require_unchanged(store.bundle)
     columns = _Columns(experiment, store)
     # Existing CSV tables are always written again, so that they do not become outdated.
-    with_csv = with_csv or any(os.path.exists(os.path.join(store.folder, f"{name}.csv")) for name in ("runs", "series"))
+    with_csv = with_csv or any(os.path.exists(os.path.join(store.folder, f"{name}.csv")) for name in ("runs", "series", "nodes"))
     runs = pa.schema([("run", pa.string()), *columns.parameters, *RUN_COLUMNS, *((name, pa.float64()) for name in columns.metrics),
                       *((prefix + name, pa.float64()) for name in columns.converged for prefix in (CONVERGED, CENSORED)), *RUN_TIMES,
                       *((f"version.{name}", pa.string()) for name in VERSIONS)])
