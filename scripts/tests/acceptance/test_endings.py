@@ -139,6 +139,13 @@ class WholeRuns(Project):
                 with open(self.path("out", "metrics.csv")) as file:
                     self.assertEqual([row["second"] for row in csv.DictReader(file)], ["0"])
 
+    def test_two_ticks_in_a_frame_after_a_frame_without_a_tick_are_an_error(self) -> None:
+        script = self.SCRIPT.replace("if (manager != null && manager.Tick == 4)", "if (Time.frameCount > 5)")
+        self.change("scene/Lamps.cs", "\n        protected override void Build(", script % "Time.timeScale = Time.frameCount == 6 ? 0 : Time.frameCount == 7 ? 2 : 1;")
+        result = self.run_it()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("stopped at tick 8: a frame ran more than one tick; ", last_error(result))
+
     def test_a_manager_can_be_enabled_again_only_before_the_first_tick(self) -> None:
         at_start = self.SCRIPT.replace("Update", "Start").replace("Tick == 4", "Tick == 0")
         for script, code, error in [(self.SCRIPT, 1, "stopped after tick 4: a script disabled and enabled the Simulation Manager, "), (at_start, 0, "")]:

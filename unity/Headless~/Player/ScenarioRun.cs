@@ -252,7 +252,7 @@ namespace Collektive.Headless
                     }
                     if (manager.Failure.Length > 0) throw Stopped(manager);
                     RequireFirstSimulation(manager);
-                    if (completedTicks > frame)
+                    if (completedTicks - before > 1)
                         throw new ScenarioException("stopped at tick " + completedTicks
                             + ": a frame ran more than one tick; do not set Time.timeScale above 1 or call Step while the simulation is running");
                     // Without a simulation, a row would have no nodes.
