@@ -18,7 +18,7 @@ internal class Transmitter(private val model: NetworkModel, private val seed: Lo
         counts.sent++
         val burstLoss = if (model.burstShare > 0.0 && isBad(id, from.sentAt, to, channel)) model.burstLoss else 0.0
         draw(id, from.sentAt, to, PURPOSE)
-        val loss = model.loss + model.lossPerMetre * length + model.lossPerAttenuation * attenuation
+        val loss = (model.loss + model.lossPerMetre * length + model.lossPerAttenuation * attenuation).coerceAtMost(1.0)
         if (uniform(words[0], words[1]) < loss + (1.0 - loss) * burstLoss) {
             counts.dropped++
             return

@@ -119,6 +119,12 @@ class NetworkTest {
     }
 
     @Test
+    fun `an infinite loss per metre loses all messages, also with bursts`() {
+        assertEquals(1.0, lossOf(NetworkModel(lossPerMetre = 1e308), 20f, 0f))
+        assertEquals(1.0, lossOf(NetworkModel(lossPerMetre = 1e300, burstShare = 0.5, burstLength = 2.0), 20f, 0f))
+    }
+
+    @Test
     fun `every message is counted once`() {
         TestEngine(received, network = NetworkModel(delay = 0.6, retention = 0.7)).use { test ->
             with(test) {
