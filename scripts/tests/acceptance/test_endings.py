@@ -141,7 +141,8 @@ class WholeRuns(Project):
 
     def test_two_ticks_in_a_frame_after_a_frame_without_a_tick_are_an_error(self) -> None:
         script = self.SCRIPT.replace("if (manager != null && manager.Tick == 4)", "if (Time.frameCount > 5)")
-        self.change("scene/Lamps.cs", "\n        protected override void Build(", script % "Time.timeScale = Time.frameCount == 6 ? 0 : Time.frameCount == 7 ? 2 : 1;")
+        code = "Time.timeScale = Time.frameCount == 6 ? 0 : Time.frameCount == 7 ? 2 : 1;"
+        self.change("scene/Lamps.cs", "\n        protected override void Build(", script % code)
         result = self.run_it()
         self.assertEqual(result.returncode, 1)
         self.assertIn("stopped at tick 8: a frame ran more than one tick; ", last_error(result))
