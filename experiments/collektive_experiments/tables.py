@@ -24,11 +24,11 @@ from .experiment import Experiment, Run, text
 from .figure_options import CENSORED, CONVERGED
 from .positions import ExperimentError
 from .store import Store
+from .worker import TIMES
 
 BATCH = 2000
 """The number of rows that are kept in memory before they are written."""
 COUNTS = ("links", "sent", "dropped", "delayed", "expired")
-TIMES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99")
 RUN_COLUMNS: list[tuple[str, pa.DataType]] = [
     ("status", pa.string()), ("message", pa.string()), ("digest", pa.string()), ("nodes", pa.int64()), ("ticks", pa.int64()), ("errors", pa.int64())]
 RUN_TIMES: list[tuple[str, pa.DataType]] = [

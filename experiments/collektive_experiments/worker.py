@@ -10,6 +10,7 @@ import signal
 import socket
 import subprocess
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import zip_longest
 from typing import Any
@@ -20,8 +21,8 @@ from .experiment import RUNTIME
 from .programs import can_leave_state
 
 MAX_TAIL = 4000
-TIMES = 9
-"""The number of the last columns of metrics.csv, which contain times."""
+TIMES = ("queries_ms", "rules_ms", "sense_ms", "step_ms", "act_ms", "physics_ms", "other_ms", "tick_ms", "tick_ms_p99")
+"""The last columns of metrics.csv."""
 MAX_START_SECONDS = 120.0
 """The time limit in seconds until a new process accepts runs."""
 MAX_EXIT_SECONDS = 2.0
@@ -298,16 +299,17 @@ def _difference(first: dict[str, Any], second: dict[str, Any]) -> str:
 def _table_difference(first: str, second: str) -> str:
     """Describes the first difference between the tables in two folders, except for times. Returns an empty string if the tables are equal."""
     for name in ("metrics.csv", "nodes.csv"):
-        paths = [os.path.join(folder, name) for folder in (first, second)]
-        if not any(map(os.path.exists, paths)):
-            continue
-        with open(paths[0], newline="\n", encoding="utf-8") as file, open(paths[1], newline="\n", encoding="utf-8") as other_file:
-            for number, (line, other) in enumerate(zip_longest(file, other_file, fillvalue=""), 1):
-                if name == "metrics.csv":
-                    line, other = (text.rsplit(",", TIMES)[0] for text in (line, other))
-                if line != other:
-                    return f"line {number} of {name} was {line.strip()}, but {other.strip()} when repeated in a fresh process"
+        for number, (line, other) in enumerate(zip_longest(_lines(first, name), _lines(second, name), fillvalue=""), 1):
+            if line != other:
+                return f"line {number} of {name} was {line.strip()}, but {other.strip()} when repeated in a fresh process"
     return ""
+
+
+def _lines(folder: str, name: str) -> Iterator[str]:
+    """Yields the lines of a table without times, or none if it does not exist."""
+    with contextlib.suppress(FileNotFoundError), open(os.path.join(folder, name), newline="\n", encoding="utf-8") as file:
+        for line in file:
+            yield line.rsplit(",", len(TIMES))[0] if name == "metrics.csv" else line
 
 
 def java_home() -> str:

@@ -24,7 +24,7 @@ from collektive_experiments import ExperimentError, compare, files, load, read, 
 from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
 from collektive_experiments.store import Store
-from collektive_experiments.worker import Outcome
+from collektive_experiments.worker import TIMES, Outcome
 
 MANY = {"vary": {"seed": "1-16"}, "set": {"seconds": 20}}
 """Keys of a sweep whose runs last long enough for tests to disturb them."""
@@ -555,7 +555,7 @@ def test_a_manifest_that_vanishes_during_the_sweep_is_reported(project: Project,
     folder = project.folder / "runs" / run.name
     folder.mkdir(parents=True)
     (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": {"manifest.json": "", "metrics.csv": ""}}))
-    (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *tables.TIMES]) + "\n")
+    (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *TIMES]) + "\n")
     with pytest.raises(ExperimentError, match=f"the manifest of '{run.name}' was changed: repeat the run with --resume"):
         tables.write(experiment, store, False)
 
@@ -567,7 +567,7 @@ def test_runs_on_different_jvms_are_reported(project: Project, capsys: pytest.Ca
         folder = project.folder / "runs" / run.name
         folder.mkdir(parents=True)
         (folder / "manifest.json").write_text(json.dumps({"end": {}, "converged": {}, "versions": {"jvm": jvm, "os": run.name}}))
-        (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *tables.TIMES]) + "\n")
+        (folder / "metrics.csv").write_text(",".join(["second", *tables.COUNTS, *TIMES]) + "\n")
         hashes = {name: hashlib.sha256((folder / name).read_bytes()).hexdigest() for name in ("manifest.json", "metrics.csv")}
         (folder / "run.json").write_text(json.dumps({"name": run.name, "status": "complete", "message": "", "files": hashes}))
     tables.write(experiment, Store(str(project.folder)), False)
@@ -576,7 +576,7 @@ def test_runs_on_different_jvms_are_reported(project: Project, capsys: pytest.Ca
 
 
 @pytest.mark.parametrize("header", [
-    "", ",".join(["second", "m", *tables.COUNTS, *tables.TIMES[1:]]), ",".join(["second", *tables.COUNTS, "retried", *tables.TIMES])])
+    "", ",".join(["second", "m", *tables.COUNTS, *TIMES[1:]]), ",".join(["second", *tables.COUNTS, "retried", *TIMES])])
 def test_metrics_of_another_version_are_rejected_before_other_runs(header: str, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
     for place, name in ((sweep, "prepare"), (sweep, "check_keys"), (tables, "require_unchanged"), (Store, "open"), (Store, "write_settings")):
         monkeypatch.setattr(place, name, lambda *_: None)

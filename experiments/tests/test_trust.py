@@ -20,7 +20,7 @@ from collektive_experiments.__main__ import main
 from collektive_experiments.experiment import Run
 from collektive_experiments.programs import can_leave_state
 from collektive_experiments.store import Store
-from collektive_experiments.worker import Outcome, Worker, _table_difference
+from collektive_experiments.worker import TIMES, Outcome, Worker, _table_difference
 
 TWO = {"vary": {"seed": "1-2"}}
 
@@ -165,7 +165,7 @@ def test_a_difference_between_a_run_and_its_repetition_stops_the_sweep(project: 
     ("nodes.csv", '"a"', '"b"', 2), ("nodes.csv", "0,7,", "0,8,", 2),
 ])
 def test_a_repetition_has_equal_tables_except_for_times(name: str, old: str, new: str, line: int, tmp_path: Path) -> None:
-    header = ",".join(("second", "share", "links", *tables.TIMES))
+    header = ",".join(("second", "share", "links", *TIMES))
     texts = {"metrics.csv": header + "\n0,0,7,1,2,3,4,5,6,7,8,9\n1,0.25,7,1,2,3,4,5,6,7,8,9\n", "nodes.csv": 'second,id,text\n0,7,"a"\n'}
     for folder in ("first", "second"):
         (tmp_path / folder).mkdir()
@@ -173,6 +173,8 @@ def test_a_repetition_has_equal_tables_except_for_times(name: str, old: str, new
             (tmp_path / folder / table).write_text(text.replace(old, new) if folder == "second" and table == name else text)
     problem = _table_difference(str(tmp_path / "first"), str(tmp_path / "second"))
     assert problem.startswith(f"line {line} of {name} was ") if line else problem == ""
+    (tmp_path / "second/metrics.csv").unlink()
+    assert _table_difference(str(tmp_path / "first"), str(tmp_path / "second")).startswith("line 1 of metrics.csv was ")
 
 
 PRINTED = """
