@@ -55,11 +55,11 @@ def add_plot_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--experiment", metavar="EXPERIMENT.json", help="use the figures and labels of this file instead of those during the sweep")
 
 
-def _up_to(most: int) -> Callable[[str], int]:
-    """Returns a function that reads a whole number from 1 to `most`."""
+def _up_to(maximum: int) -> Callable[[str], int]:
+    """Returns a function that reads a whole number from 1 to `maximum`."""
     def read(text: str) -> int:
-        if not re.fullmatch("[0-9]{1,20}", text) or not 1 <= int(text) <= most:
-            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from 1 to {most:,}")
+        if not re.fullmatch("[0-9]{1,20}", text) or not 1 <= int(text) <= maximum:
+            raise argparse.ArgumentTypeError(f"'{text}' is not a whole number from 1 to {maximum:,}")
         return int(text)
 
     return read

@@ -79,8 +79,8 @@ def _values(located: Located, key: str, given: Any) -> Any:
     if is_int(low) and is_int(high) and max(-low, high) > MAX_INT:
         raise located.error(f"'tune.parameters.{key}': whole numbers in a range must be from -2^53 to 2^53; use a list for other values", *place)
     # Optuna computes with the difference, and would reduce a range below one step to its first value. Like Optuna, the test uses decimal numbers.
-    is_short = step is not None and Decimal(str(step)) > Decimal(str(high)) - Decimal(str(low))
-    if is_short or not math.isfinite(high - low):
+    exceeds_range = step is not None and Decimal(str(step)) > Decimal(str(high)) - Decimal(str(low))
+    if exceeds_range or not math.isfinite(high - low):
         raise located.error(f"'tune.parameters.{key}': 'step' must be at most the difference of 'to' and 'from', which must be finite", *place)
     return given
 

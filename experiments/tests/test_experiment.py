@@ -177,9 +177,9 @@ def test_a_sweep_starts_without_the_packages_for_figures() -> None:
     assert subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True).stdout == "set()\n"
 
 
-@pytest.mark.parametrize(("option", "most"), [("--jobs", "10,000"), ("--time-limit", "1,000,000,000"), ("--trials", "1,000,000,000")])
-def test_numbers_that_are_too_large_are_a_one_line_error(option: str, most: str, capsys: pytest.CaptureFixture[str]) -> None:
+@pytest.mark.parametrize(("option", "maximum"), [("--jobs", "10,000"), ("--time-limit", "1,000,000,000"), ("--trials", "1,000,000,000")])
+def test_numbers_that_are_too_large_are_a_one_line_error(option: str, maximum: str, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         main(["tune", "experiment.json", option, "9999999999"])
     assert capsys.readouterr().err == (
-        f"collektive: tune: argument {option}: '9999999999' is not a whole number from 1 to {most} (see ./collektive tune --help)\n")
+        f"collektive: tune: argument {option}: '9999999999' is not a whole number from 1 to {maximum} (see ./collektive tune --help)\n")

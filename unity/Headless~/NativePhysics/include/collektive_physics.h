@@ -67,7 +67,7 @@ PHYSICS_API void physics_ignore_layers(physics_world *world, const uint32_t rows
 PHYSICS_API void physics_ignore_pair(physics_world *world, uint32_t identity, uint32_t other, int32_t shape, int32_t other_shape,
                                      int32_t ignore);
 
-/* Sets whether the total friction of a contact is at most its normal force times the coefficient. Otherwise, as at first, friction between
+/* Sets whether the total friction of a contact is at most its normal force times the coefficient. By default, friction between
  * surfaces that touch at several points can be twice as strong. */
 PHYSICS_API void physics_improve_friction(physics_world *world, int32_t improved);
 

@@ -117,7 +117,7 @@ void physics_world::apply(const physics_command &command) {
         case PHYSICS_KINEMATIC: {
             removal = ENDS;
             actor->led = false;
-            // Otherwise PhysX would report an error. A command with the detection follows.
+            // Otherwise, PhysX reports an error. A later command sets the detection mode.
             if (value[0] != 0.0f) body->setRigidBodyFlag(PxRigidBodyFlag::eENABLE_CCD, false);
             body->setRigidBodyFlag(PxRigidBodyFlag::eKINEMATIC, value[0] != 0.0f);
             removal = REMOVED;
