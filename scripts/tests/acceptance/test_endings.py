@@ -215,6 +215,11 @@ class WholeRuns(Project):
                 self.change("scene/Lamps.cs", self.SCRIPT % f"Application.Quit({code});", "\n        protected override void Build(")
                 self.assertEqual(result.returncode, expected, result.stderr)
 
+    def test_a_run_with_errors_that_a_script_ends_fails(self) -> None:
+        result = self.at_tick_4('Application.Quit(0); throw new System.Exception("lost");')
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("the run ended, but 1 errors occurred", last_error(result))
+
     def test_a_recorded_run_can_end_before_its_first_tick(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "record": true')
         self.change("scene/Lamps.cs", "if (loop) ", "Application.Quit(3); if (loop) ")

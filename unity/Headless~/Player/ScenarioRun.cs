@@ -336,11 +336,10 @@ namespace Collektive.Headless
                 Console.Error.WriteLine("collektive: " + problem);
                 manifest.Outcome = problem;
             }
-            if (Loop.QuitRequested) return isRepeated ? quitCode : Math.Max(1, quitCode);
-            if (errors == 0) return isRepeated ? 0 : 1;
-            Console.Error.WriteLine(
-                "collektive: the run ended, but " + errors + " errors occurred in rounds, sensors, actuators, rules, handlers or callbacks; see above");
-            return 1;
+            if (errors > 0)
+                Console.Error.WriteLine(
+                    "collektive: the run ended, but " + errors + " errors occurred in rounds, sensors, actuators, rules, handlers or callbacks; see above");
+            return errors == 0 && isRepeated ? quitCode : Math.Max(1, quitCode);
         }
 
         private ReplayRecorder NewRecorder(SimulationManager manager, SceneBuilder scene) => new ReplayRecorder(
