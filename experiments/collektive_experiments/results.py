@@ -36,9 +36,14 @@ class Results:
     """The keys of the experiment's `zip`. Sweeps of earlier versions did not store them: for these, all keys that vary."""
 
     def __post_init__(self) -> None:
-        """Checks combined tables. Labels that occur twice would mix values of different runs. Figures would omit runs without a value of a key."""
+        """
+        Checks combined tables. Labels that occur twice would mix values of different runs. Figures would omit runs without a value of a key. Rounded
+        seeds would pair different runs.
+        """
         if not self.runs.index.is_unique:
             raise ValueError("the index of the runs contains a label twice: combine tables with ignore_index=True")
+        if any(pd.api.types.is_float_dtype(table["seed"]) for table in (self.runs, self.series)):
+            raise ValueError("a table contains rounded seeds: convert the seeds of all tables to uint64 before you combine them")
         for table, key in itertools.product((self.runs, self.series), self.keys):
             if key in table and table[key].isna().any():
                 raise ValueError(f"a table contains runs without a value of the key '{key}': add this value before you combine tables")

@@ -203,7 +203,8 @@ class _Columns:
             converged.update(dict.fromkeys(manifest.get("converged", {})))
             node_columns.update(manifest.get("node_columns", {}))
         types = {key: _type_of(values) for key, values in experiment.product + experiment.together}
-        if "seed" not in types:
+        # With other types in some sweeps, pandas would round the seeds of combined tables.
+        if types.get("seed", pa.int64()) == pa.int64():
             types["seed"] = pa.uint64()
         self.parameters: list[tuple[str, pa.DataType]] = list(types.items())
         self.nodes: dict[str, pa.DataType] = {self._node_column(name): NODE_TYPES[kind] for name, kind in node_columns.items()}

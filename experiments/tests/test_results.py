@@ -95,6 +95,13 @@ def test_combined_tables_without_a_value_of_a_key_are_rejected() -> None:
         replace(some, series=pd.concat([some.series, some.series.drop(columns="program")], ignore_index=True))
 
 
+def test_combined_tables_with_rounded_seeds_are_rejected() -> None:
+    some = results(2)
+    large = some.runs.assign(seed=np.uint64(1 << 63))
+    with pytest.raises(ValueError, match="convert the seeds of all tables to uint64"):
+        replace(some, runs=pd.concat([some.runs, large], ignore_index=True))
+
+
 @pytest.mark.parametrize("key", ["a", "p", "pairs"])
 def test_a_key_with_the_name_of_a_column_of_a_comparison_is_rejected(key: str) -> None:
     some = results(2)

@@ -57,6 +57,7 @@ def test_each_run_is_a_row_with_its_parameters_and_results(lamps: Project) -> No
     assert len(runs) == 8
     assert set(runs["status"]) == {"complete"}
     assert list(runs["nodes"]) == list(runs["fields.lamps"])
+    assert runs["seed"].dtype == "uint64", "if this depended on the values, pandas would round the seeds of combined tables"
     assert [name.rpartition("-")[0] for name in runs["run"][:2]] == ["fields.lamps=5,network.loss=0,seed=1", "fields.lamps=5,network.loss=0,seed=2"]
     assert list(runs.loc[runs["network.loss"] == 0, "agreeing"]) == [5, 5, 10, 10]
     assert "seen" not in runs.columns, "a metric that is not measured must not have a column"
