@@ -58,7 +58,7 @@ def prepare(scenario: Located, bundle: str, trust: bool, runtimes: Sequence[str]
     for runtime in runtimes if os.path.isdir(bundle) else ():
         if not os.path.exists(programs_jar(bundle, runtime)):
             raise ExperimentError(f"'{bundle}' contains no programs for the runtime '{runtime}': name another folder with --out")
-    if os.path.isdir(bundle) and not _is_unchanged(bundle):
+    if os.path.isdir(bundle) and not is_unchanged(bundle):
         raise ExperimentError(f"'{bundle}' was changed after the earlier runs: restore it, or name another folder with --out")
     work = bundle + PART
     files.make_marked(work)
@@ -84,11 +84,12 @@ def prepare(scenario: Located, bundle: str, trust: bool, runtimes: Sequence[str]
 
 def require_unchanged(bundle: str) -> None:
     """Raises `ExperimentError` if the bundle was changed during a sweep or search, whose processes read its files at different times."""
-    if not _is_unchanged(bundle):
+    if not is_unchanged(bundle):
         raise ExperimentError(f"'{bundle}' was changed during the runs, which may have different inputs: name another folder with --out")
 
 
-def _is_unchanged(bundle: str) -> bool:
+def is_unchanged(bundle: str) -> bool:
+    """Returns whether the bundle has the files with which it was created."""
     path = os.path.join(bundle, FINGERPRINT)
     if not os.path.isfile(path):
         # Bundles of earlier versions have no fingerprint.

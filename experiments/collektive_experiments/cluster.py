@@ -13,6 +13,7 @@ from typing import Any
 
 import ray
 
+from .bundle import is_unchanged
 from .experiment import Run
 from .positions import ExperimentError
 from .store import Store
@@ -26,7 +27,15 @@ WAIT_SECONDS = 0.5
 
 def connect(address: str, bundle: str) -> None:
     """Joins a cluster. The address `auto` joins the local cluster, or starts one for the sweep if none is running."""
-    environment = {"working_dir": bundle, "py_modules": [os.path.dirname(os.path.abspath(__file__))]}
+    with tempfile.TemporaryDirectory(prefix="collektive-") as folder:
+        # Ray would omit files of a folder that .gitignore, .rayignore or its own list name.
+        archive = os.path.join(folder, "bundle.tar.gz")
+        with tarfile.open(archive, "w:gz", compresslevel=1, dereference=True) as tar:
+            tar.add(bundle, ".")
+        _connect(address, {"working_dir": archive, "py_modules": [os.path.dirname(os.path.abspath(__file__))]})
+
+
+def _connect(address: str, environment: dict[str, Any]) -> None:
     try:
         ray.init(address=address, runtime_env=environment, log_to_driver=False, logging_level=logging.ERROR)
     except RuntimeError as error:
@@ -47,9 +56,12 @@ class _RemoteWorker:
         self._folder = tempfile.TemporaryDirectory(prefix="collektive-")
         self._worker = Worker(os.getcwd(), os.path.join(self._folder.name, "worker.txt"), trust)
         self._count = 0
+        self._is_copied = is_unchanged(os.getcwd())
 
     def run(self, settings: dict[str, Any], process: str, limit: float, is_repeated: bool) -> tuple[Outcome, float, bytes]:
         """Executes a run. Returns its outcome, its duration in seconds, and its folder as a tar file."""
+        if not self._is_copied:
+            raise WorkerError("the copy of the bundle on a node of the cluster differs from the bundle")
         self._count += 1
         out = os.path.join(self._folder.name, str(self._count))
         os.mkdir(out)

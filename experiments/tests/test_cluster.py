@@ -41,6 +41,18 @@ def test_a_lost_cluster_node_causes_no_lost_or_duplicate_runs(project: Project, 
     assert list(project.table()["run"]) == list(project.table("local")["run"])
 
 
+def test_ignored_files_of_the_data_folder_are_copied_to_the_nodes(project: Project, cluster: Cluster) -> None:
+    scenario = project.folder / "project/lamps.json"
+    scenario.write_text(scenario.read_text().replace("{", '{"data": "data",', 1))
+    for name in (".gitignore", ".rayignore", "venv/table"):
+        file = project.folder / "project/data" / name
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("*")
+    result = project.sweep("--ray", cluster.address, vary={"seed": [1, 2]})
+    # Workers compare the fingerprint of their copy.
+    assert result.returncode == 0, result.stderr
+
+
 def test_a_run_whose_workers_are_killed_for_memory_crashes_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(clusters, "connect", Mock())
     monkeypatch.setattr(ray, "get", Mock(side_effect=ray.exceptions.OutOfMemoryError("the memory is full\nusage: 99 %")))
