@@ -9,6 +9,7 @@ import textwrap
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import matplotlib
@@ -151,13 +152,21 @@ def plot(folder: str, metrics: Sequence[str] | None = None, options: FigureOptio
         tables[last] = _table(results, metric)
     files.make(os.path.join(folder, "figures"))
     paths = [path for name, drawing in drawn.items() for path in drawing.write(os.path.join(folder, "figures", name))]
-    if options:
-        return paths
-    sections = [f"<figure>{drawing.markup()}<figcaption>{html.escape(drawing.caption)}</figcaption></figure>{tables.get(name, '')}"
-                for name, drawing in drawn.items()]
-    page = os.path.join(folder, "figures.html")
-    files.write(page, _page(os.path.basename(os.path.abspath(folder)), results, sections))
-    return [*paths, page]
+    if not options:
+        sections = [f"<figure>{drawing.markup()}<figcaption>{html.escape(drawing.caption)}</figcaption></figure>{tables.get(name, '')}"
+                    for name, drawing in drawn.items()]
+        paths.append(os.path.join(folder, "figures.html"))
+        files.write(paths[-1], _page(os.path.basename(os.path.abspath(folder)), results, sections))
+    _warn_of_earlier_figures(Path(folder))
+    return paths
+
+
+def _warn_of_earlier_figures(folder: Path) -> None:
+    """Prints the names of figures that were drawn before the tables were written."""
+    written = (folder / "runs.parquet").stat().st_mtime
+    drawn = [*folder.glob("figures.html"), *sorted(folder.glob("figures/*.pdf"))]
+    if older := [str(path.relative_to(folder)) for path in drawn if path.stat().st_mtime < written]:
+        print(f"collektive: in '{folder}', these figures are older than the tables: {', '.join(older)}; draw them again, or delete them", file=sys.stderr)
 
 
 def _requests(folder: str, experiment: Experiment | None) -> list[FigureOptions]:

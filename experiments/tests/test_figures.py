@@ -1,5 +1,6 @@
 """Tests the figures of ./collektive plot with their kinds, options, errors and files."""
 import json
+import os
 import re
 import shutil
 import sys
@@ -520,6 +521,19 @@ def test_runs_that_ended_after_the_tables_were_written_are_counted(tmp_path: Pat
         (tmp_path / "out/runs" / name / "run.json").write_text(json.dumps(record))
     plot(folder)
     assert "the figures omit because they are not in the tables: 1; the sweep has not ended, or" in capsys.readouterr().err
+
+
+def test_figures_that_are_older_than_the_tables_are_reported(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = write_sweep(tmp_path / "out", 2, (0.0,))
+    for path in plot(folder):
+        os.utime(path, (1, 1))
+    capsys.readouterr()
+    plot(folder, ["error"])
+    expected = "these figures are older than the tables: figures/converged.error-end.pdf; draw them again, or delete them"
+    assert expected in capsys.readouterr().err
+    (tmp_path / "out/figures/converged.error-end.pdf").unlink()
+    plot(folder, ["error"])
+    assert "older" not in capsys.readouterr().err
 
 
 def test_tables_that_a_sweep_replaces_at_the_same_time_are_not_mixed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
