@@ -101,6 +101,8 @@ namespace Collektive.Headless
             if (min > max) min = max = 0;
             // Small numbers beside Int.MAX_VALUE, for example, would otherwise become equal.
             if (isWhole && max - min < uint.MaxValue && Math.Abs(min) < MaxExactInteger) max = min + NumberSteps;
+            // The scale of a smaller range would be infinite.
+            if (double.IsInfinity(NumberSteps / (max - min))) max = min;
             Reserve(16);
             WriteDouble(min);
             WriteDouble(max);

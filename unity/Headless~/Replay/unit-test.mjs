@@ -4,28 +4,31 @@ import { createRequire } from 'node:module';
 import { dirname, join } from 'node:path';
 import test from 'node:test';
 import { fileURLToPath } from 'node:url';
+import { gzipSync } from 'node:zlib';
 
 const modules = process.env.COLLEKTIVE_NODE_MODULES;
 const { buildSync } = createRequire(join(modules, 'x.js'))('esbuild');
 const { outputFiles: [{ text }] } = buildSync({
   stdin: {
-    contents: ['colours', 'fields', 'legend', 'live-recording', 'view'].map((name) => `export * from './${name}.js';`).join('')
+    contents: ['colours', 'fields', 'legend', 'live-recording', 'recording', 'view'].map((name) => `export * from './${name}.js';`).join('')
       + "export { Group } from 'three';",
     resolveDir: join(dirname(fileURLToPath(import.meta.url)), 'src'),
   },
   bundle: true, write: false, format: 'esm', nodePaths: [modules],
 });
-const { clock, colouring, digitsOf, drawable, fieldsOf, Group, isolated, Legend, LiveRecording, short, View } = await import(
+const { clock, colouring, digitsOf, drawable, fieldsOf, Group, isolated, Legend, LiveRecording, open, short, View } = await import(
   `data:text/javascript;base64,${Buffer.from(text).toString('base64')}`
 );
 
 const number = (value) => (value < 128 ? [value] : [(value & 127) | 128, ...number(value >>> 7)]);
 const signed = (value) => number(((value << 1) ^ (value >> 31)) >>> 0);
 
+const bytesOf = (x, category, links) => [
+  ...number(1), 1, ...signed(x), ...signed(0), ...signed(0), ...signed(1 + 2 * category), ...number(links), 0, 0,
+];
+
 /** Returns a segment (FORMAT.md) with a single frame of one node at (x, 0, 0), with a category and no stored link. */
-const frameOf = (id, x, category, links = 0) => Uint8Array.from([
-  ...number(1), ...signed(id), ...number(1), 1, ...signed(x), ...signed(0), ...signed(0), ...signed(1 + 2 * category), ...number(links), 0, 0,
-]).buffer;
+const frameOf = (id, x, category, links = 0) => Uint8Array.from([...number(1), ...signed(id), ...bytesOf(x, category, links)]).buffer;
 
 const live = () => new LiveRecording({
   positionStep: 1, slots: 1, ids: [0, 9], fields: [{ name: 'leader', kind: 'category', order: [] }], metrics: [], movers: [], metadata: {},
@@ -46,6 +49,18 @@ test('a node does not get the speed from the place of the node whose slot it has
   recording.add({ time: 0, poses: [] }, frameOf(7, 0, 0));
   recording.add({ time: 1, poses: [] }, frameOf(8, 50, 0));
   assert.ok(Number.isNaN(valueOf(recording, 'speed')));
+});
+
+test('the only frame of the last segment has speeds', async () => {
+  const header = {
+    version: 6, times: [0, 1, 3], framesPerSegment: 2, positionStep: 1, slots: 1, ids: [0, 9], fields: [{ name: 'leader', kind: 'category', order: [] }],
+  };
+  const packed = (bytes) => gzipSync(bytes).toString('base64');
+  const segments = [[...new Uint8Array(frameOf(7, 5, 0)), ...bytesOf(1, -1, 0)], new Uint8Array(frameOf(7, 12, 0))];
+  const frames = `\n${segments.map((bytes) => packed(Uint8Array.from(bytes))).join('\n')}`;
+  const recording = await open(packed(JSON.stringify({ ...header, length: frames.length })) + frames);
+  await recording.load(2);
+  assert.equal(fieldsOf(recording).find(({ name }) => name === 'speed').valuesOf(recording.frame(2))[0], 3);
 });
 
 test('the number of neighbours is unknown if not all links are stored', () => {

@@ -128,13 +128,13 @@ function degrees(frame) {
   return counts;
 }
 
-/** Returns the nodes' speeds between this frame and the next one, or the previous one at the end of a segment. */
+/** Returns the nodes' speeds between this frame and the next one, or the previous one at the end of a segment. The only frame of a run has none. */
 function speeds(recording, frame) {
   const result = new Float32Array(frame.present.length).fill(NaN);
-  const { first, count } = frame.segment;
-  if (count === 1) return result;
+  const { first, count, previous } = frame.segment;
   const at = frame.index - first;
-  const other = frame.segment.frame(at + 1 < count ? at + 1 : at - 1);
+  const other = count === 1 ? previous?.frame(previous.count - 1) : frame.segment.frame(at + 1 < count ? at + 1 : at - 1);
+  if (!other) return result;
   const seconds = Math.abs(recording.times[other.index] - recording.times[frame.index]);
   for (const slot of frame.slots) {
     if (!other.present[slot] || other.ids[slot] !== frame.ids[slot]) continue;

@@ -104,7 +104,10 @@ class Recording {
   read(number) {
     return orDamaged(async () => {
       const first = number * this.framesPerSegment;
-      return new Segment(await unpack(this.texts[number]), this, first, Math.min(this.framesPerSegment, this.count - first));
+      const segment = new Segment(await unpack(this.texts[number]), this, first, Math.min(this.framesPerSegment, this.count - first));
+      // The speeds of a single frame depend on the frame before it.
+      if (segment.count === 1 && number > 0) segment.previous = await this.read(number - 1);
+      return segment;
     });
   }
 }

@@ -200,6 +200,19 @@ namespace Collektive.Headless.Tests
         }
 
         [Test]
+        public void ScalarsInATinyRangeAreNotMissing()
+        {
+            var replay = Record(writer =>
+            {
+                writer.BeginFrame(0);
+                writer.Node(1, 0, 0, 0, 0);
+                writer.Node(2, 0, 0, 0, 1e-310);
+                writer.EndFrame();
+            });
+            Assert.AreEqual(0, replay.Frames[0].Nodes[2].Scalar, 1e-300);
+        }
+
+        [Test]
         public void ScalarsFarFromZeroKeepTheirDifferences()
         {
             var replay = Record(writer =>
