@@ -44,8 +44,8 @@ def build(*targets: str, tools: Sequence[str] = ()) -> None:
             if not _is_configured():
                 _configure()
             for source in _missed():
-                if os.path.islink(source):
-                    # The time of the file outside is not changed. Without its log, Ninja builds everything.
+                if not _is_touchable(source):
+                    # Without its log, Ninja builds everything.
                     NINJA_LOG.unlink(missing_ok=True)
                     continue
                 with contextlib.suppress(FileNotFoundError):
@@ -68,8 +68,7 @@ def _missed() -> list[str]:
     """Returns sources whose changes Ninja misses, because it only compares modification times, and not with the beginning of a build.
 
     They changed during the last build, or have earlier times than it, for example after `rsync -a` or if the clock was set back. Programs cannot set the
-    change times of files. Sources with a time in the future are included, because Ninja would build them every time. Links and files that cannot be touched
-    are left as they are.
+    change times of files. Sources with a time in the future are included if they can be touched, because Ninja would build them every time.
     """
     now = time.time_ns()
     known: dict[str, int] = {}
@@ -81,11 +80,16 @@ def _missed() -> list[str]:
             known, folder_end, file_end = json.loads(BEGIN.read_bytes()), begin.st_mtime_ns, log.st_mtime_ns
     found = []
     for path, status in _sources().items():
-        is_future = status.st_mtime_ns > now and os.access(path, os.W_OK) and not os.path.islink(path)
+        is_future = status.st_mtime_ns > now and _is_touchable(path)
         end = folder_end if stat.S_ISDIR(status.st_mode) else file_end
         if is_future or (status.st_mtime_ns <= end and known.get(path) != status.st_ctime_ns):
             found.append(path)
     return found
+
+
+def _is_touchable(path: str) -> bool:
+    """Returns whether the build may change the time of a source: it does not belong to another user, and is not a link to a file outside."""
+    return os.access(path, os.W_OK) and not os.path.islink(path)
 
 
 def _sources() -> dict[str, os.stat_result]:
