@@ -130,7 +130,7 @@ namespace Collektive.Unity.Editor
                 SessionState.SetString(KeyOf(current), sources);
                 var runtime = current.Runtime;
                 var options = OptionsOf(current);
-                var libraries = new List<string>(runtime.Library) { Installation.HostJar };
+                var libraries = new List<string>(runtime.Library) { Installation.HostJar, runtime.Plugin };
                 libraries.AddRange(Array.FindAll(runtime.Arguments(), File.Exists));
                 request = CompilerProcess.Submit(Toolchain.FindJdk(), Toolchain.FindKotlin(runtime.Kind), libraries, options);
             }
@@ -214,6 +214,7 @@ namespace Collektive.Unity.Editor
                 "--csharp", Path.GetFullPath(project.Generated), "--jar", Path.GetFullPath(project.Jar), "--work", Path.GetFullPath(Work),
                 "--mark", "Collektive-Runtime:" + project.Runtime.ManifestValue, "--library", Installation.HostJar,
             };
+            if (project.Runtime.PluginHash.Length > 0) options.AddRange(new[] { "--mark", SchemaProject.PluginMark + ":" + project.Runtime.PluginHash });
             foreach (var jar in project.Runtime.Library) options.AddRange(new[] { "--library", jar });
             foreach (var argument in project.Runtime.Arguments()) options.AddRange(new[] { "--kotlin", argument });
             options.AddRange(new[] { "--source", Path.GetFullPath(project.Programs) });

@@ -33,18 +33,24 @@ namespace Collektive.Unity.Editor
         /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
         internal IReadOnlyList<string> Library => Kind == AggregateRuntime.BuiltIn ? new[] { Installation.LibraryJar } : Jars();
 
+        /// <summary>The path of the compiler plugin. Empty if none is selected.</summary>
+        internal string Plugin =>
+            Kind == AggregateRuntime.BuiltIn ? Toolchain.CompilerPlugin : string.IsNullOrWhiteSpace(plugin) ? "" : Installation.PathOf(plugin);
+
+        /// <summary>The hash of Collektive's compiler plugin. Empty for the built-in one, which has the package's version, or if the file is missing.</summary>
+        internal string PluginHash => Kind == AggregateRuntime.Collektive && File.Exists(Plugin) ? Hash(new[] { Plugin }) : "";
+
         /// <summary>Options of the Kotlin compiler, and sources that are compiled with the programs.</summary>
         /// <exception cref="ToolException">The compiler plugin is missing, or not a compiler plugin.</exception>
         internal string[] Arguments()
         {
-            if (Kind == AggregateRuntime.BuiltIn) return new[] { "-Xplugin=" + Toolchain.CompilerPlugin };
-            var path = string.IsNullOrWhiteSpace(plugin) ? "" : Installation.PathOf(plugin);
-            if (!File.Exists(path))
+            if (Kind == AggregateRuntime.BuiltIn) return new[] { "-Xplugin=" + Plugin };
+            if (!File.Exists(Plugin))
                 throw new ToolException("Collektive's compiler plugin '" + plugin + "' does not exist: select it "
                     + "as Runtime Plugin in the Simulation Manager's settings");
-            if (!IsPlugin(path))
-                throw new ToolException(path + " is not a plugin of the Kotlin compiler: select Collektive's compiler-plugin as Runtime Plugin");
-            return new[] { "-Xplugin=" + path, "-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", Toolchain.Links };
+            if (!IsPlugin(Plugin))
+                throw new ToolException(Plugin + " is not a plugin of the Kotlin compiler: select Collektive's compiler-plugin as Runtime Plugin");
+            return new[] { "-Xplugin=" + Plugin, "-P", "plugin:it.unibo.collektive.collektive-compiler-plugin:collektiveEnabled=true", Toolchain.Links };
         }
 
         private string[] Jars()

@@ -12,6 +12,9 @@ namespace Collektive.Unity.Editor
     /// </summary>
     internal sealed class SchemaProject
     {
+        /// <summary>The manifest's attribute for the hash of Collektive's compiler plugin.</summary>
+        internal const string PluginMark = "Collektive-Plugin";
+
         private SchemaProject(string schema, IReadOnlyList<SimulationSettings> simulations)
         {
             Schema = schema;
@@ -46,8 +49,8 @@ namespace Collektive.Unity.Editor
         internal string Sources => SourceHash.Of(Schema, Programs);
 
         /// <summary>
-        /// Whether the jar is outdated: it was built from other sources, for another runtime, or by another package version, whose generated code would not
-        /// fit. Without Kotlin files, no jar is outdated, because it could not be rebuilt.
+        /// Whether the jar is outdated: it was built from other sources, for another runtime, by another plugin, or by another package version, whose generated
+        /// code would not fit. Without Kotlin files, no jar is outdated, because it could not be rebuilt.
         /// </summary>
         /// <exception cref="ToolException">The runtime's jars are missing.</exception>
         internal bool IsStale
@@ -58,7 +61,7 @@ namespace Collektive.Unity.Editor
                 var attributes = JarManifest.Read(Jar);
                 bool Has(string name, string value) => attributes.TryGetValue(name, out var built) && built == value;
                 return !Has("Collektive-Version", PackageState.Version) || !Has("Collektive-Runtime", Runtime.ManifestValue)
-                    || !Has("Collektive-Sources", Sources);
+                    || Runtime.PluginHash.Length > 0 && !Has(PluginMark, Runtime.PluginHash) || !Has("Collektive-Sources", Sources);
             }
         }
 

@@ -53,7 +53,14 @@ namespace Collektive.Headless.Tests.Editor
             Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(first), "without a change, the jar must not be built again");
             File.Copy(Path.Combine(Root, "jvm-host/host/target/collektive-adapter.jar"), "collektive/other.jar");
             Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
-            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.GreaterThan(first), "the jar must be built again after a change to the runtime's jars");
+            var second = File.GetLastWriteTimeUtc(Jar);
+            Assert.That(second, Is.GreaterThan(first), "the jar must be built again after a change to the runtime's jars");
+            using (var plugin = ZipFile.Open("plugin.jar", ZipArchiveMode.Update)) plugin.CreateEntry("changed");
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            var third = File.GetLastWriteTimeUtc(Jar);
+            Assert.That(third, Is.GreaterThan(second), "the jar must be built again after a change to the compiler plugin");
+            Menus.ChangePlayMode(PlayModeStateChange.ExitingEditMode);
+            Assert.That(File.GetLastWriteTimeUtc(Jar), Is.EqualTo(third), "without a change, the jar must not be built again");
         }
 
         [Test]
