@@ -193,7 +193,7 @@ class _Columns:
         metrics: dict[str, None] = {}
         converged: dict[str, None] = {}
         self.rows: dict[str, int] = {}
-        self._ends: dict[str, float] = {}
+        self._seconds: list[float] = []
         node_columns: dict[str, str] = {}
         self.files: list[tuple[str, dict[str, str]]] = []
         for run, record in self.records():
@@ -244,8 +244,7 @@ class _Columns:
         for name in self.converged:
             row[CONVERGED + name] = time = manifest["converged"].get(name)
             if time is None and name in manifest["converged"]:
-                # A period in the band that began later would be too short to count as convergence.
-                row[CENSORED + name] = max(0.0, round(self._ends[run.name] - manifest["scenario"]["converged"][name]["seconds"], 6))
+                row[CENSORED + name] = self._latest_start(manifest["scenario"]["converged"][name]["seconds"], manifest["scenario"]["deltaTime"])
         row |= {f"version.{name}": manifest["versions"].get(name) for name in VERSIONS}
         return row
 
@@ -254,14 +253,23 @@ class _Columns:
         table = _lines(self._store, run)
         names = _metric_names(run, next(table, []))
         self.rows[run.name] = 0
+        self._seconds = []
         for cells in table:
             metrics = dict(zip(names, cells[1:]))
             rest = cells[1 + len(names):]
             self.rows[run.name] += 1
-            second = self._ends[run.name] = float(cells[0])
+            second = float(cells[0])
+            self._seconds.append(second)
             # At second 0, missing values are normal, because many metrics need answers.
             yield {"second": second, **{column: self._number(run, name, metrics.get(name), warns=second > 0) for name, column in self._names.items()},
                    **{name: int(cell) for name, cell in zip(COUNTS, rest)}, **{name: float(cell) for name, cell in zip(TIMES, rest[len(COUNTS):])}}
+
+    def _latest_start(self, seconds: float, tick: float) -> float:
+        """Returns the latest second at which a period in a band can begin that counts as convergence in the run whose series was read last."""
+        end = self._seconds[-1]
+        # The player accepts periods that are shorter because rows are written at ticks, as in Convergence.cs.
+        shortest = max(seconds * (1 - 5e-5), seconds - tick / 2)
+        return max(0.0, round(end - seconds, 6), *(second for second in self._seconds if end - second >= shortest))
 
     def node_rows(self, run: Run) -> Iterator[dict[str, Any]]:
         """Yields the rows of nodes.csv."""

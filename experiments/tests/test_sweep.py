@@ -359,6 +359,26 @@ def test_runs_without_a_manifest_have_a_seed(project: Project, given: dict[str, 
     assert list(project.table()["seed"]) == [seed]
 
 
+@pytest.mark.parametrize(("tick", "censored"), [(0.033333, 5.99994), (0.1, 6)])
+def test_a_censored_run_is_observed_until_the_last_row_at_which_it_could_have_converged(
+        tick: float, censored: float, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(tables, "require_unchanged", lambda *_: None)
+    experiment = read(project.experiment())
+    store = Store(str(project.folder / "out"))
+    (run,) = experiment.runs()
+    os.makedirs(store.runs)
+    folder = Path(store.begin(run))
+    scenario = {"deltaTime": tick, "converged": {"error": {"from": 0, "seconds": 4}}}
+    (folder / "manifest.json").write_text(json.dumps({"scenario": scenario, "end": {"error": -1}, "converged": {"error": None}, "versions": {}}))
+    numbers = [*tables.COUNTS, *TIMES]
+    # The player accepts a period that lacks less than half a tick, and writes rows of 1 s after 30 ticks of 0.033333 s.
+    rows = [f"{round(second * round(1 / tick) * tick, 6):g},-1{',0' * len(numbers)}" for second in range(11)]
+    (folder / "metrics.csv").write_text("\n".join([",".join(["second", "error", *numbers]), *rows, ""]))
+    store.finish(run, Outcome("complete"), 1)
+    tables.write(experiment, store, False)
+    assert list(project.table()["censored.error"]) == [censored]
+
+
 @pytest.mark.slow
 def test_a_sweep_stops_if_its_first_runs_fail_in_the_same_way_unless_keep_going(project: Project) -> None:
     keys: dict[str, Any] = {"vary": {"seed": "1-8"}, "set": {"fields.lamps": 0}}
