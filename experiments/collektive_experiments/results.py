@@ -174,7 +174,8 @@ def compare(results: Results, metric: str, by: str) -> pd.DataFrame:
     groups = data.groupby(others, sort=False, dropna=False) if others else [((), data)]
     for place, group in groups:
         samples = {value: part.set_index("seed")[VALUE] for value, part in group.groupby(by, sort=False)}
-        for first, second in itertools.combinations(samples, 2):
+        # In the order of the experiment, even if the first run of a value is missing. Otherwise, the sign of effects would differ between rows.
+        for first, second in itertools.combinations([value for value in results.runs[by].unique() if value in samples], 2):
             a, b = samples[first], samples[second]
             seeds = a.index.intersection(b.index)
             effect = (paired_effect(a[seeds].to_numpy(float), b[seeds].to_numpy(float)) if len(seeds) else

@@ -151,6 +151,17 @@ def test_runs_of_equal_seeds_are_paired() -> None:
     assert row["pairs"] == 0 and row["p"] > 0.5
 
 
+def test_pairs_of_values_have_the_same_order_in_all_rows() -> None:
+    some = results(2)
+    other = some.runs.assign(**{"network.loss": 0.3, "run": "other" + some.runs["run"]})
+    # In the experiment, the seed changes more slowly than the program. The first run has failed.
+    other.loc[(other["seed"] == 0) & (other["program"] == "a"), "status"] = "failed"
+    runs = pd.concat([some.runs, other.sort_values("seed", kind="stable")], ignore_index=True)
+    table = compare(replace(some, runs=runs), "error", "program")
+    assert list(table["a"]) == ["a", "a"]
+    assert (table["difference"] > 1).all()
+
+
 def test_comparing_many_unpaired_runs_needs_little_memory() -> None:
     tracemalloc.start()
     try:
