@@ -359,6 +359,27 @@ def test_runs_without_a_manifest_have_a_seed(project: Project, given: dict[str, 
     assert list(project.table()["seed"]) == [seed]
 
 
+def test_tables_are_written_although_another_command_has_removed_the_environment(project: Project) -> None:
+    code = """
+import os, sys
+from collektive_experiments import __main__, read, tables
+from collektive_experiments.store import Store
+from collektive_experiments.worker import Outcome
+experiment, store = read(sys.argv[1]), Store(sys.argv[2])
+os.makedirs(store.runs)
+for run in experiment.runs():
+    store.begin(run)
+    store.finish(run, Outcome("failed", "no luck"), 1)
+tables.require_unchanged = lambda *_: None
+sys.meta_path.clear()
+tables.write(experiment, store, True)
+"""
+    path = project.experiment(vary={"seed": [1, 2]})
+    written = subprocess.run([sys.executable, "-c", code, path, str(project.folder / "out")], capture_output=True, text=True)
+    assert (written.returncode, written.stderr) == (0, "")
+    assert len(project.table()) == 2
+
+
 @pytest.mark.parametrize(("tick", "censored"), [(0.033333, 5.99994), (0.1, 6)])
 def test_a_censored_run_is_observed_until_the_last_row_at_which_it_could_have_converged(
         tick: float, censored: float, project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
