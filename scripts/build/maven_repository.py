@@ -9,7 +9,7 @@ from build.console import print_progress
 
 def repair() -> bool:
     """Removes jars that do not match the checksum of their download, so that Maven fetches them again. Returns whether it removed any."""
-    damaged = [jar for jar in _location().rglob("*.jar") if _differs(jar, jar.with_name(f"{jar.name}.sha1"))]
+    damaged = [jar for jar in _location().rglob("*.jar") if _differs(jar, jar.with_name(f"{jar.name}.sha1")) and not _is_installed(jar)]
     for jar in damaged:
         print_progress(f"removing {jar}, which is damaged; Maven will fetch it again")
         jar.unlink()
@@ -18,6 +18,12 @@ def repair() -> bool:
 
 def _differs(jar: Path, stored: Path) -> bool:
     return stored.exists() and hashlib.sha1(jar.read_bytes(), usedforsecurity=False).hexdigest() != stored.read_text().split()[0].lower()
+
+
+def _is_installed(jar: Path) -> bool:
+    """Returns whether `mvn install` has written a jar. Maven then keeps the checksum of an earlier download."""
+    origins = jar.with_name("_remote.repositories")
+    return origins.is_file() and f"{jar.name}>=" in origins.read_text(errors="replace").splitlines()
 
 
 def _location() -> Path:

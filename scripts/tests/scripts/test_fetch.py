@@ -124,6 +124,18 @@ def test_a_jar_that_differs_from_its_checksum_is_removed(checkout: Checkout, mon
     assert checkout.run(repair).stdout == "False\n"
 
 
+def test_a_jar_that_the_user_installed_over_a_download_is_kept(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> None:
+    jar = checkout.root / "repository/org/it/1/it-1.jar"
+    jar.parent.mkdir(parents=True)
+    jar.write_text("own")
+    # Maven keeps the checksum of the download, and adds the second line.
+    jar.with_name("it-1.jar.sha1").write_text(hashlib.sha1(b"downloaded").hexdigest())
+    jar.with_name("_remote.repositories").write_text("#Mon Nov 30 12:50:28 UTC 2026\nit-1.jar>central=\nit-1.jar>=\n")
+    monkeypatch.setenv("MAVEN_OPTS", "-Dmaven.repo.local=repository")
+    result = checkout.run("import os; os.chdir(root); from build import maven_repository; print(maven_repository.repair())")
+    assert (result.stdout, jar.exists()) == ("False\n", True)
+
+
 def test_maven_rejects_a_file_that_differs_from_its_checksum(tmp_path: Path) -> None:
     """Resolves the parent of a POM, because this needs no plugin."""
     shutil.copytree(ROOT / ".mvn", tmp_path / ".mvn")
