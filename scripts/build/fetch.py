@@ -114,17 +114,20 @@ def _crate(tool: str, crate: str, folder: Path) -> Path:
     work = folder / "crate"
     shutil.copytree(TOOLS / tool, work)
     cargo = system.find_tool("cargo") or "cargo"
-    _downloaded(tool, [cargo, "fetch", "--locked"], partial(_discard_crate, crate), cwd=work)
+    _downloaded(tool, [cargo, "fetch", "--locked"], partial(_discard_crate, tool, crate), cwd=work)
     metadata = subprocess.run([cargo, "metadata", "--offline", "--format-version", "1"], cwd=work, check=True, stdout=subprocess.PIPE).stdout
     shutil.rmtree(work)
     return next(Path(package["manifest_path"]).parent for package in json.loads(metadata)["packages"] if package["name"] == crate)
 
 
-def _discard_crate(crate: str) -> None:
+def _discard_crate(tool: str, crate: str) -> None:
+    """Removes the version of a crate that tools/TOOL pins from Cargo's cache, which other projects share."""
+    pinned = re.search(rf'name = "{crate}"\nversion = "(.+)"', (TOOLS / tool / "Cargo.lock").read_text())
+    assert pinned
     home = Path(os.environ.get("CARGO_HOME") or Path.home() / ".cargo")
-    for stored in home.glob(f"registry/cache/*/{crate}-*.crate"):
+    for stored in home.glob(f"registry/cache/*/{crate}-{pinned[1]}.crate"):
         stored.unlink()
-    for unpacked in home.glob(f"registry/src/*/{crate}-*"):
+    for unpacked in home.glob(f"registry/src/*/{crate}-{pinned[1]}"):
         shutil.rmtree(unpacked)
 
 

@@ -136,6 +136,21 @@ def test_a_jar_that_the_user_installed_over_a_download_is_kept(checkout: Checkou
     assert (result.stdout, jar.exists()) == ("False\n", True)
 
 
+def test_only_the_pinned_version_of_a_crate_is_discarded(checkout: Checkout, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    cache, sources = tmp_path / "registry/cache/index", tmp_path / "registry/src/index"
+    cache.mkdir(parents=True)
+    for version in "0.30.1", "0.40.0":
+        (cache / f"libsqlite3-sys-{version}.crate").touch()
+        (sources / f"libsqlite3-sys-{version}").mkdir(parents=True)
+    (checkout.root / "tools/sqlite").mkdir(parents=True)
+    shutil.copy(ROOT / "tools/sqlite/Cargo.lock", checkout.root / "tools/sqlite")
+    monkeypatch.setenv("CARGO_HOME", str(tmp_path))
+    result = checkout.run("fetch._discard_crate('sqlite', 'libsqlite3-sys')")
+    assert result.returncode == 0, result.stderr
+    # Other projects of the user may need the other versions without a network.
+    assert [path.name for path in (*cache.iterdir(), *sources.iterdir())] == ["libsqlite3-sys-0.30.1.crate", "libsqlite3-sys-0.30.1"]
+
+
 def test_maven_rejects_a_file_that_differs_from_its_checksum(tmp_path: Path) -> None:
     """Resolves the parent of a POM, because this needs no plugin."""
     shutil.copytree(ROOT / ".mvn", tmp_path / ".mvn")
