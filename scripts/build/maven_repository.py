@@ -17,7 +17,9 @@ def repair() -> bool:
 
 
 def _differs(jar: Path, stored: Path) -> bool:
-    return stored.exists() and hashlib.sha1(jar.read_bytes(), usedforsecurity=False).hexdigest() != stored.read_text().split()[0].lower()
+    # A crash of the system can leave an empty file.
+    checksum = stored.read_text().split()[:1] if stored.exists() else []
+    return bool(checksum) and hashlib.sha1(jar.read_bytes(), usedforsecurity=False).hexdigest() != checksum[0].lower()
 
 
 def _is_installed(jar: Path) -> bool:

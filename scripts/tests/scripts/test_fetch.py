@@ -113,14 +113,15 @@ def test_a_persistent_error_ends_the_command(checkout: Checkout) -> None:
 def test_a_jar_that_differs_from_its_checksum_is_removed(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> None:
     repository = checkout.root / "repository"
     (repository / "org/it").mkdir(parents=True)
-    for name in "whole", "damaged", "local":
+    for name in "whole", "damaged", "local", "unverified":
         (repository / f"org/it/{name}.jar").write_text(name)
     monkeypatch.setenv("MAVEN_OPTS", "-Xmx1g -Dmaven.repo.local=repository")
     (repository / "org/it/whole.jar.sha1").write_text(hashlib.sha1(b"whole").hexdigest())
+    (repository / "org/it/unverified.jar.sha1").touch()
     (repository / "org/it/damaged.jar.sha1").write_text(hashlib.sha1(b"as it was").hexdigest() + "  damaged.jar")
     repair = "import os; os.chdir(root); from build import maven_repository; print(maven_repository.repair())"
     assert checkout.run(repair).stdout == "True\n"
-    assert sorted(path.name for path in repository.rglob("*.jar")) == ["local.jar", "whole.jar"]
+    assert sorted(path.name for path in repository.rglob("*.jar")) == ["local.jar", "unverified.jar", "whole.jar"]
     assert checkout.run(repair).stdout == "False\n"
 
 
