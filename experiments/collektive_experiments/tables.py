@@ -14,8 +14,9 @@ from types import TracebackType
 from typing import Any
 
 import pyarrow as pa
-# PyArrow would load this module when the sweep ends, and `./collektive clean` may have removed it since the sweep's begin.
-import pyarrow.acero  # noqa: F401
+
+# PyArrow would load this module when the sweep ends, and `./collektive clean` may have removed it since the sweep began.
+import pyarrow.acero
 import pyarrow.compute as pc
 import pyarrow.csv
 import pyarrow.parquet as pq
