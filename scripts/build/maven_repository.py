@@ -30,6 +30,7 @@ def _is_installed(jar: Path) -> bool:
 
 def _location() -> Path:
     settings = Path.home() / ".m2/settings.xml"
+    text = re.sub("<!--.*?-->", "", settings.read_text(), flags=re.DOTALL) if settings.exists() else ""
     named = re.search(r"-Dmaven\.repo\.local=(\S+)", os.environ.get("MAVEN_OPTS", "")) or (
-        settings.exists() and re.search(r"<localRepository>\s*(.+?)\s*</localRepository>", settings.read_text()))
+        re.search(r"<localRepository>\s*(.+?)\s*</localRepository>", text))
     return Path(named[1].replace("${user.home}", str(Path.home()))) if named else Path.home() / ".m2/repository"

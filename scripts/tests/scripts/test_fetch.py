@@ -137,6 +137,16 @@ def test_a_jar_that_the_user_installed_over_a_download_is_kept(checkout: Checkou
     assert (result.stdout, jar.exists()) == ("False\n", True)
 
 
+def test_a_repository_in_a_comment_of_mavens_settings_is_ignored(checkout: Checkout, monkeypatch: pytest.MonkeyPatch) -> None:
+    settings = checkout.root / ".m2/settings.xml"
+    settings.parent.mkdir()
+    # Maven's template contains this comment.
+    settings.write_text("<settings><!-- Default:\n<localRepository>/path/to/local/repo</localRepository>\n--></settings>")
+    monkeypatch.setenv("HOME", str(checkout.root))
+    monkeypatch.delenv("MAVEN_OPTS", raising=False)
+    assert checkout.run("from build import maven_repository; print(maven_repository._location())").stdout == f"{checkout.root}/.m2/repository\n"
+
+
 def test_only_the_pinned_version_of_a_crate_is_discarded(checkout: Checkout, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     cache, sources = tmp_path / "registry/cache/index", tmp_path / "registry/src/index"
     cache.mkdir(parents=True)
