@@ -294,6 +294,18 @@ namespace Collektive.Headless.Tests.Simulation
         }
 
         [Test]
+        public void A_rule_does_not_link_a_node_that_an_earlier_rule_removed()
+        {
+            var line = MakeLine(0, 1, 2, 3);
+            line[0].Node.gameObject.AddComponent<Removing>().Victim = line[1].Node;
+            line[2].Node.gameObject.AddComponent<Attenuating>();
+            line[3].Node.gameObject.AddComponent<Within>();
+            Play(1);
+            Assert.That((Links(), Manager.LinkCount), Is.EqualTo(("0>2 0>3 2>0 2>3 3>0 3>2", 6)));
+            Assert.That(Errors, Is.Empty);
+        }
+
+        [Test]
         public void A_custom_rule_can_query_the_nearest_nodes()
         {
             foreach (var node in MakeLine(0, 1, 2, 3)) node.Node.gameObject.AddComponent<SecondNearest>();
@@ -627,6 +639,23 @@ namespace Collektive.Headless.Tests.Simulation
             protected override void FindNeighbours(NeighbourCollector neighbours)
             {
                 foreach (ref readonly var near in neighbours.FindWithin(9)) neighbours.Add(near, 5);
+            }
+        }
+
+        public sealed class Within : NeighbourhoodRule
+        {
+            protected override void FindNeighbours(NeighbourCollector neighbours) => neighbours.AddWithin(9);
+        }
+
+        /// <summary>A rule that removes a node, and counts the remaining links.</summary>
+        public sealed class Removing : NeighbourhoodRule
+        {
+            public Node Victim { get; set; }
+
+            protected override void FindNeighbours(NeighbourCollector neighbours)
+            {
+                Victim.enabled = false;
+                Assert.That(SimulationManager.Current.LinkCount, Is.EqualTo(0));
             }
         }
 

@@ -62,7 +62,8 @@ namespace Collektive.Unity
         {
             CheckIsCollecting();
             CheckAttenuation(attenuation);
-            Add(near.IdOfNode, near.Metres, attenuation);
+            // Another rule may have removed the node after the grid was built.
+            if (grid.NodeAt(near).Id == near.IdOfNode) Add(near.IdOfNode, near.Metres, attenuation);
         }
 
         /// <summary>Adds all nodes within <paramref name="radius"/> metres.</summary>
@@ -70,7 +71,7 @@ namespace Collektive.Unity
         public void AddWithin(float radius)
         {
             var found = FindWithin(radius);
-            for (var i = 0; i < found.Length; i++) Add(found[i].IdOfNode, found[i].Metres, 0);
+            for (var i = 0; i < found.Length; i++) Add(found[i]);
         }
 
         /// <summary>
