@@ -466,6 +466,20 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(Manager.Failure, Is.StringContaining("System.String").And.StringContaining("GlobalData"));
         }
 
+        [Test]
+        public void Global_data_of_a_simulation_that_failed_while_writing_it_is_discarded()
+        {
+            Configure("windy");
+            Manager.SetGlobals<probe.GlobalData>(data => data.Wind = 1);
+            Manager.SetGlobals<probe.GlobalData>(data => throw new InvalidOperationException("broken writer"));
+            Play(1);
+            Configure("windy");
+            var node = MakeNode(0);
+            Manager.SetGlobals<probe.GlobalData>(data => data.Wind = 2);
+            Play(2);
+            Assert.That((Manager.Failure, node.Answer), Is.EqualTo(("", 2f)));
+        }
+
         private static void Expect(ProbeNode node, float value, ulong tick)
         {
             Assert.That(node.Node.TryGetAnswer(out ActuatorData answer), Is.True);

@@ -12,7 +12,12 @@ namespace Collektive.Unity
 
         internal void Set<T>(Action<T> write) => pending.Add(buffer => Write(buffer, write));
 
-        internal void Clear() => pending.Clear();
+        internal void Clear()
+        {
+            pending.Clear();
+            // Contains data if the user's code has thrown an exception.
+            writing.Clear();
+        }
 
         /// <summary>Writes the data that was set since the last tick to the request. Returns the error of the data, or null.</summary>
         internal string Flush(StepRequest request)
