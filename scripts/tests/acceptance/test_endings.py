@@ -318,6 +318,19 @@ class WholeRuns(Project):
                 self.assertIn(message, last_error(result))
                 self.assertEqual(self.manifest(self.path("out"))["outcome"], "failed: " + message)
 
+    def test_a_metric_of_the_scene_that_does_not_return_exceeds_the_step_limit(self) -> None:
+        self.change("lamps.json", '"threads": 2', '"threads": 2, "stepLimitMs": 700')
+        for tick in [0, 10]:
+            with self.subTest(tick=tick):
+                line = f"public override void Measure(double[] values)\n        {{\n            while (SimulationManager.Current.Tick == {tick}) {{ }}"
+                self.change("scene/Lamps.cs", "public override void Measure(double[] values)\n        {", line)
+                result = self.run_it()
+                self.change("scene/Lamps.cs", line, "public override void Measure(double[] values)\n        {")
+                self.assertEqual(result.returncode, 1, result.stderr)
+                message = f"stopped at tick {tick}: the metrics of the scene exceeded 'stepLimitMs', 700 ms"
+                self.assertIn(message, last_error(result))
+                self.assertEqual(self.manifest(self.path("out"))["outcome"], "failed: " + message)
+
     def test_long_runs_have_all_rows(self) -> None:
         self.change("lamps.json", '"metrics": true', '"metrics": true, "nodes": { "fields": ["position"] }')
         self.change("lamps.json", '"deltaTime": 0.1', '"deltaTime": 0.02, "converged": { "agreeing": { "from": 10, "seconds": 48 } }')

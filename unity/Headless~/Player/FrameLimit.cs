@@ -6,8 +6,9 @@ using Collektive.Unity;
 namespace Collektive.Headless
 {
     /// <summary>
-    /// Ends frames whose C# code does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a tick. Therefore, a frame that
-    /// takes twice as long has exceeded the limit in C#. Before the simulation is open, frames have no limit.
+    /// Ends frames and metrics of the scene whose C# code does not return. The JVM applies <see cref="SimulationSettings.stepLimitMs"/> to its part of a
+    /// tick. Therefore, a frame that takes twice as long has exceeded the limit in C#. Metrics have the same limit. Before the simulation is open, frames
+    /// have no limit.
     /// </summary>
     internal sealed class FrameLimit : IDisposable
     {
@@ -22,6 +23,7 @@ namespace Collektive.Headless
         private readonly SimulationManager manager;
         private readonly Action giveUp;
         private int tick;
+        private bool isMeasuring;
         private bool isDisposed;
 
         /// <param name="giveUp">Called on another thread if an aborted frame does not end. It must not return.</param>
@@ -36,16 +38,12 @@ namespace Collektive.Headless
         internal bool IsExceeded { get; private set; }
 
         internal string Message =>
-            "stopped at tick " + tick + ": sensors, actuators, rules or scripts exceeded 'stepLimitMs', " + manager.Settings.stepLimitMs + " ms";
+            "stopped at tick " + tick + ": " + (isMeasuring ? "the metrics of the scene" : "sensors, actuators, rules or scripts") + " exceeded 'stepLimitMs', "
+                + manager.Settings.stepLimitMs + " ms";
 
-        internal void Begin(int nextTick)
-        {
-            lock (gate)
-            {
-                tick = nextTick;
-                clock.Restart();
-            }
-        }
+        internal void Begin(int nextTick) => Begin(nextTick, false);
+
+        internal void BeginMetrics() => Begin((int)manager.Tick, true);
 
         internal void End()
         {
@@ -57,6 +55,15 @@ namespace Collektive.Headless
             lock (gate) isDisposed = true;
         }
 
+        private void Begin(int tick, bool isMeasuring)
+        {
+            lock (gate)
+            {
+                (this.tick, this.isMeasuring) = (tick, isMeasuring);
+                clock.Restart();
+            }
+        }
+
         private void Watch()
         {
             while (true)
@@ -66,7 +73,7 @@ namespace Collektive.Headless
                 {
                     if (isDisposed) return;
                     if (!clock.IsRunning) continue;
-                    if (!manager.Simulation.IsOpen) clock.Restart();
+                    if (!isMeasuring && !manager.Simulation.IsOpen) clock.Restart();
                     if (clock.ElapsedMilliseconds <= 2L * manager.Settings.stepLimitMs) continue;
                     IsExceeded = true;
                     player.Abort();

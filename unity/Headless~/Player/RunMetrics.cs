@@ -26,6 +26,9 @@ namespace Collektive.Headless
 
         internal IReadOnlyList<string> Names => names;
 
+        /// <summary>The limit of the metrics of the scene; null for none.</summary>
+        internal FrameLimit Limit { private get; set; }
+
         /// <summary>Requests the data that the metrics need, beginning with the next tick.</summary>
         internal void Begin(SimulationManager manager) => queries.Begin(manager);
 
@@ -42,7 +45,15 @@ namespace Collektive.Headless
         /// <summary>Evaluates all metrics at the current time, in the order of <see cref="Names"/>.</summary>
         internal void Measure(SimulationManager manager, double[] values)
         {
-            scene.Measure(own);
+            Limit?.BeginMetrics();
+            try
+            {
+                scene.Measure(own);
+            }
+            finally
+            {
+                Limit?.End();
+            }
             own.CopyTo(values, 0);
             queries.Measure(manager, values, own.Length);
             functions.Measure(manager, values, own.Length + queries.Names.Count);

@@ -223,7 +223,7 @@ namespace Collektive.Headless
             interrupt.BeginPlay();
             var progress = new ProgressBar(ticks);
             var errors = 0L;
-            using (limit = new FrameLimit(manager, GiveUp))
+            using (limit = runMetrics.Limit = new FrameLimit(manager, GiveUp))
             using (metrics = new MetricsTable(scenario.Metrics ? Path.Combine(options.Out, "metrics.csv") : null, runMetrics, manager))
             using (var nodes = scenario.NodeFields.Length > 0 ? new NodesTable(Path.Combine(options.Out, "nodes.csv"), scenario.NodeFields, manager) : null)
             using (var replay = hasReplay ? NewRecorder(manager, scene) : null)
@@ -349,7 +349,7 @@ namespace Collektive.Headless
         private int PlayLive(SimulationManager manager, SceneBuilder scene)
         {
             interrupt.BeginPlay();
-            using (limit = new FrameLimit(manager, GiveUp))
+            using (limit = runMetrics.Limit = new FrameLimit(manager, GiveUp))
             using (metrics = new MetricsTable(null, runMetrics, manager))
             {
                 runMetrics.Begin(manager);
