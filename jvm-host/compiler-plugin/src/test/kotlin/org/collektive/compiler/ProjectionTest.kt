@@ -53,6 +53,13 @@ class ProjectionTest {
     }
 
     @Test
+    fun `functions inside a lambda read the restricted field where they are called`() {
+        for (program in "functionInLambda valueInLambda classInLambda objectInLambda pairInLambda twiceInLambda".split(" ")) {
+            assertSeen(program, 0 to setOf(2), 1 to setOf(3), plainToo = false)
+        }
+    }
+
+    @Test
     fun `a field may be read in a loop inside an arm`() = assertSeen("loop", 0 to setOf(2), 1 to setOf(3), plainToo = false)
 
     @Test
@@ -224,6 +231,47 @@ class ProjectionTest {
             fun Aggregate<Int>.fromGeneric(): Set<Int> {
                 val f = Holder(neighboring(localId))
                 return if (even) ids(f.get()) else ids(f.get())
+            }
+
+            fun Aggregate<Int>.functionInLambda(): Set<Int> {
+                val (f, isEven) = neighboring(localId) to even
+                return run {
+                    fun look() = f.neighbors.ids.set
+                    if (isEven) look() else look()
+                }
+            }
+            fun Aggregate<Int>.valueInLambda(): Set<Int> {
+                val (f, isEven) = neighboring(localId) to even
+                return buildSet { val look = { addAll(f.neighbors.ids.set) }; if (isEven) look() else look() }
+            }
+            fun Aggregate<Int>.classInLambda(): Set<Int> {
+                val (f, isEven) = neighboring(localId) to even
+                return run {
+                    class Look { fun look() = f.neighbors.ids.set }
+                    val own = Look()
+                    if (isEven) own.look() else own.look()
+                }
+            }
+            fun Aggregate<Int>.objectInLambda(): Set<Int> {
+                val (f, isEven) = neighboring(localId) to even
+                return object {
+                    fun look() = f.neighbors.ids.set
+                    fun go() = if (isEven) look() else look()
+                }.go()
+            }
+            fun Aggregate<Int>.pairInLambda(): Set<Int> {
+                val (f, isEven) = (neighboring(localId) to 1) to even
+                return run {
+                    fun look() = f.first.neighbors.ids.set
+                    if (isEven) look() else look()
+                }
+            }
+            fun Aggregate<Int>.twiceInLambda(): Set<Int> {
+                val (f, isEven) = neighboring(localId) to even
+                return run {
+                    fun look(now: Boolean): Set<Int> = if (now) f.neighbors.ids.set else setOf()
+                    look(!isEven) + look(isEven)
+                }
             }
 
             fun Aggregate<Int>.elvis(): Set<Int> {

@@ -35,11 +35,14 @@ import org.jetbrains.kotlin.ir.visitors.acceptVoid
  * use one. Only such calls are aligned. For all other calls (`sqrt`, `listOf`, getters of a field), alignment makes no difference.
  */
 internal class AggregateReach(private val dsl: DslSymbols) {
-    private val reachability = Reachability<IrFunction> { function ->
+    private val reachability = Reachability<Search> { (function, fields) ->
         // A constructor runs the initialisers of its class.
         val code = if (function is IrConstructor) function.parentAsClass else function
-        Finder().apply { code.acceptChildrenVoid(this) }.found
+        Finder(fields).apply { code.acceptChildrenVoid(this) }.found
     }
+
+    /** The search of a function for calls that must be aligned and, with [fields], for fields that are read. */
+    private data class Search(val function: IrFunction, val fields: Boolean)
 
     /** Whether [call], inside an aggregate function, needs its own token on the alignment stack. */
     fun mustAlign(call: IrFunctionAccessExpression): Boolean {
@@ -55,7 +58,7 @@ internal class AggregateReach(private val dsl: DslSymbols) {
             // These functions call no primitives themselves, but may call a function argument that does.
             dsl.isFieldMember(callee) || isKotlinBuiltIn(callee) -> functionArguments(call).any(::passesDslType)
 
-            callee.isLocal && reachesPrimitive(callee) -> true
+            callee.isLocal && dependsOnPath(callee) -> true
 
             else -> call.arguments.any { it != null && passesDslType(it) }
         }
@@ -73,13 +76,13 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         is IrFunctionExpression -> reachesPrimitive(value.function)
 
         is IrFunctionReference -> dsl.containsDslType(value.type) || value.arguments.any { it != null && passesDslType(it) } ||
-            value.symbol.owner.let { it.isLocal && reachesPrimitive(it) }
+            value.symbol.owner.let { it.isLocal && dependsOnPath(it) }
 
         is IrCallableReference<*> -> dsl.containsDslType(value.type) || value.arguments.any { it != null && passesDslType(it) }
 
         is IrVararg -> value.elements.any { passesDslType(if (it is IrSpreadElement) it.expression else it as IrExpression) }
 
-        is IrGetValue -> functionIn(value)?.let(::reachesPrimitive) ?: mayPassDslType(value)
+        is IrGetValue -> functionIn(value)?.let(::dependsOnPath) ?: mayPassDslType(value)
 
         else -> mayPassDslType(value)
     }
@@ -100,18 +103,29 @@ internal class AggregateReach(private val dsl: DslSymbols) {
         }
     }
 
-    private fun reachesPrimitive(function: IrFunction): Boolean = reachability.reaches(function)
+    /** Whether [literal], which runs at one place, must be aligned by the call that receives it. */
+    private fun reachesPrimitive(literal: IrFunction): Boolean = reachability.reaches(Search(literal, fields = false))
 
-    private inner class Finder : IrVisitorVoid() {
+    /** Whether the result of [function] depends on the places of its calls. The fields that it reads are projected there. */
+    private fun dependsOnPath(function: IrFunction): Boolean = reachability.reaches(Search(function, fields = true))
+
+    private inner class Finder(private val fields: Boolean) : IrVisitorVoid() {
         var found = false
 
         override fun visitElement(element: IrElement) {
             if (!found) element.acceptChildrenVoid(this)
         }
 
-        override fun visitFunctionAccess(expression: IrFunctionAccessExpression) {
-            found = found || mustAlign(expression) || dsl.isManualAlignment(expression.symbol.owner)
+        override fun visitExpression(expression: IrExpression) {
+            found = found || fields && dsl.isField(expression.type)
             visitElement(expression)
+        }
+
+        override fun visitFunctionAccess(expression: IrFunctionAccessExpression) {
+            if (dsl.readsLocalEntry(expression)) return
+            val callee = expression.symbol
+            found = found || callee != dsl.project && mustAlign(expression) || dsl.isManualAlignment(callee.owner)
+            visitExpression(expression)
         }
     }
 }

@@ -248,10 +248,7 @@ internal class AlignmentTransformer(
 
     override fun visitCall(expression: IrCall): IrExpression {
         val callee = expression.symbol.owner
-        if (isLocalEntry(callee)) {
-            // Projection does not change this device's entry.
-            (expression.dispatchReceiver as? IrGetValue)?.let { return expression }
-        }
+        if (dsl.readsLocalEntry(expression)) return expression
         if (callee.name == DslNames.alignedOn && dsl.isAggregateMember(callee)) {
             functionArguments(expression).forEach { alignedBodies += it.function }
         } else if (callee.getPackageFragment().packageFqName == DslNames.apiPackage) {
@@ -408,9 +405,6 @@ internal class AlignmentTransformer(
         })
         return if (usesAggregate) Source(null) else null
     }
-
-    private fun isLocalEntry(callee: IrSimpleFunction) = dsl.isFieldMember(callee) &&
-        callee.correspondingPropertySymbol?.owner?.name.let { it == DslNames.local || it == DslNames.localValue || it == DslNames.context }
 
     private fun isIgnored(declaration: IrAnnotationContainer) = declaration.hasAnnotation(DslNames.ignore)
 

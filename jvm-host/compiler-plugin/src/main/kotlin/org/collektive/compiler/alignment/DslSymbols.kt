@@ -12,6 +12,8 @@ import org.jetbrains.kotlin.ir.declarations.IrFunction
 import org.jetbrains.kotlin.ir.declarations.IrParameterKind
 import org.jetbrains.kotlin.ir.declarations.IrProperty
 import org.jetbrains.kotlin.ir.declarations.IrSimpleFunction
+import org.jetbrains.kotlin.ir.expressions.IrFunctionAccessExpression
+import org.jetbrains.kotlin.ir.expressions.IrGetValue
 import org.jetbrains.kotlin.ir.symbols.IrClassSymbol
 import org.jetbrains.kotlin.ir.symbols.IrSimpleFunctionSymbol
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
@@ -99,6 +101,12 @@ internal class DslSymbols private constructor(
 
     fun isFieldMember(function: IrFunction) = function.parentClassOrNull?.symbol == field
 
+    /** Whether [call] reads this device's entry of a variable, which projection does not change. */
+    fun readsLocalEntry(call: IrFunctionAccessExpression): Boolean {
+        val property = (call.symbol.owner as? IrSimpleFunction)?.takeIf(::isFieldMember)?.correspondingPropertySymbol ?: return false
+        return call.dispatchReceiver is IrGetValue && property.owner.name in LOCAL_ENTRY
+    }
+
     /** Whether [function] is `align` or `dealign`. */
     fun isManualAlignment(function: IrFunction) =
         isAggregateMember(function) && (function.name == DslNames.align || function.name == DslNames.dealign)
@@ -106,6 +114,8 @@ internal class DslSymbols private constructor(
     companion object {
         /** First segments of packages that contain no programs. */
         private val PLATFORM = listOf("kotlin", "kotlinx", "java", "javax").map(Name::identifier)
+
+        private val LOCAL_ENTRY = setOf(DslNames.local, DslNames.localValue, DslNames.context)
 
         /** Finds the DSL; `null` when it is not on the class path, so nothing needs to be aligned. */
         fun find(finder: DeclarationFinder): DslSymbols? {
