@@ -73,6 +73,13 @@ class BranchTest {
     }
 
     @Test
+    fun `objects whose type hides an Aggregate, a field or a function do not align across the arms`() {
+        for (program in "ofInterface ofInterfaceWithField ofSealedClass inArmsOfOwner ofFunction ofFunctionList".split(" ")) {
+            assertSeen(compiled, program, arrayOf(0 to setOf(2), 1 to setOf(3)), plainToo = false)
+        }
+    }
+
+    @Test
     fun `branches of pure code may suspend for ever`() = assertSeen("pureSequence", 0 to setOf(1, 2, 3), 1 to setOf(0, 2, 3))
 
     @Test
@@ -110,6 +117,33 @@ class BranchTest {
             fun Aggregate<Int>.whenPlain(): Set<Int> = when {
                 localId > 0 -> seen()
                 else -> seen()
+            }
+
+            interface Looking { fun look(): Set<Int> }
+            fun Aggregate<Int>.ofInterface(): Set<Int> {
+                val looking: Looking = object : Looking { override fun look() = seen() }
+                return if (even) looking.look() else looking.look()
+            }
+            fun Aggregate<Int>.ofInterfaceWithField(): Set<Int> {
+                val f = neighboring(localId)
+                val looking: Looking = object : Looking { override fun look() = ids(f) }
+                return if (even) looking.look() else looking.look()
+            }
+            sealed class Behaviour { abstract fun act(): Set<Int> }
+            object Waiting : Behaviour() { override fun act() = setOf<Int>() }
+            class Acting(val device: Aggregate<Int>) : Behaviour() { override fun act() = device.seen() }
+            fun Aggregate<Int>.ofSealedClass(): Set<Int> {
+                val behaviour = listOf(Acting(this), Waiting).first()
+                return if (even) behaviour.act() else behaviour.act()
+            }
+            class Owner(private val looking: Looking) { fun look(even: Boolean) = if (even) looking.look() else looking.look() }
+            fun Aggregate<Int>.inArmsOfOwner(): Set<Int> = Owner(object : Looking { override fun look() = seen() }).look(even)
+            class Job(private val work: () -> Set<Int>) { fun go() = work() }
+            fun Aggregate<Int>.ofFunction(): Set<Int> { val job = Job { seen() }; return if (even) job.go() else job.go() }
+            fun firstOf(works: List<() -> Set<Int>>) = works.first()()
+            fun Aggregate<Int>.ofFunctionList(): Set<Int> {
+                val works = listOf({ seen() })
+                return if (even) firstOf(works) else firstOf(works)
             }
 
             fun Aggregate<Int>.elvis(): Set<Int> = nothingFor(!even) ?: ids(neighboring(0))

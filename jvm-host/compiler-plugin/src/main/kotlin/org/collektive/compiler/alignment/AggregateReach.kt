@@ -19,8 +19,6 @@ import org.jetbrains.kotlin.ir.expressions.IrSpreadElement
 import org.jetbrains.kotlin.ir.expressions.IrTypeOperatorCall
 import org.jetbrains.kotlin.ir.expressions.IrVararg
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
-import org.jetbrains.kotlin.ir.types.IrType
-import org.jetbrains.kotlin.ir.types.getClass
 import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.isAnonymousObject
 import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
@@ -82,15 +80,10 @@ internal class AggregateReach(private val dsl: DslSymbols) {
 
         is IrVararg -> value.elements.any { passesDslType(if (it is IrSpreadElement) it.expression else it as IrExpression) }
 
-        is IrGetValue -> functionIn(value)?.let(::dependsOnPath) ?: mayPassDslType(value)
+        is IrGetValue -> functionIn(value)?.let(::dependsOnPath) ?: dsl.mayReachPrimitive(value.type)
 
-        else -> mayPassDslType(value)
+        else -> dsl.mayReachPrimitive(value.type)
     }
-
-    /** Whether [value] may pass on a DSL type. A function value whose body is unknown may reach a primitive. */
-    private fun mayPassDslType(value: IrExpression) = isFunction(value.type) || dsl.containsDslType(value.type)
-
-    private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
     /** The lambda that initialises the `val` read by [read]; `null` if the initialiser is not a lambda. */
     private fun functionIn(read: IrGetValue): IrFunction? {

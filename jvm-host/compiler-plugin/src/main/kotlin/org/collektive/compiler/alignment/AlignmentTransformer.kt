@@ -8,7 +8,6 @@ import org.jetbrains.kotlin.backend.common.extensions.IrPluginContext
 import org.jetbrains.kotlin.backend.common.lower.DeclarationIrBuilder
 import org.jetbrains.kotlin.backend.common.lower.irCatch
 import org.jetbrains.kotlin.backend.common.lower.irThrow
-import org.jetbrains.kotlin.ir.IrElement
 import org.jetbrains.kotlin.ir.IrStatement
 import org.jetbrains.kotlin.ir.builders.IrBlockBuilder
 import org.jetbrains.kotlin.ir.builders.declarations.buildVariable
@@ -67,8 +66,6 @@ import org.jetbrains.kotlin.ir.util.parentAsClass
 import org.jetbrains.kotlin.ir.util.parentClassOrNull
 import org.jetbrains.kotlin.ir.util.parents
 import org.jetbrains.kotlin.ir.util.primaryConstructor
-import org.jetbrains.kotlin.ir.visitors.IrVisitorVoid
-import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
 import org.jetbrains.kotlin.name.Name
 
 /**
@@ -396,14 +393,7 @@ internal class AlignmentTransformer(
     /** The device that runs [code] if it uses an Aggregate or a Field, or `null`. Implementations of Aggregate are not programs. */
     private fun runningDevice(code: IrDeclaration): Source? {
         if (code.parents.any { it is IrClass && it.symbol.isSubtypeOfClass(dsl.aggregate) }) return null
-        var usesAggregate = false
-        code.acceptChildrenVoid(object : IrVisitorVoid() {
-            override fun visitElement(element: IrElement) {
-                usesAggregate = usesAggregate || element is IrExpression && dsl.containsDslType(element.type)
-                if (!usesAggregate) element.acceptChildrenVoid(this)
-            }
-        })
-        return if (usesAggregate) Source(null) else null
+        return if (dsl.usesDslType(code)) Source(null) else null
     }
 
     private fun isIgnored(declaration: IrAnnotationContainer) = declaration.hasAnnotation(DslNames.ignore)

@@ -5,6 +5,7 @@ package org.collektive.compiler.alignment
 import org.collektive.compiler.names.DslNames
 import org.jetbrains.kotlin.backend.common.extensions.DeclarationFinder
 import org.jetbrains.kotlin.descriptors.DescriptorVisibilities
+import org.jetbrains.kotlin.ir.IrElement
 import org.jetbrains.kotlin.ir.declarations.IrClass
 import org.jetbrains.kotlin.ir.declarations.IrDeclaration
 import org.jetbrains.kotlin.ir.declarations.IrDeclarationOrigin
@@ -17,17 +18,15 @@ import org.jetbrains.kotlin.ir.expressions.IrGetValue
 import org.jetbrains.kotlin.ir.symbols.IrClassSymbol
 import org.jetbrains.kotlin.ir.symbols.IrSimpleFunctionSymbol
 import org.jetbrains.kotlin.ir.symbols.UnsafeDuringIrConstructionAPI
-import org.jetbrains.kotlin.ir.types.IrSimpleType
 import org.jetbrains.kotlin.ir.types.IrType
 import org.jetbrains.kotlin.ir.types.getClass
-import org.jetbrains.kotlin.ir.types.typeOrNull
 import org.jetbrains.kotlin.ir.util.functions
 import org.jetbrains.kotlin.ir.util.getPackageFragment
 import org.jetbrains.kotlin.ir.util.getPropertyGetter
 import org.jetbrains.kotlin.ir.util.isFakeOverride
+import org.jetbrains.kotlin.ir.util.isFunctionTypeOrSubtype
 import org.jetbrains.kotlin.ir.util.isNullable
 import org.jetbrains.kotlin.ir.util.isSubtypeOfClass
-import org.jetbrains.kotlin.ir.util.parentAsClass
 import org.jetbrains.kotlin.ir.util.parentClassOrNull
 import org.jetbrains.kotlin.ir.util.properties
 import org.jetbrains.kotlin.ir.util.resolveFakeOverride
@@ -45,24 +44,25 @@ internal class DslSymbols private constructor(
     val popToken: IrSimpleFunctionSymbol,
     val recordFailure: IrSimpleFunctionSymbol,
     val project: IrSimpleFunctionSymbol,
+    classes: List<IrClass>,
 ) {
+    private val values = Containment(this, classes) { isAggregate(it) || isField(it) }
+    private val code = Containment(this, classes) { isAggregate(it) || isField(it) || isFunction(it) }
+
     fun isAggregate(type: IrType) = type.isSubtypeOfClass(aggregate)
 
     fun isField(type: IrType) = type.isSubtypeOfClass(field)
 
     /** Whether a value of [type] is or may contain an Aggregate or a Field. */
-    fun containsDslType(type: IrType): Boolean = isAggregate(type) || isField(type) ||
-        type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::containsDslType) == true } ||
-        type.getClass()?.let(::storesAggregate) == true
+    fun containsDslType(type: IrType): Boolean = values.isIn(type)
 
-    private val storing = Reachability<IrClass> { type ->
-        aggregateProperty(type) != null || type.properties.any { property ->
-            property.backingField?.type?.let(::containsDslType) == true
-        } || type.isInner && storesAggregate(type.parentAsClass)
-    }
+    /** Whether the code in [element] has a value for which [containsDslType] holds. */
+    fun usesDslType(element: IrElement): Boolean = values.isUsedIn(element)
 
-    /** Whether an object of [type] stores an Aggregate or a Field in a property, directly or through other objects. */
-    private fun storesAggregate(type: IrClass): Boolean = !isPlatform(type) && storing.reaches(type)
+    /** Whether a value of [type] is or may contain an Aggregate, a Field or a function, which may use one. */
+    fun mayReachPrimitive(type: IrType): Boolean = code.isIn(type)
+
+    private fun isFunction(type: IrType) = type.isFunctionTypeOrSubtype() || type.getClass()?.isFun == true
 
     /** Whether [declaration] belongs to Kotlin or the JDK. */
     fun isPlatform(declaration: IrDeclaration): Boolean = PLATFORM.any(declaration.getPackageFragment().packageFqName::startsWith)
@@ -117,8 +117,8 @@ internal class DslSymbols private constructor(
 
         private val LOCAL_ENTRY = setOf(DslNames.local, DslNames.localValue, DslNames.context)
 
-        /** Finds the DSL; `null` when it is not on the class path, so nothing needs to be aligned. */
-        fun find(finder: DeclarationFinder): DslSymbols? {
+        /** Finds the DSL; `null` when it is not on the class path, so nothing needs to be aligned. [classes] are those of the module. */
+        fun find(finder: DeclarationFinder, classes: List<IrClass>): DslSymbols? {
             val field = finder.findClass(DslNames.field) ?: return null
             return DslSymbols(
                 aggregate = finder.findClass(DslNames.aggregate) ?: return null,
@@ -131,6 +131,7 @@ internal class DslSymbols private constructor(
                 popToken = finder.findFunctions(DslNames.popToken).singleOrNull() ?: return null,
                 recordFailure = finder.findFunctions(DslNames.recordFailure).singleOrNull() ?: return null,
                 project = finder.findFunctions(DslNames.project).singleOrNull() ?: return null,
+                classes = classes,
             )
         }
     }
