@@ -39,6 +39,7 @@ internal class AggregateDevice<ID : Any>(
 
     // The alignment stack of the thread that runs the round; null between rounds.
     private var ownStack: PathStack? = null
+    private var lastRegion = 0
     private val stack get() = ownStack ?: error("device $localId or one of its fields is used outside its round")
     override val depth get() = stack.depth
 
@@ -48,6 +49,7 @@ internal class AggregateDevice<ID : Any>(
         running.clear()
         val stack = stacks.get()
         ownStack = stack
+        stack.lastRegion = lastRegion
         try {
             return stack.running.run(this) { program.run(this, sensors) }
         } catch (failure: Throwable) {
@@ -55,6 +57,7 @@ internal class AggregateDevice<ID : Any>(
             throw failure
         } finally {
             stack.popTo(0)
+            lastRegion = stack.lastRegion
             ownStack = null
         }
     }

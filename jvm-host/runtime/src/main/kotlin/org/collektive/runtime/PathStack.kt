@@ -26,7 +26,9 @@ internal class PathStack(private val tree: PathTree) {
     private var regionDepths = IntArray(INITIAL_DEPTH)
     private var regions = IntArray(INITIAL_DEPTH)
     private var regionCount = 0
-    private var lastRegion = 0
+
+    /** The last region that began. Each device continues with its own number, because its stored fields refer to earlier regions. */
+    var lastRegion = 0
 
     /** The innermost region, or 0. */
     val region get() = regions[regionCount]

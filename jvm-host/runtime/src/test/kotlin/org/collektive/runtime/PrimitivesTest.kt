@@ -1,6 +1,7 @@
 package org.collektive.runtime
 
 import it.unibo.collektive.aggregate.AlignmentClashException
+import it.unibo.collektive.aggregate.Field
 import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchange
 import it.unibo.collektive.aggregate.api.exchanging
@@ -15,9 +16,12 @@ import it.unibo.collektive.aggregate.values
 import it.unibo.collektive.networking.OutboundEnvelope.SharedData
 import it.unibo.collektive.path.FullPath
 import it.unibo.collektive.path.Path
+import org.collektive.alignment.popToken
 import org.collektive.alignment.project
+import org.collektive.alignment.pushToken
 import org.collektive.testkit.Network
 import org.junit.jupiter.api.Test
+import java.util.concurrent.CompletableFuture
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
 import kotlin.test.assertNull
@@ -60,6 +64,26 @@ class PrimitivesTest {
         }
         network.round(program)
         assertEquals(mapOf<Int, Any?>(1 to listOf(2), 2 to listOf(1)), network.round(program))
+    }
+
+    @Test
+    fun `a field from an earlier round is restricted to the aligned neighbours on any thread`() {
+        val network = network(1, 2).line(1, 2)
+        var isTwoInside = true
+        val program: Aggregate<Int>.() -> Any? = {
+            alignedOn(localId == 1 || isTwoInside) {
+                val now = neighboring(localId)
+                val depth = pushToken(this, "kept")
+                evolving<List<Field<Int, Int>>, Any?>(emptyList()) { old ->
+                    listOf(now).yielding { old.map { project(it, "old", true)?.neighbors?.ids?.list } }
+                }.also { popToken(this, depth) }
+            }
+        }
+        val rounds = List(4) {
+            isTwoInside = it < 2
+            CompletableFuture.supplyAsync({ network.round(program)[1] }) { round -> Thread(round).start() }.join()
+        }
+        assertEquals<Any?>(listOf(emptyList<Int>()), rounds.last())
     }
 
     @Test
