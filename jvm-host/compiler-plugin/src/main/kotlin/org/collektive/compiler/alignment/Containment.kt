@@ -55,6 +55,5 @@ internal class Containment(private val dsl: DslSymbols, classes: List<IrClass>, 
             type.isInner && isStoredIn(type.parentAsClass)
     }
 
-    private fun supertypes(type: IrClass): List<IrClass> =
-        type.superTypes.mapNotNull { it.getClass() }.flatMap { supertypes(it) + it }
+    private fun supertypes(type: IrClass): List<IrClass> = type.superTypes.mapNotNull { it.getClass() }.flatMap { supertypes(it) + it }
 }

@@ -117,7 +117,7 @@ internal class DslSymbols private constructor(
 
         private val LOCAL_ENTRY = setOf(DslNames.local, DslNames.localValue, DslNames.context)
 
-        /** Finds the DSL; `null` when it is not on the class path, so nothing needs to be aligned. [classes] are those of the module. */
+        /** Finds the DSL for a module with these [classes]; `null` when it is not on the class path, so nothing needs to be aligned. */
         fun find(finder: DeclarationFinder, classes: List<IrClass>): DslSymbols? {
             val field = finder.findClass(DslNames.field) ?: return null
             return DslSymbols(
