@@ -23,6 +23,8 @@ from .worker import Outcome, Worker, WorkerError
 MAX_LOSSES = 3
 """The number of lost workers after which a run counts as crashed."""
 WAIT_SECONDS = 0.5
+CLOSE_SECONDS = 5.0
+"""The time limit in seconds until workers have deleted their files."""
 
 
 def connect(address: str, bundle: str) -> None:
@@ -48,35 +50,53 @@ def _connect(address: str, environment: dict[str, Any]) -> None:
         ray.init(runtime_env=environment, include_dashboard=False, log_to_driver=False, logging_level=logging.ERROR)
 
 
-@ray.remote(num_cpus=1, max_restarts=0)
+# A worker can be closed during a run.
+@ray.remote(num_cpus=1, max_restarts=0, max_concurrency=2)
 class _RemoteWorker:
     """A worker on a node of the cluster. Its working directory is the bundle."""
 
     def __init__(self, trust: bool):
         self._folder = tempfile.TemporaryDirectory(prefix="collektive-")
         self._worker = Worker(os.getcwd(), os.path.join(self._folder.name, "worker.txt"), trust)
+        self._lock = threading.Lock()
         self._count = 0
         self._is_copied = is_unchanged(os.getcwd())
+
+    def close(self) -> None:
+        """Cancels the current run, and deletes all files."""
+        self._worker.kill()
+        with self._lock:
+            self._worker.stop()
+            self._folder.cleanup()
 
     def run(self, settings: dict[str, Any], process: str, limit: float, is_repeated: bool) -> tuple[Outcome, float, bytes]:
         """Executes a run. Returns its outcome, its duration in seconds, and its folder as a tar file."""
         if not self._is_copied:
             raise WorkerError("the copy of the bundle on a node of the cluster differs from the bundle")
-        self._count += 1
-        out = os.path.join(self._folder.name, str(self._count))
-        os.mkdir(out)
-        began = time.monotonic()
-        outcome = self._worker.run(settings, process, out, limit, is_repeated)
-        seconds = time.monotonic() - began
-        packed = io.BytesIO()
-        with tarfile.open(fileobj=packed, mode="w:gz") as tar:
-            tar.add(out, ".")
-        shutil.rmtree(out)
-        return outcome, seconds, packed.getvalue()
+        with self._lock:
+            self._count += 1
+            out = os.path.join(self._folder.name, str(self._count))
+            os.mkdir(out)
+            began = time.monotonic()
+            outcome = self._worker.run(settings, process, out, limit, is_repeated)
+            seconds = time.monotonic() - began
+            packed = io.BytesIO()
+            with tarfile.open(fileobj=packed, mode="w:gz") as tar:
+                tar.add(out, ".")
+            shutil.rmtree(out)
+            return outcome, seconds, packed.getvalue()
 
 
 # Type checkers cannot infer the class that Ray's decorator returns.
 RemoteWorker: Any = _RemoteWorker
+
+
+def _close(workers: list[Any]) -> None:
+    """Ends workers after they have deleted their files."""
+    if workers:
+        ray.wait([worker.close.remote() for worker in workers], num_returns=len(workers), timeout=CLOSE_SECONDS)
+    while workers:
+        ray.kill(workers.pop())
 
 
 class RayPool:
@@ -118,13 +138,13 @@ class RayPool:
                     run, is_repeated = task
                     running[worker.run.remote(run.settings, run.process, self._limit, is_repeated)] = worker, task
                 # Idle workers must release their processors. After the loss of a node, a requested worker may be waiting for one of them.
-                while idle:
-                    ray.kill(idle.pop())
+                _close(idle)
                 done, _ = ray.wait(list(running), timeout=WAIT_SECONDS)
                 for reference in done:
                     worker, task = running.pop(reference)
                     if self._take(reference, task):
                         idle.append(worker)
+            _close([*idle, *(worker for worker, _ in running.values())])
         except BaseException as error:
             self._ended.put(error)
 

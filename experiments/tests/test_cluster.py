@@ -1,6 +1,9 @@
 """Tests sweeps on a Ray cluster that loses nodes or workers."""
+import os
 import queue
+import signal
 from collections.abc import Iterator
+from pathlib import Path
 from unittest.mock import Mock
 
 import pytest
@@ -17,8 +20,11 @@ KEYS = {"vary": {"seed": "1-16", "network.loss": [0.3]}, "set": {"seconds": 10}}
 
 
 @pytest.fixture
-def cluster() -> Iterator[Cluster]:
-    """A cluster of two nodes, whose processes communicate over the loopback interface."""
+def cluster(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Cluster]:
+    """A cluster of two nodes, whose processes communicate over the loopback interface. Its workers have their files in `tmp_path`."""
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    # Ray's own files include sockets, whose paths must be short.
+    monkeypatch.setenv("RAY_TMPDIR", "/tmp")
     # With these settings, Ray detects a lost node within two seconds instead of twenty.
     checks = {"health_check_initial_delay_ms": 0, "health_check_period_ms": 500, "health_check_failure_threshold": 3}
     two_nodes = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False, "_system_config": checks})
@@ -51,6 +57,19 @@ def test_ignored_files_of_the_data_folder_are_copied_to_the_nodes(project: Proje
     result = project.sweep("--ray", cluster.address, vary={"seed": [1, 2]})
     # Workers compare the fingerprint of their copy.
     assert result.returncode == 0, result.stderr
+
+
+def test_workers_delete_their_files_after_a_sweep_or_ctrl_c(project: Project, cluster: Cluster, tmp_path: Path) -> None:
+    driver = project.start("--ray", cluster.address, **KEYS)
+    await_runs(project, 2)
+    os.kill(driver.pid, signal.SIGINT)
+    _, errors = driver.communicate(timeout=60)
+    assert driver.returncode == 130, errors
+    assert not list(tmp_path.glob("collektive-*"))
+    resumed = project.sweep("--ray", cluster.address, "--resume", **KEYS)
+    assert resumed.returncode == 0, resumed.stderr
+    assert len(project.digests()) == 16
+    assert not list(tmp_path.glob("collektive-*"))
 
 
 def test_a_run_whose_workers_are_killed_for_memory_crashes_alone(monkeypatch: pytest.MonkeyPatch) -> None:
