@@ -286,6 +286,8 @@ async function testSample(test, tab) {
     await tab.setInputFiles('#other-file', withHeader('shorter', (header, segments) => {
       header.times.length = 60;
       segments.length = 60 / header.framesPerSegment;
+      header.metrics.series[0].values.fill(0);
+      header.fields[0].name = 'other';
     }));
     await tab.locator('.side >> nth=1').waitFor();
     await eventually(tab, (now) => now.other !== null, 'the other run did not load');
@@ -295,6 +297,7 @@ async function testSample(test, tab) {
       assert.deepEqual([now.frame, now.other.frame], [frame, otherFrame]);
     }
     assert.equal((await state(tab)).other.nodes, await tab.innerText('#other-counts').then((text) => parseInt(text.replace(',', ''), 10)));
+    assert.match(await tab.$eval('#charts output', (output) => output.value), / \| 0$/);
     const [left, right] = await tab.$$eval('.side', (sides) => sides.map((side) => side.getBoundingClientRect()));
     assert.ok(left.x + left.width <= right.x && right.x + right.width <= 1000, 'the views overlap');
     const second = () => tab.evaluate(() => document.querySelectorAll('.side canvas')[1].toDataURL());
@@ -307,7 +310,7 @@ async function testSample(test, tab) {
     assert.notEqual(await canvas(tab), firstBefore, 'the first view does not turn with the second');
     assert.notEqual(await second(), secondBefore);
     await tab.evaluate(() => window.replay.select(8));
-    await tab.waitForFunction(() => document.querySelector('#history output')?.value.includes(' | '));
+    await tab.waitForFunction(() => document.querySelector('#history output')?.value.endsWith(' | none'));
     assert.match(await tab.innerText('#selected-values'), / \| /);
     const { bytes } = await download(tab, '#picture');
     assert.equal(bytes.readUInt32BE(16), 1000);
@@ -320,6 +323,14 @@ async function testSample(test, tab) {
     });
     assert.equal(await tab.locator('.side').count(), 1);
     assert.equal(await canvas(tab), alone, 'the single view is not restored');
+  });
+
+  await test('the key End shows the end of a longer run', async () => {
+    const short = await open(join(folder, 'shorter.html'));
+    await short.tab.evaluate(([page]) => window.replay.ready.then(() => window.replay.compare(page)), [html]);
+    await short.tab.keyboard.press('End');
+    await eventually(short.tab, (now) => now.other.frame === 199, 'the longer run is not at its end');
+    await short.close();
   });
 
   await test('a file that is not a replay page is rejected with a message', async () => {

@@ -16,7 +16,7 @@ const { outputFiles: [{ text }] } = buildSync({
   },
   bundle: true, write: false, format: 'esm', nodePaths: [modules],
 });
-const { clock, colouring, digitsOf, drawable, fieldsOf, Group, isolated, Legend, LiveRecording, open, short, View } = await import(
+const { clock, colouring, digitsOf, drawable, fieldsOf, Group, historyOf, isolated, Legend, LiveRecording, open, short, View } = await import(
   `data:text/javascript;base64,${Buffer.from(text).toString('base64')}`
 );
 
@@ -103,6 +103,10 @@ test('values between gaps are isolated, also with the times of another run', () 
   for (const [values, expected] of [
     [[1, null, 2, null, 3], [0, 2, 4]], [[1, 2, null, 3], [3]], [[null, 1, undefined, null, 2, undefined, 3], [1]], [[1, undefined, 2], []], [[], []],
   ]) assert.deepEqual(isolated(values), expected, JSON.stringify(values));
+});
+
+test('a compared run without a field has no values of it', async () => {
+  assert.deepEqual(await historyOf({ recording: { times: [0, 1], texts: ['segment'] }, fields: [] }, { name: 'hops' }, 7), [null, null]);
 });
 
 test('texts of numbers and times are short and exact', () => {

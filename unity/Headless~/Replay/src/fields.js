@@ -21,8 +21,9 @@ export function fieldsOf(recording) {
 /** Returns a node's values of a field in all frames, with null where it has no value. Stops and returns null when `needed` returns false. */
 export async function historyOf({ recording, fields }, { name }, id, needed) {
   const field = fields.find((each) => each.name === name);
+  if (!field) return recording.times.map(() => null);
   const values = [];
-  for (let number = 0; field && number < recording.texts.length; number++) {
+  for (let number = 0; number < recording.texts.length; number++) {
     const segment = await recording.read(number);
     if (!needed()) return null;
     for (let i = 0; i < segment.count; i++) {

@@ -9,7 +9,7 @@ export function bindKeys(player) {
     ArrowLeft: (shift) => player.step(shift ? -10 : -1),
     ArrowRight: (shift) => player.step(shift ? 10 : 1),
     Home: () => player.seek(0),
-    End: () => player.seek(player.recording.count - 1),
+    End: () => player.seek(player.clock.count - 1),
     ',': () => player.changeSpeed(-1),
     '.': () => player.changeSpeed(1),
     l: () => player.setLinks(!player.linksVisible),

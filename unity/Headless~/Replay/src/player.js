@@ -314,11 +314,13 @@ export class Player {
   }
 
   drawCharts() {
-    // Skips series of zeros, such as losses of an ideal network.
-    const metrics = ({ recording: { metrics: { times, series } } }) => ({
-      times, series: series.filter(({ values }) => values.some((value) => value)).map((each) => ({ kind: 'number', ...each })),
-    });
-    this.charts = new Charts(element('charts'), this.runs.map(metrics), (time) => this.show(time), this.time);
+    // Skips series of zeros in all runs, such as losses of ideal networks.
+    const all = this.runs.map(({ recording: { metrics } }) => metrics);
+    const names = new Set(all.flatMap(({ series }) => series.filter(({ values }) => values.some((value) => value)).map(({ name }) => name)));
+    const shown = all.map(({ times, series }) => ({
+      times, series: series.filter(({ name }) => names.has(name)).map((each) => ({ kind: 'number', ...each })),
+    }));
+    this.charts = new Charts(element('charts'), shown, (time) => this.show(time), this.time);
   }
 
   showKeys(visible) {
