@@ -48,6 +48,9 @@ def _connect(address: str, environment: dict[str, Any]) -> None:
         if address != "auto":
             raise ExperimentError(f"cannot connect to the Ray cluster at {address}: {error}") from error
         ray.init(runtime_env=environment, include_dashboard=False, log_to_driver=False, logging_level=logging.ERROR)
+    # For example, the address is invalid, or the bundle is too large.
+    except (ValueError, ray.exceptions.RayError) as error:
+        raise ExperimentError(f"cannot use the Ray cluster at '{address}': {error}") from error
 
 
 # A worker can be closed during a run.

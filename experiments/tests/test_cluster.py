@@ -15,6 +15,7 @@ from test_sweep import await_runs
 from collektive_experiments import cluster as clusters
 from collektive_experiments.cluster import RayPool
 from collektive_experiments.experiment import Run
+from collektive_experiments.positions import ExperimentError
 
 KEYS = {"vary": {"seed": "1-16", "network.loss": [0.3]}, "set": {"seconds": 10}}
 
@@ -70,6 +71,13 @@ def test_workers_delete_their_files_after_a_sweep_or_ctrl_c(project: Project, cl
     assert resumed.returncode == 0, resumed.stderr
     assert len(project.digests()) == 16
     assert not list(tmp_path.glob("collektive-*"))
+
+
+@pytest.mark.parametrize("error", [ValueError("invalid"), ray.exceptions.RuntimeEnvSetupError("too large")])
+def test_an_invalid_address_or_bundle_is_reported(monkeypatch: pytest.MonkeyPatch, tmp_path: Path, error: Exception) -> None:
+    monkeypatch.setattr(ray, "init", Mock(side_effect=error))
+    with pytest.raises(ExperimentError, match="cannot use the Ray cluster at 'address'"):
+        clusters.connect("address", str(tmp_path))
 
 
 def test_a_run_whose_workers_are_killed_for_memory_crashes_alone(monkeypatch: pytest.MonkeyPatch) -> None:
