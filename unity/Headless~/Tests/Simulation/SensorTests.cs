@@ -779,6 +779,26 @@ namespace Collektive.Headless.Tests.Simulation
             Assert.That(obstacles.Values.ConvertAll(obstacle => obstacle.Vector.x), Is.EqualTo(new[] { 2.5f, 3.5f }));
         }
 
+        [TestCase(false)]
+        [TestCase(true)]
+        public void A_ray_passes_a_collider_that_leaves_in_the_tick(bool isDestroyed)
+        {
+            var setter = MakeNode(0).Node.gameObject.AddComponent<Setter>();
+            var rays = MakeNode(0).Node.gameObject.AddComponent<Rays>();
+            (rays.Rays, rays.Range) = (1, 10);
+            var near = MakeBox(new Vector3(0, 0, 2)).GetComponent<Collider>();
+            MakeBox(new Vector3(0, 0, 4));
+            Play(2);
+            Assert.That(Distances(rays), Is.EqualTo("1.5"));
+            setter.Sensing = () =>
+            {
+                if (isDestroyed) Object.DestroyImmediate(near);
+                else near.enabled = false;
+            };
+            Play(1);
+            Assert.That(Distances(rays), Is.EqualTo("3.5"));
+        }
+
         [Test]
         public void An_infinite_reach_finds_all_obstacles()
         {

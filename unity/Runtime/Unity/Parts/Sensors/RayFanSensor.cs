@@ -90,9 +90,10 @@ namespace Collektive.Unity
             var centre = Node.Position;
             for (var i = 0; i < worldDirections.Length; i++)
             {
-                RaycastHit nearest;
-                if (isBatched) nearest = queries.Rays.HitOf(query + i, 0);
-                else Physics.Raycast(centre, worldDirections[i], out nearest, range, layers, QueryTriggerInteraction.Ignore);
+                var nearest = isBatched ? queries.Rays.HitOf(query + i, 0) : default;
+                // Users' code may have disabled or destroyed the collider after the batch began.
+                if (!isBatched || nearest.collider is Collider collider && collider.IsGone())
+                    Physics.Raycast(centre, worldDirections[i], out nearest, range, layers, QueryTriggerInteraction.Ignore);
                 hits[i] = FirstForeign(queries, centre, worldDirections[i], nearest);
             }
         }
