@@ -201,12 +201,18 @@ suite('live', { timeout: 600000 }, async (t) => {
   });
 
   await t.test('pauses, steps and changes the speed', async () => {
+    await view.evaluate(() => window.replay.player.showCharts(true));
     await view.click('#play');
     const paused = await eventually(() => state(view), ({ running }) => !running, 'the simulation should pause');
     await tab.waitForTimeout(300);
     assert.equal((await state(view)).tick, paused.tick);
     await view.click('#step-on');
     await eventually(() => state(view), ({ tick }) => tick === paused.tick + 1, 'the simulation should run one tick');
+    const [label, time] = await view.evaluate(() => [
+      document.querySelector('#charts .uplot').ariaLabel, window.replay.player.recording.metrics.times.at(-1),
+    ]);
+    assert.ok(Math.abs(Number(/ to ([\d.]+) s/.exec(label)[1]) - time) < 1e-3, `the charts lack the last row at ${time} s: ${label}`);
+    await view.evaluate(() => window.replay.player.showCharts(false));
     await view.selectOption('#speed', '4');
     await view.click('#play');
     const began = Date.now();

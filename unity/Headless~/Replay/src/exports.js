@@ -52,7 +52,11 @@ export function compose(target, legend) {
     text(element('other-counts').textContent, x + 14, y + 42, '--quiet');
   }
 
-  const rows = [...legend.categories, ...(element('no-value').hidden ? [] : [{ colour: NO_VALUE, text: 'no value' }])];
+  const rows = [
+    ...legend.categories,
+    ...(legend.others ? [{ text: legend.others }] : []),
+    ...(element('no-value').hidden ? [] : [{ colour: NO_VALUE, text: 'no value' }]),
+  ];
   const left = window.innerWidth - 238;
   const isScale = legend.field.kind === 'number';
   panel(left, 14, 224, 38 + (isScale ? 36 : 0) + 20 * rows.length);
@@ -73,10 +77,12 @@ export function compose(target, legend) {
     y += 38;
   }
   for (const row of rows) {
-    context.fillStyle = css(row.colour);
-    context.beginPath();
-    context.arc(left + 19, y + 1, 5, 0, 2 * Math.PI);
-    context.fill();
+    if (row.colour) {
+      context.fillStyle = css(row.colour);
+      context.beginPath();
+      context.arc(left + 19, y + 1, 5, 0, 2 * Math.PI);
+      context.fill();
+    }
     text(row.text, left + 32, y, '--quiet');
     y += 20;
   }

@@ -111,6 +111,7 @@ export class Legend {
     const values = this.field.valuesOf(frame);
     element('no-value').hidden = !frame.slots.some((slot) => Number.isNaN(values[slot]));
     if (this.field.kind === 'number') this.drawHistogram(frame, values);
+    this.others = '';
     this.categories = this.field.kind === 'number' ? [] : this.countCategories(frame, values);
     const rows = this.categories.map(({ colour, text }) => {
       const row = part('li', text);

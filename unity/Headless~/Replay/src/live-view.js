@@ -16,6 +16,7 @@ class LivePlayer extends Player {
     this.arrived = performance.now();
     this.interval = 100; // milliseconds between frames
     this.charted = 0;
+    this.hasNewRow = false; // since the last drawing of the charts
     this.adding = 0; // nodes that a click adds
     document.title = `${recording.metadata.title}, live`;
   }
@@ -64,7 +65,9 @@ class LivePlayer extends Player {
     if (this.playing !== event.running) this.setPlaying(event.running);
     if (element('speed').value !== String(event.speed)) element('speed').value = String(event.speed);
     this.speed = event.speed;
-    if (event.metrics && !element('charts').hidden && now - this.charted > CHART_MS) this.redrawCharts(now);
+    this.hasNewRow ||= Boolean(event.metrics);
+    // A pause must not hide the last rows.
+    if (this.hasNewRow && !element('charts').hidden && (now - this.charted > CHART_MS || !event.running)) this.redrawCharts(now);
     this.describeInspection(event.node);
     if (!this.resting) this.showNow(now);
   }
@@ -80,6 +83,7 @@ class LivePlayer extends Player {
 
   redrawCharts(now) {
     this.charted = now;
+    this.hasNewRow = false;
     const { scrollTop } = element('charts');
     this.drawCharts();
     element('charts').scrollTop = scrollTop;
