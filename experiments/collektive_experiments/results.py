@@ -42,7 +42,7 @@ class Results:
         """
         if not self.runs.index.is_unique:
             raise ValueError("the index of the runs contains a label twice: combine tables with ignore_index=True")
-        if any(pd.api.types.is_float_dtype(table["seed"]) for table in (self.runs, self.series)):
+        if any(pd.api.types.is_float_dtype(table["seed"]) for table in (self.runs, self.series) if "seed" in table):
             raise ValueError("a table contains rounded seeds: convert the seeds of all tables to uint64 before you combine them")
         for table, key in itertools.product((self.runs, self.series), self.keys):
             if key in table and table[key].isna().any():

@@ -14,10 +14,6 @@ from types import TracebackType
 from typing import Any
 
 import pyarrow as pa
-
-# PyArrow would load this module when the sweep ends, and `./collektive clean` may have removed it since the sweep began.
-import pyarrow.acero
-import pyarrow.compute as pc
 import pyarrow.csv
 import pyarrow.parquet as pq
 
@@ -171,17 +167,18 @@ def _warn_of_different_jvms(store: Store) -> None:
 
 def _warn_of_keys_without_effect(experiment: Experiment, store: Store, results: list[str]) -> None:
     """Prints a warning about each varied key without an effect on the results, such as `timing.period` if the schedule is not asynchronous."""
-    runs = read_parquet(store.folder, "runs").select(["status", *experiment.keys, *results])
-    # PyArrow interprets a name that begins with a dot as a path.
-    runs = runs.filter(pc.equal(runs["status"], "complete")).rename_columns([str(index) for index in range(len(runs.column_names))])
-    places = {key: str(index + 1) for index, key in enumerate(experiment.keys)}
-    counted = [(str(index + 1 + len(places)), "count_distinct", pc.CountOptions("all")) for index in range(len(results))]
+    # PyArrow's group_by would load a module that `./collektive clean` may have removed since the sweep's begin.
+    runs = read_parquet(store.folder, "runs").select([*experiment.keys, *results, "status"])
+    count = len(experiment.keys)
+    rows = [(row[:count], row[count:-1]) for row in zip(*(column.to_pylist() for column in runs.columns)) if row[-1] == "complete"]
     # Keys of `zip` can have an effect only together.
     for keys in (*([key] for key, _ in experiment.product), [key for key, _ in experiment.together]):
         if all(key.split(".")[0] in WITHOUT_EFFECT for key in keys):
             continue
-        counts = runs.group_by([place for key, place in places.items() if key not in keys]).aggregate([([], "count_all"), *counted])
-        if (pc.max(counts["count_all"]).as_py() or 0) > 1 and all(pc.max(counts[f"{place}_count_distinct"]).as_py() == 1 for place, *_ in counted):
+        groups: dict[tuple[Any, ...], set[tuple[Any, ...]]] = {}
+        for values, found in rows:
+            groups.setdefault(tuple(value for key, value in zip(experiment.keys, values) if key not in keys), set()).add(found)
+        if len(groups) < len(rows) and all(len(found) == 1 for found in groups.values()):
             names = " and ".join(f"'{key}'" for key in keys)
             print(f"collektive: runs that differ only in {names} have equal results", file=sys.stderr)
 
