@@ -139,8 +139,10 @@ def _patch(tool: str, folder: Path) -> None:
 
 
 def _make_writable(folder: Path) -> None:
+    """Makes copied files writable, and sets their times to now. Ninja compares times, and a crate contains those of its release."""
     for path in [folder, *folder.rglob("*")]:
         path.chmod(path.stat().st_mode | 0o200)
+        path.touch()
 
 
 def _flatbuffers(folder: Path) -> None:

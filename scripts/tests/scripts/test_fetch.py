@@ -1,5 +1,6 @@
 """Tests that a fetched folder is filled once for each key, and filled again after an interruption or an error."""
 import hashlib
+import os
 import re
 import shutil
 import subprocess
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 from checkout import Checkout
 
+from build import fetch
 from build.places import ROOT
 
 NOT_DONE = "try: fetch.fill_once('thing', '1', lambda folder: run_logged('broken', ['false']))\nexcept Failure as failure: sys.exit(f'collektive: {failure}')"
@@ -160,6 +162,25 @@ def test_only_the_pinned_version_of_a_crate_is_discarded(checkout: Checkout, mon
     assert result.returncode == 0, result.stderr
     # Other projects of the user may need the other versions without a network.
     assert [path.name for path in (*cache.iterdir(), *sources.iterdir())] == ["libsqlite3-sys-0.30.1.crate", "libsqlite3-sys-0.30.1"]
+
+
+@pytest.mark.parametrize(("tool", "files"), [
+    ("_physx", ["sources/core", "LICENSE", "physx/LICENSE.md", "physx/physx/include/Px.h", "physx/physx/source/Px.cpp"]),
+    ("_flatbuffers", ["flatbuffers/net/FlatBuffers/ByteBuffer.cs"])])
+def test_sources_of_a_crate_are_newer_than_outputs_of_another_version(tool: str, files: list[str], monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Ninja builds only newer files. Files that a patch changed in the other version must be built, too."""
+    crate, folder = tmp_path / "crate", tmp_path / "folder"
+    for file in files:
+        (crate / file).parent.mkdir(parents=True, exist_ok=True)
+        (crate / file).touch()
+    for path in [crate, *crate.rglob("*")]:
+        os.utime(path, (0, 0))
+    monkeypatch.setattr(fetch, "_crate", lambda *_: crate)
+    monkeypatch.setattr(fetch, "_patch", lambda *_: None)
+    folder.mkdir()
+    began = folder.stat().st_mtime_ns
+    getattr(fetch, tool)(folder)
+    assert [path for path in [folder, *folder.rglob("*")] if path.stat().st_mtime_ns < began] == []
 
 
 def test_maven_rejects_a_file_that_differs_from_its_checksum(tmp_path: Path) -> None:
