@@ -21,7 +21,8 @@ STAMP = GRAPH / "arguments"
 # The change times of all sources in nanoseconds. The file's time is the beginning of the last build.
 BEGIN = GRAPH / "begin"
 NINJA_LOG = GRAPH / ".ninja_log"
-SOURCES = ("cmake", "jvm-host", "native-shim", "schema", "scripts", "tools", "unity")
+# Folders named `build` are omitted, except that of the scripts that steps run.
+SOURCES = ("cmake", "jvm-host", "native-shim", "schema", "scripts", "scripts/build", "tools", "unity")
 
 
 def build(*targets: str, tools: Sequence[str] = ()) -> None:

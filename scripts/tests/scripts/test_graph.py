@@ -53,13 +53,14 @@ def test_only_changed_targets_are_built(project: Checkout) -> None:
     assert project.log_lines() == ["made", "made"]
 
 
+@pytest.mark.parametrize("folder", ["schema", "scripts/build"])
 @pytest.mark.parametrize("case", ["during the build", "copied", "clock set back"])
-def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, case: str) -> None:
+def test_changes_are_built_whatever_the_time_of_the_file(project: Checkout, case: str, folder: str) -> None:
     """Tests a file that changes after a step has read it, a restored copy with an earlier time, and a change that seems to be older than the last build."""
-    (project.root / "CMakeLists.txt").write_text(CMAKE.replace("/in", "/schema/in"))
-    (project.root / "step").write_text('text=$(cat "$1/schema/in") && cat "$1/gate" && echo made >>"$1/made" && printf %s "$text" >out')
-    source = project.root / "schema/in"
-    source.parent.mkdir()
+    (project.root / "CMakeLists.txt").write_text(CMAKE.replace("/in", f"/{folder}/in"))
+    (project.root / "step").write_text(f'text=$(cat "$1/{folder}/in") && cat "$1/gate" && echo made >>"$1/made" && printf %s "$text" >out')
+    source = project.root / folder / "in"
+    source.parent.mkdir(exist_ok=True)
     source.write_text("one")
     if case != "during the build":
         assert project.run(MODULE).returncode == 0
