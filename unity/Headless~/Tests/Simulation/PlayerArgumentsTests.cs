@@ -40,6 +40,7 @@ namespace Collektive.Headless.Tests.Simulation
         [TestCase("-collektive-seed 1e3", "-collektive-seed is '1e3'")]
         [TestCase("-collektive-threads 3000000000", "it must be a whole number")]
         [TestCase("-collektive-deltaTime fast", "it must be a number")]
+        [TestCase("-collektive-deltaTime 0,05", "-collektive-deltaTime is '0,05': it must be a number")]
         [TestCase("-collektive-schedule 1", "it must be one of Lockstep, Sequential, Asynchronous")]
         public void Invalid_options_are_reported_with_the_valid_form(string line, string problem) =>
             Assert.That(PlayerArguments.Apply(settings, line.Split(' ')), Is.StringContaining(problem));

@@ -75,7 +75,9 @@ namespace Collektive.Unity
             {
                 // Accept names only, as in scenario files.
                 if (type.IsEnum) return Array.IndexOf(Enum.GetNames(type), text) >= 0 && (value = Enum.Parse(type, text)) != null;
-                value = Convert.ChangeType(text, type, CultureInfo.InvariantCulture);
+                // ChangeType ignores commas, so it would read "0,05" as 5.
+                value = type == typeof(float) ? float.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture)
+                    : Convert.ChangeType(text, type, CultureInfo.InvariantCulture);
                 return true;
             }
             catch (Exception error) when (error is FormatException || error is OverflowException)
