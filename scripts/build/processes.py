@@ -17,6 +17,8 @@ _interrupted_at = -math.inf
 _SAME_SIGNAL = 1
 # A constant from linux/prctl.h. With this option, orphaned descendants become children of this process.
 _SET_CHILD_SUBREAPER = 36
+# The environment variable of programs that may outlive the command.
+_DETACHED = "COLLEKTIVE_DETACHED"
 _FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -27,6 +29,8 @@ def run_in_group(main: Callable[[], int]) -> int:
     """
     sys.stdout.flush()
     sys.stderr.flush()
+    # A detached program may have started this command.
+    os.environ.pop(_DETACHED, None)
     _adopt_orphans()
     watched, lifeline = os.pipe()
     # Until it can forward signals, one of them would end this process, but not the group.
@@ -100,12 +104,25 @@ def was_interrupted() -> bool:
     return _interrupted_at > 0
 
 
+def start_detached(command: Sequence[str | Path]) -> None:
+    """Starts a program of the user, such as a browser, which may outlive this command, even after Ctrl-C. Does not wait for it."""
+    subprocess.Popen(command, env={**os.environ, _DETACHED: "1"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                     start_new_session=True)
+
+
 def end_orphans() -> None:
-    """Kills the orphans of a program that has ended. They are children of this process because of `run_in_group`."""
-    while children := Path(f"/proc/self/task/{os.getpid()}/children").read_text().split():
+    """Kills the orphans of a program that has ended, except detached ones. They are children of this process because of `run_in_group`."""
+    while children := [child for child in Path(f"/proc/self/task/{os.getpid()}/children").read_text().split() if not _is_detached(child)]:
         for child in children:
             os.kill(int(child), signal.SIGKILL)
             os.waitpid(int(child), 0)
+
+
+def _is_detached(process: str) -> bool:
+    try:
+        return f"{_DETACHED}=".encode() in Path(f"/proc/{process}/environ").read_bytes()
+    except OSError:
+        return False
 
 
 def _adopt_orphans() -> None:

@@ -14,7 +14,6 @@ import signal
 import sys
 import tempfile
 import time
-import webbrowser
 from collections import deque
 from dataclasses import replace
 from pathlib import Path
@@ -27,7 +26,7 @@ from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
-from build import player, projects
+from build import player, processes, projects
 from build.console import Failure, print_progress
 from build.places import BUILD
 from live import examples, session
@@ -475,7 +474,7 @@ async def main(options: dict[str, Any]) -> int:
             print_progress("running; press Ctrl-C to stop")
             print(address, flush=True)
             if not options["no_browser"] and (sys.platform == "darwin" or os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
-                await asyncio.to_thread(webbrowser.open, address)
+                processes.start_detached([sys.executable, "-I", "-m", "webbrowser", address])
             watching = asyncio.create_task(live.watch())
             # Compile once in advance, because the first compilation takes seconds and later ones are fast.
             warming = asyncio.create_task(live.compiler.compile(live.plan)) if live.is_editable else None

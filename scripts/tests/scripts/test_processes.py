@@ -184,6 +184,23 @@ def test_orphans_of_a_program_end_in_any_process_group(checkout: Checkout) -> No
     assert ends(child_of(checkout))
 
 
+def test_a_detached_program_outlives_the_command(checkout: Checkout) -> None:
+    """Tests a program that starts another one and ends, as xdg-open does with the user's browser."""
+    main = """def main():
+    processes.start_detached(['sh', '-c', 'sleep 600 & echo $! > "$0"', str(root / 'pid')])
+    try:
+        time.sleep(600)
+    finally:
+        processes.end_orphans()
+"""
+    process = checkout.start("import time\n" + main + run_in_group("main()"))
+    child = child_of(checkout)
+    process.send_signal(signal.SIGINT)
+    assert process.wait(20) == 128 + signal.SIGINT
+    # The signal fails if the program has ended.
+    os.kill(child, signal.SIGKILL)
+
+
 def test_a_command_ends_after_the_last_of_its_processes(checkout: Checkout) -> None:
     began = time.monotonic()
     assert checkout.run(run_in_group("__import__('subprocess').Popen(['sleep', '2']) and 0")).returncode == 0
