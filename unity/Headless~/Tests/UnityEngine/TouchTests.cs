@@ -110,6 +110,23 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Each_of_many_triggers_sends_exit_before_another_enter()
+        {
+            for (var index = 0; index < 60; index++) Zone().name = "zone" + index;
+            var mover = Mover(Vector3.zero);
+            StepAt(mover, 0f);
+            Notes.Clear();
+            mover.isKinematic = false;
+            StepAt(mover, 0f);
+            for (var index = 0; index < 60; index++)
+            {
+                var zone = "zone" + index + " ";
+                Assert.That(string.Join(", ", Notes.FindAll(note => note.StartsWith(zone, System.StringComparison.Ordinal))),
+                    Is.EqualTo(zone + "exit mover, " + zone + "enter mover, " + zone + "stay mover"));
+            }
+        }
+
+        [Test]
         public void A_body_keeps_its_triggers_when_an_ignored_collider_is_deactivated()
         {
             Zone();
