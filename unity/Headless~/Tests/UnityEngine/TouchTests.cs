@@ -251,6 +251,26 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(Events(), Is.EqualTo("zone enter mover zone stay mover zone stay mover zone stay mover zone exit mover"));
         }
 
+        [TestCase(typeof(MeshCollider))]
+        [TestCase(typeof(CapsuleCollider))]
+        public void A_collider_that_turns_below_a_parent_keeps_its_touches(System.Type type)
+        {
+            var zone = GameObject.CreatePrimitive(PrimitiveType.Quad);
+            Object.DestroyImmediate(zone.GetComponent<Collider>());
+            zone.GetComponent<MeshFilter>().sharedMesh = GameObject.CreatePrimitive(PrimitiveType.Cube).GetComponent<MeshFilter>().sharedMesh;
+            zone.transform.SetParent(new GameObject("parent").transform);
+            var collider = (Collider)zone.AddComponent(type);
+            if (collider is MeshCollider mesh) mesh.convex = true;
+            collider.isTrigger = true;
+            Mover(Vector3.zero).gameObject.AddComponent<Listener>();
+            for (var step = 0; step < 100; step++)
+            {
+                zone.transform.Rotate(1f, 2f, 3f);
+                Physics.Simulate(Step);
+            }
+            Assert.That(Notes.FindAll(note => note == "mover enter Quad").Count, Is.EqualTo(1));
+        }
+
         [Test]
         public void Both_sides_receive_trigger_messages_even_disabled_ones()
         {

@@ -6,6 +6,7 @@ namespace UnityEngine
     public class Collider : Component
     {
         const float Tolerance = 1e-6f;
+        const float ScaleTolerance = 1e-5f;
 
         bool ownEnabled = true;
         bool ownIsTrigger;
@@ -196,7 +197,8 @@ namespace UnityEngine
         internal unsafe void TakePose()
         {
             var transform = owner.TransformUnchecked;
-            scale = transform.lossyScale;
+            var newScale = transform.lossyScale;
+            if (!Near(newScale, scale)) scale = newScale;
             position = Vector3.zero;
             rotation = Quaternion.identity;
             if (Body is null)
@@ -269,6 +271,11 @@ namespace UnityEngine
         }
 
         static bool Near(float a, float b) => Mathf.Abs(a - b) <= Tolerance;
+
+        /// Whether two scales differ only by rounding errors, which change the scale of a turning child in each step.
+        static bool Near(Vector3 a, Vector3 b) =>
+            Mathf.Abs(a.x - b.x) <= ScaleTolerance * Mathf.Abs(b.x) && Mathf.Abs(a.y - b.y) <= ScaleTolerance * Mathf.Abs(b.y)
+                && Mathf.Abs(a.z - b.z) <= ScaleTolerance * Mathf.Abs(b.z);
 
         /// Returns the kinds of reports that some script handles. Overlaps are sent to this object and to its body. Contacts are sent to the body, or to
         /// this object if it has no body.
