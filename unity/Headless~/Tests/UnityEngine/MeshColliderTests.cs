@@ -81,6 +81,17 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(ball.position.y - ball.position.x, Is.EqualTo(0.5f * Mathf.Sqrt(2f)).Within(0.1f), "the ball must be on the ramp");
         }
 
+        [Test]
+        public void A_closest_point_before_a_sync_keeps_the_shape()
+        {
+            var pyramid = AddMeshCollider(Pyramid(), true);
+            Physics.SyncTransforms();
+            pyramid.transform.localScale = 2f * Vector3.one;
+            var point = Physics.ClosestPoint(new Vector3(0f, 9f, 0f), pyramid, Vector3.zero, Quaternion.identity);
+            Assert.That(point.y, Is.EqualTo(2f).Within(1e-3f));
+            Assert.That(Physics.Raycast(new Vector3(0f, 9f, 0f), Vector3.down), Is.True);
+        }
+
         [TestCase(2f, 2f, 2f)]
         [TestCase(-1f, 1f, 1f)]
         [TestCase(1f, 3f, -2f)]

@@ -126,7 +126,7 @@ namespace UnityEngine
         internal Physx.Pose GeometryAt(Vector3 position, Quaternion rotation)
         {
             var shape = new Physx.Shape();
-            Describe(transform.lossyScale, ref shape);
+            Describe(scale, ref shape);
             return new Physx.Pose(position + rotation * shape.Pose.Position, (rotation * shape.Pose.Rotation).normalized);
         }
 
