@@ -158,6 +158,23 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Another_height_of_a_capsule_keeps_a_body_in_its_triggers()
+        {
+            Zone();
+            var mover = Mover(Vector3.zero);
+            mover.GetComponent<Collider>().enabled = false;
+            var capsule = mover.gameObject.AddComponent<CapsuleCollider>();
+            capsule.height = 2f;
+            StepAt(mover, 0f);
+            Notes.Clear();
+            capsule.height = 1f;
+            StepAt(mover, 0f);
+            capsule.height = 2f;
+            StepAt(mover, 0f);
+            Assert.That(Events(), Is.EqualTo("zone stay mover zone stay mover"));
+        }
+
+        [Test]
         public void Another_detection_mode_keeps_a_body_in_its_triggers()
         {
             Zone();

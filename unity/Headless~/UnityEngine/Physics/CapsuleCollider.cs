@@ -32,7 +32,7 @@ namespace UnityEngine
             }
         }
 
-        /// Height including both caps. If it is less than the diameter, the shape is a sphere.
+        /// Height including both caps. If it is less than the diameter, the shape is nearly a sphere.
         public float height
         {
             get => this.Existing().ownHeight;
@@ -69,8 +69,7 @@ namespace UnityEngine
             var wide = Mathf.Max(Mathf.Abs(scale[(ownDirection + 1) % 3]), Mathf.Abs(scale[(ownDirection + 2) % 3]));
             var scaledRadius = Mathf.Abs(ownRadius) * wide;
             var halfLength = Mathf.Max(0f, Mathf.Abs(ownHeight * scale[ownDirection]) * 0.5f - scaledRadius);
-            // PhysX does not accept capsules of length 0.
-            shape.Geometry.Kind = halfLength > 0f ? Physx.Kind.Capsule : Physx.Kind.Sphere;
+            shape.Geometry.Kind = Physx.Kind.Capsule;
             shape.Geometry.Radius = scaledRadius;
             shape.Geometry.Half = new Vector3(halfLength, 0f, 0f);
             shape.Pose = new Physx.Pose(ScaledCenter(ownCenter, scale), Turns[ownDirection]);
