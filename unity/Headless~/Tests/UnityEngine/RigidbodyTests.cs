@@ -474,6 +474,19 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Another_scale_keeps_the_position_that_a_script_set_for_the_body()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            Run(Step);
+            ball.position = new Vector3(5f, 0f, 0f);
+            ball.transform.localScale = new Vector3(2f, 2f, 2f);
+            Run(Step);
+            Assert.That(ball.transform.position, Is.EqualTo(new Vector3(5f, 0f, 0f)));
+            Assert.That(ball.GetComponent<Collider>().bounds.size.x, Is.EqualTo(2f).Within(1e-4f));
+        }
+
+        [Test]
         public void SetParent_can_keep_the_local_pose_of_a_moved_body()
         {
             var parent = new GameObject("parent").transform;

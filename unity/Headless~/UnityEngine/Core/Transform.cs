@@ -21,6 +21,9 @@ namespace UnityEngine
         /// Whether this transform is in the list of transforms that changed since the last physics sync.
         internal bool awaitsSync;
 
+        /// Whether its position or rotation changed, not only its scale.
+        internal bool awaitsPoseSync;
+
         /// Whether this transform or one of its parents changed since the last physics sync.
         internal bool IsBeforeSync => awaitsSync || !(parentOrNull is null) && parentOrNull.IsBeforeSync;
 
@@ -138,11 +141,11 @@ namespace UnityEngine
             bodyStep = body == Physx.None ? 0 : Motion.Step;
         }
 
-        void Changed()
+        void Changed(bool isPose = true)
         {
             ThrowIfDestroyed();
             lastChange = ++changes;
-            PhysicsWorld.TransformChanged(this);
+            PhysicsWorld.TransformChanged(this, isPose);
         }
 
         // ---- Local ----------------------------------------------------------------------------------------------------
@@ -180,7 +183,7 @@ namespace UnityEngine
             {
                 if (!Finite.Accepts(value, "transform.localScale", this)) return;
                 ownScale = value;
-                Changed();
+                Changed(false);
             }
         }
 

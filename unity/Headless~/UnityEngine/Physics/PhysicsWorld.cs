@@ -194,8 +194,9 @@ namespace UnityEngine
 
         // ---- Transforms -----------------------------------------------------------------------------------------------
 
-        public static void TransformChanged(Transform transform)
+        public static void TransformChanged(Transform transform, bool isPose = true)
         {
+            transform.awaitsPoseSync |= isPose;
             if (transform.awaitsSync) return;
             transform.awaitsSync = true;
             Moved.Add(transform);
@@ -219,23 +220,25 @@ namespace UnityEngine
             for (var index = 0; index < Moved.Count; index++)
             {
                 var transform = Moved[index];
-                transform.awaitsSync = false;
-                if (!transform.destroyed) Sync(transform);
+                var isPose = transform.awaitsPoseSync;
+                transform.awaitsSync = transform.awaitsPoseSync = false;
+                if (!transform.destroyed) Sync(transform, isPose);
             }
             Moved.Clear();
         }
 
-        static void Sync(Transform transform)
+        /// Another scale must not undo a pose that a script set for the body, but moves the children.
+        static void Sync(Transform transform, bool isPose)
         {
             var parts = transform.owner.physicsParts;
             if (parts != null)
                 for (var index = 0; index < parts.Count; index++)
                 {
-                    if (parts[index] is Rigidbody body) body.TakePose();
-                    else ((Collider)parts[index]).TakePose();
+                    if (parts[index] is Collider collider) collider.TakePose();
+                    else if (isPose) ((Rigidbody)parts[index]).TakePose();
                 }
             var children = transform.children;
-            for (var index = 0; index < children.Count; index++) Sync(children[index]);
+            for (var index = 0; index < children.Count; index++) Sync(children[index], true);
         }
 
         // ---- Step -----------------------------------------------------------------------------------------------------
