@@ -353,6 +353,26 @@ namespace Collektive.Headless.Tests.Engine
             Assert.That(quitting, Is.EqualTo(1));
         }
 
+        public class Respawner : MonoBehaviour
+        {
+            void OnDestroy()
+            {
+                if (Notes.Count > 100) return;
+                Notes.Add("OnDestroy");
+                Add<Respawner>("copy");
+            }
+        }
+
+        [Test]
+        public void Objects_that_OnDestroy_creates_while_quitting_are_destroyed_without_messages()
+        {
+            Add<Respawner>();
+            Loop.Quit();
+            Assert.That(Events(), Is.EqualTo("OnDestroy"));
+            Assert.That(Errors.Count, Is.EqualTo(1));
+            Assert.That(Errors[0], Is.StringContaining("'copy'"));
+        }
+
         [Test]
         public void OnApplicationQuit_is_also_sent_to_disabled_scripts_of_active_objects()
         {

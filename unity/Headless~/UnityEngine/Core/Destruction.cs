@@ -108,11 +108,17 @@ namespace UnityEngine
             foreach (var child in gameObject.TransformUnchecked.children) Collect(child.owner, into);
         }
 
-        /// Destroys all objects of all scenes, in the order of their roots.
+        /// Destroys all objects of all scenes, in the order of their roots. As in Unity, objects that scripts create meanwhile are an error.
         public static void DestroyScene()
         {
-            foreach (var scene in Scene.Loaded)
-                while (scene.rootCount > 0) Destroy(scene.Roots[0]);
+            foreach (var root in new List<GameObject>(Scene.AllRoots())) Destroy(root);
+            foreach (var root in new List<GameObject>(Scene.AllRoots()))
+            {
+                Debug.LogError("Some objects were not cleaned up when closing the scene. (Did you spawn new GameObjects from OnDestroy?) "
+                    + $"'{root.NameImpl}' is destroyed without messages.", root);
+                foreach (var script in root.GetComponentsInChildren<MonoBehaviour>(true)) script.Silence();
+                Destroy(root);
+            }
             Requests.Clear();
         }
     }

@@ -59,6 +59,13 @@ namespace UnityEngine
             Messages.Send(messages.OnEnable, this);
         }
 
+        /// Ends all messages to this script.
+        internal void Silence()
+        {
+            HasAwoken = false;
+            enabling = 0;
+        }
+
         void Disable()
         {
             if (enabling == 0) return;
