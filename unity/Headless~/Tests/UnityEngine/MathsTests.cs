@@ -75,6 +75,14 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_rotation_to_the_opposite_direction_is_about_x_or_y()
+        {
+            Near(Quaternion.FromToRotation(Vector3.up, Vector3.down) * Vector3.right, Vector3.right);
+            Near(Quaternion.FromToRotation(Vector3.right, Vector3.left) * Vector3.up, Vector3.up);
+            Near(Quaternion.FromToRotation(Vector3.forward, Vector3.back) * Vector3.right, Vector3.right);
+        }
+
+        [Test]
         public void The_equality_operator_has_a_tolerance_and_Equals_has_none()
         {
             Vector3 a = new Vector3(1f, 0f, 0f), b = new Vector3(1.000001f, 0f, 0f);

@@ -161,9 +161,10 @@ namespace UnityEngine
             var cosine = Vector3.Dot(from, to);
             if (cosine < -0.999999f)
             {
-                var side = Vector3.Cross(Vector3.right, from);
-                if (side.sqrMagnitude < Vector3.kEpsilon) side = Vector3.Cross(Vector3.up, from);
-                return AngleAxis(180f, side);
+                // As in Unity, up turns to down about x, and right to left about y.
+                var side = Vector3.Cross(from, Vector3.right);
+                if (side.sqrMagnitude < Vector3.kEpsilon) side = Vector3.Cross(from, Vector3.down);
+                return AngleAxis(180f, Vector3.Cross(side, from));
             }
             var axis = Vector3.Cross(from, to);
             return Normalize(new Quaternion(axis.x, axis.y, axis.z, 1f + cosine));
