@@ -158,6 +158,24 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void Another_scale_of_a_mesh_collider_keeps_its_touches()
+        {
+            var cube = GameObject.CreatePrimitive(PrimitiveType.Cube);
+            Object.DestroyImmediate(cube.GetComponent<Collider>());
+            var collider = cube.AddComponent<MeshCollider>();
+            collider.convex = true;
+            collider.isTrigger = true;
+            var mover = Mover(new Vector3(0.9f, 0f, 0f));
+            mover.gameObject.AddComponent<Listener>();
+            foreach (var scale in new[] { 1f, 1.5f, 2f, 0.5f, 0.5f })
+            {
+                cube.transform.localScale = scale * Vector3.one;
+                Physics.Simulate(Step);
+            }
+            Assert.That(Events(), Is.EqualTo("mover enter Cube mover stay Cube mover stay Cube mover stay Cube mover exit Cube"));
+        }
+
+        [Test]
         public void Another_height_of_a_capsule_keeps_a_body_in_its_triggers()
         {
             Zone();

@@ -10,10 +10,12 @@ namespace UnityEngine
         /// Cooks the mesh. Returns an error, or null.
         public unsafe string Cook(Vector3[] points, int[] indices, bool convex)
         {
-            Release();
+            var former = Handle;
             fixed (Vector3* first = points)
             fixed (int* firstIndex = indices)
                 Handle = Physx.physics_mesh_create(first, points.Length, firstIndex, indices.Length, convex ? 1 : 0);
+            // Not earlier, because the new mesh could have the same address.
+            if (former != IntPtr.Zero) Physx.physics_mesh_release(former);
             return Handle == IntPtr.Zero ? Physx.Error() : null;
         }
 

@@ -56,12 +56,7 @@ namespace UnityEngine
             if (!ownMesh.HasOnlyTriangles) return Refuse($"The mesh '{ownMesh.name}' has lines, points or quads, which cannot be a collider.");
             if (!ownConvex && isTrigger) return Refuse("Triggers on concave MeshColliders are not supported.");
             var isStale = cookedVersion != ownMesh.Version || !cookedScale.Equals(scale);
-            if (cooked.Handle != IntPtr.Zero && isStale)
-            {
-                DropShape(); // a new mesh can have the address of the old one
-                cooked.Release();
-            }
-            if (cooked.Handle == IntPtr.Zero && (isStale || !hasFailed)) Cook(scale);
+            if (isStale || cooked.Handle == IntPtr.Zero && !hasFailed) Cook(scale);
             if (cooked.Handle == IntPtr.Zero) return false;
             shape.Geometry.Kind = Physx.Kind.Mesh;
             shape.Geometry.Mesh = cooked.Handle;
