@@ -48,6 +48,18 @@ namespace Collektive.Headless.Tests.Engine
         }
 
         [Test]
+        public void A_joint_connects_a_body_where_a_script_set_it_before_its_scale()
+        {
+            var ball = Ball(Vector3.zero);
+            ball.useGravity = false;
+            ball.position = new Vector3(5f, 0f, 0f);
+            ball.transform.localScale = new Vector3(2f, 2f, 2f);
+            ball.gameObject.AddComponent<FixedJoint>();
+            Run(0.5f);
+            Assert.That(ball.position.x, Is.EqualTo(5f).Within(1e-3f));
+        }
+
+        [Test]
         public void A_fixed_joint_holds_a_body_in_the_world()
         {
             var ball = Ball(new Vector3(0f, 5f, 0f));

@@ -24,8 +24,8 @@ namespace UnityEngine
         /// Whether its position or rotation changed, not only its scale.
         internal bool awaitsPoseSync;
 
-        /// Whether this transform or one of its parents changed since the last physics sync.
-        internal bool IsBeforeSync => awaitsSync || !(parentOrNull is null) && parentOrNull.IsBeforeSync;
+        /// Whether the pose of this transform, or one of its parents, changed since the last physics sync.
+        internal bool IsBeforeSync => awaitsPoseSync || !(parentOrNull is null) && (parentOrNull.awaitsSync || parentOrNull.IsBeforeSync);
 
         Vector3 placed = Vector3.zero;
         Quaternion turned = Quaternion.identity;

@@ -572,6 +572,7 @@ namespace UnityEngine
         {
             activeTransform = owner.TransformUnchecked;
             changesAtStart = Transform.Changes;
+            activeTransform.awaitsPoseSync = false;
             var pose = new Physx.Pose(activeTransform.position, activeTransform.rotation);
             Handle = Physx.physics_actor_create(PhysicsWorld.Handle, 1, &pose);
             PhysicsWorld.Add(this);
