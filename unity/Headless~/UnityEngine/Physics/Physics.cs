@@ -56,7 +56,7 @@ namespace UnityEngine
                 Debug.LogWarning("Physics.Simulate(...) was called but simulation mode is not set to Script. Ignoring.");
                 return;
             }
-            if (step < 0f) throw new ArgumentOutOfRangeException(nameof(step), step, "A step must be 0 s or longer.");
+            if (!(step >= 0f)) throw new ArgumentOutOfRangeException(nameof(step), step, "A step must be 0 s or longer.");
             PhysicsWorld.Step(step);
         }
 
