@@ -1,10 +1,14 @@
 package org.collektive.engine
 
+import it.unibo.collektive.aggregate.api.Aggregate
 import it.unibo.collektive.aggregate.api.exchanging
 import it.unibo.collektive.aggregate.api.neighboring
 import org.collektive.mailbox.MailboxRuntimes
 import org.collektive.runtime.AggregateRuntimes
+import org.collektive.spi.DeviceRuntime
 import org.collektive.spi.DeviceRuntimes
+import org.collektive.spi.Export
+import org.collektive.spi.Inbox
 import org.collektive.spi.SharingRule
 import org.collektive.testkit.Network
 import org.collektive.testkit.Piece
@@ -107,6 +111,34 @@ class MailboxRuntimesTest {
                 assertEquals(4, answers[4])
             }
         }
+    }
+
+    @Test
+    fun `messages that were sent before a device forgot its state are not received, on each runtime`() {
+        for (runtimes in listOf(AggregateRuntimes(), MailboxRuntimes())) {
+            val sender = runtimes.device(1)
+            fun DeviceRuntime.hear(message: Export?) =
+                round(LinkFrom1(message), { aggregate, _ -> (aggregate as Aggregate<*>).neighboring(7).neighborCount }, null)
+            val messages = List(3) {
+                sender.hear(null)
+                sender.commit().also(Export::retain)
+            }
+            // This round is not committed.
+            sender.hear(null)
+            assertEquals(listOf<Any?>(1, 1, 1), messages.map { runtimes.device(2).hear(it) })
+            sender.forget()
+            assertEquals(listOf<Any?>(0, 0, 0), messages.map { runtimes.device(2).hear(it) })
+        }
+    }
+
+    /** A link from device 1 with its [message]. */
+    private class LinkFrom1(private val message: Export?) : Inbox {
+        override val size get() = 1
+        override val ids: Array<Any> = arrayOf(1)
+
+        override fun export(index: Int) = message
+
+        override fun wasKnown(index: Int) = true
     }
 
     private companion object {

@@ -39,6 +39,9 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
     private var newState: State = emptyMap()
     private var outbound = Messages(emptyMap(), null)
 
+    // The messages of the last two committed rounds, and older ones that receivers have not read.
+    private val readable = ArrayList<Messages>(2)
+
     // The path of the last primitive, reported as the place of a failure. The API provides no further details.
     private var reached: Path? = null
 
@@ -59,6 +62,9 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
 
     override fun commit(): Export {
         state = newState
+        val last = readable.lastOrNull()
+        readable.removeIf { it !== last && !it.isRetained }
+        readable += outbound
         return outbound
     }
 
@@ -70,6 +76,8 @@ private class MailboxRuntime(private val id: Int, private val rule: SharingRule)
         newState = emptyMap()
         inbound = Inbound(emptyList())
         outbound.clear()
+        readable.forEach(Messages::clear)
+        readable.clear()
         reached = null
     }
 
