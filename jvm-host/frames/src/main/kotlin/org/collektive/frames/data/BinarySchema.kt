@@ -30,6 +30,9 @@ internal class BinarySchema(bytes: ByteArray) {
         schema = Schema.getRootAsSchema(buffer)
     }
 
+    /** The qualified names of all structs and tables. */
+    val names: List<String> get() = List(schema.objectsLength()) { schema.objects(it).name() }
+
     /** Returns the struct or table with the qualified [name], or `null` if the schema does not define it. */
     fun find(name: String): Composite? = indexOf(name)?.let(schema::objects)
 

@@ -20,8 +20,8 @@ import com.google.flatbuffers.reflection.Object as Composite
 public class ReflectionReader(binarySchema: ByteArray) {
     private val schema = BinarySchema(binarySchema)
 
-    /** Returns whether the schema defines the qualified name [type]. */
-    public fun defines(type: String): Boolean = schema.find(type) != null
+    /** Returns the qualified name of the type [simpleName], or `null` if no namespace of the schema defines it. */
+    public fun find(simpleName: String): String? = schema.names.find { it.substringAfterLast('.') == simpleName }
 
     /**
      * Creates a reader of the table `Sensors` or `Actuators` with elements of [type].

@@ -9,7 +9,7 @@ import kotlin.test.Test
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
 import kotlin.test.assertFailsWith
-import kotlin.test.assertFalse
+import kotlin.test.assertNull
 import kotlin.test.assertTrue
 
 /** Tests reading data with the binary schema alone. Untrusted records are read in this way, because it runs no generated code. */
@@ -35,8 +35,8 @@ internal class ReflectionReaderTest {
     fun `tables are verified with their layout, and unknown types are rejected`() {
         val schema = GeneratedSchemas.globals
         val reflection = reflectionReader(schema)
-        assertTrue(reflection.defines("test.globals.GlobalData"))
-        assertFalse(reflection.defines("test.globals.Other"))
+        assertEquals("test.globals.GlobalData", reflection.find("GlobalData"))
+        assertNull(reflection.find("Other"))
         val checker = FrameChecker(FramePolicy.USER_DATA)
         val frame = SensorFrames.table(schema, "test.globals.GlobalData", random)
         checker.check(frame.buffer(), frame.position, reflection.table("test.globals.GlobalData"))

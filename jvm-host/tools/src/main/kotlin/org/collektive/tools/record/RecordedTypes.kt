@@ -15,8 +15,10 @@ import java.nio.ByteBuffer
 internal class RecordedTypes(private val reflection: ReflectionReader, namespace: String) {
     private val sensors = Elements("$namespace.SensorData")
     private val actuators = Elements("$namespace.ActuatorData")
-    private val globalType = "$namespace.GlobalData"
-    private val globals = if (reflection.defines(globalType)) reflection.table(globalType) else null
+
+    // Unlike the other types, this one can be in another namespace.
+    private val globalType = reflection.find("GlobalData")
+    private val globals = globalType?.let(reflection::table)
     private val checker = FrameChecker(FramePolicy.USER_DATA)
 
     /** Returns the sensor data of the table `Sensors` at [position] of [frame], by node. */
@@ -29,7 +31,7 @@ internal class RecordedTypes(private val reflection: ReflectionReader, namespace
 
     /** Returns the `GlobalData` at [position] of [frame], or `null` if it is absent. */
     fun globals(frame: ByteBuffer, position: Int): Any? {
-        if (position == 0 || globals == null) return null
+        if (position == 0 || globalType == null || globals == null) return null
         checker.check(frame, position, globals)
         return reflection.read(globalType, frame, position)
     }
