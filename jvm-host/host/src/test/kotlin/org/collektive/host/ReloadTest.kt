@@ -9,7 +9,10 @@ import org.junit.jupiter.api.Test
 import org.junit.jupiter.api.Timeout
 import org.junit.jupiter.api.io.TempDir
 import java.lang.management.ManagementFactory
+import java.nio.file.FileSystems
 import java.nio.file.Path
+import kotlin.io.path.copyTo
+import kotlin.io.path.writeBytes
 import kotlin.io.path.writeText
 import kotlin.test.assertContains
 import kotlin.test.assertEquals
@@ -225,6 +228,7 @@ class ReloadTest {
             damaged to "damaged",
             jar("return \"\";", annotation = "@Program(name = \"other\")") to "unknown program 'sum'",
             ProbeJars.withClass("package probe; class Bad {}") to "unknown program 'sum'",
+            withClassFile(byteArrayOf(0, 0, 0, 0, 0, 0, 0, 0, 0, 2, CLASS_CONSTANT, 0, 9)) to "cannot be loaded",
         )
         for ((path, reason) in expected) {
             val answer = step(path)
@@ -232,6 +236,11 @@ class ReloadTest {
             assertEquals("$tick", text(answer))
         }
         assertNull(step().reload())
+    }
+
+    /** Returns a jar of a program and the class file [bytes]. */
+    private fun withClassFile(bytes: ByteArray): Path = jar("return \"\";").copyTo(folder.resolve("class.jar")).also {
+        FileSystems.newFileSystem(it).use { zip -> zip.getPath("Other.class").writeBytes(bytes) }
     }
 
     @Test
@@ -317,6 +326,8 @@ class ReloadTest {
     }
 
     private companion object {
+        /** The tag of a reference to a class in a class file, which is followed by the index of its name. */
+        const val CLASS_CONSTANT: Byte = 7
         const val NODES = 1000
         const val RELOADS = 1000
     }

@@ -33,7 +33,8 @@ internal class ProgramReload(
         PreparedReload(LoadedPrograms(programs, threads), change, "")
     } catch (e: HostException) {
         PreparedReload(old, null, e.message.orEmpty())
-    } catch (e: LinkageError) {
+    } catch (e: Throwable) {
+        // A damaged jar can cause any exception.
         PreparedReload(old, null, "the classes in ${jars.joinToString { it.path }} cannot be loaded: $e; rebuild the programs")
     }
 }
