@@ -172,6 +172,18 @@ class ReloadTest {
     }
 
     @Test
+    fun `values of a library's classes are kept however deep they are`() {
+        val body = """
+            Object state = aggregate.alignedOn("state", () -> aggregate.<Object>evolve("", s -> new kotlin.collections.IndexedValue<>(0, s)));
+            return "" + (state.toString().split("index").length - 1);"""
+        open(body)
+        repeat(100) { step() }
+        val answer = step(jar(body))
+        assertReloaded(answer.reload(), stored = 2, kept = 2)
+        assertEquals("101", text(answer))
+    }
+
+    @Test
     fun `an empty map or set of an enum accepts constants of the new class`() {
         val body = """
             var set = aggregate.alignedOn("set", () -> aggregate.evolve(java.util.EnumSet.noneOf(Mode.class), s -> s)).clone();

@@ -29,6 +29,10 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
     // Calls by identity, without the line number, which changes when the code above the call changes.
     private val calls = HashMap<String, String>()
 
+    // Objects without objects of the old programs. Values share many objects, such as the paths of a gradient.
+    private val unaffected = identitySet()
+    private val references = HashMap<Class<*>, List<Field>?>()
+
     init {
         for (bytes in new.classFiles) for (text in ConstantPool.of(bytes).texts) identityOf(text)?.let { calls[it] = text }
     }
@@ -38,36 +42,40 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         return calls[identity] ?: token
     }
 
-    override fun value(value: Any?): Any? {
-        if (isSimple(value)) return value
-        return try {
-            if (contains(value, identitySet(), 0)) copy(value) else value
-        } catch (_: UnknownContent) {
-            copy(value)
+    override fun value(value: Any?): Any? = if (value == null || isSimple(value) || !mayContainOld(value)) value else copy(value)
+
+    /** Returns whether [value] contains an object of the old programs, or may contain one in a class that cannot be read. */
+    private fun mayContainOld(value: Any): Boolean {
+        val visited = identitySet()
+        // Iterative, because lists can be linked to any depth.
+        val open = ArrayDeque<Any?>(listOf(value))
+        while (open.isNotEmpty()) {
+            val next = open.removeLast()
+            if (next == null || isSimple(next) || next in unaffected || !visited.add(next)) continue
+            if (next.javaClass.classLoader === old) return true
+            open.addAll(parts(next) ?: return true)
         }
+        unaffected.addAll(visited)
+        return false
     }
 
-    /** Returns whether [value] contains an object of the old programs. @throws UnknownContent when that is unknown. */
-    private fun contains(value: Any?, seen: MutableSet<Any>, depth: Int): Boolean = when {
-        isSimple(value) || value == null || !seen.add(value) -> false
-        value.javaClass.classLoader === old -> true
-        depth == MAX_DEPTH -> throw UnknownContent
-        value is Array<*> -> value.any { contains(it, seen, depth + 1) }
-        value.javaClass.isArray -> false
-        value.javaClass.classLoader != null -> fields(value).any { contains(it, seen, depth + 1) }
-        isEmptyEnumCollection(value) -> throw UnknownContent
-        contains(comparatorOf(value), seen, depth + 1) -> true
-        value is Collection<*> -> value.any { contains(it, seen, depth + 1) }
-        value is Map<*, *> -> value.any { (key, item) -> contains(key, seen, depth + 1) || contains(item, seen, depth + 1) }
-        else -> throw UnknownContent
+    /** Returns the objects in [value], or `null` if they cannot be read, as in most classes of the JDK. */
+    private fun parts(value: Any): List<Any?>? = when {
+        value is Array<*> -> value.asList()
+        value.javaClass.isArray -> emptyList()
+        value.javaClass.classLoader != null -> referencesOf(value.javaClass)?.map { it.get(value) }
+        isEmptyEnumCollection(value) -> null
+        value is Collection<*> -> value.toList() + comparatorOf(value)
+        value is Map<*, *> -> value.flatMap { listOf(it.key, it.value) } + comparatorOf(value)
+        else -> null
     }
 
-    /** The references in an object of a library. Those in classes of the JDK cannot be read. */
-    private fun fields(value: Any): List<Any?> = generateSequence<Class<*>>(value.javaClass) { it.superclass }
-        .flatMap { it.declaredFields.asSequence() }
-        .filter { !Modifier.isStatic(it.modifiers) && !it.type.isPrimitive }
-        .map { if (it.trySetAccessible()) it.get(value) else throw UnknownContent }
-        .toList()
+    /** Returns the fields of [type] that refer to objects, or `null` if one is not accessible. */
+    private fun referencesOf(type: Class<*>): List<Field>? = references.getOrPut(type) {
+        generateSequence<Class<*>>(type) { it.superclass }.flatMap { it.declaredFields.asSequence() }
+            .filterNot { Modifier.isStatic(it.modifiers) || it.type.isPrimitive }.toList()
+            .takeIf { it.all(Field::trySetAccessible) }
+    }
 
     private fun copy(value: Any?): Any? = try {
         val bytes = ByteArrayOutputStream()
@@ -109,15 +117,7 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
         }
     }
 
-    private object UnknownContent : RuntimeException() {
-        private fun readResolve(): Any = UnknownContent
-
-        override fun fillInStackTrace(): Throwable = this
-    }
-
     private companion object {
-        const val MAX_DEPTH = 64
-
         /** A call of the compiler plugin, such as `share@Swarm.kt:12#9c1d3a5e7f00b2d4`. */
         val CALL = Regex("(.+@[^:]+):\\d+(#[0-9a-f]{16})")
 
@@ -125,7 +125,7 @@ internal class ReloadedValues(private val old: JarLoader, private val new: JarLo
 
         fun identityOf(text: String): String? = CALL.matchEntire(text)?.let { it.groupValues[1] + it.groupValues[2] }
 
-        fun isSimple(value: Any?) = value == null || value is String || value is Boolean || value is Char || value is Unit ||
+        fun isSimple(value: Any) = value is String || value is Boolean || value is Char || value is Unit ||
             value is Number && value.javaClass.classLoader == null
 
         /** Returns whether [value] refers only to the class of its future keys or elements. */
