@@ -212,9 +212,9 @@ namespace Collektive.Unity.Editor
             {
                 "--flatc", Toolchain.Flatc(), "--include", Toolchain.SchemaFolder, "--schema", Path.GetFullPath(project.Schema),
                 "--csharp", Path.GetFullPath(project.Generated), "--jar", Path.GetFullPath(project.Jar), "--work", Path.GetFullPath(Work),
-                "--mark", "Collektive-Runtime:" + project.Runtime.ManifestValue, "--library", Installation.HostJar,
+                "--library", Installation.HostJar,
             };
-            if (project.Runtime.PluginHash.Length > 0) options.AddRange(new[] { "--mark", SchemaProject.PluginMark + ":" + project.Runtime.PluginHash });
+            foreach (var (name, value) in project.Runtime.Marks()) options.AddRange(new[] { "--mark", name + ":" + value });
             foreach (var jar in project.Runtime.Library) options.AddRange(new[] { "--library", jar });
             foreach (var argument in project.Runtime.Arguments()) options.AddRange(new[] { "--kotlin", argument });
             options.AddRange(new[] { "--source", Path.GetFullPath(project.Programs) });

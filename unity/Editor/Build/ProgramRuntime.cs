@@ -25,10 +25,6 @@ namespace Collektive.Unity.Editor
 
         internal AggregateRuntime Kind { get; } = AggregateRuntime.BuiltIn;
 
-        /// <summary>The runtime's value in the manifest of a jar. The host rejects programs for another runtime by it.</summary>
-        /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
-        internal string ManifestValue => Kind == AggregateRuntime.BuiltIn ? "builtIn" : "collektive " + Hash(Jars());
-
         /// <summary>The jars that programs are compiled against, in addition to the host's.</summary>
         /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
         internal IReadOnlyList<string> Library => Kind == AggregateRuntime.BuiltIn ? new[] { Installation.LibraryJar } : Jars();
@@ -37,8 +33,18 @@ namespace Collektive.Unity.Editor
         internal string Plugin =>
             Kind == AggregateRuntime.BuiltIn ? Toolchain.CompilerPlugin : string.IsNullOrWhiteSpace(plugin) ? "" : Installation.PathOf(plugin);
 
-        /// <summary>The hash of Collektive's compiler plugin. Empty for the built-in one, which has the package's version, or if the file is missing.</summary>
-        internal string PluginHash => Kind == AggregateRuntime.Collektive && File.Exists(Plugin) ? Hash(new[] { Plugin }) : "";
+        /// <summary>
+        /// Returns the attributes in the manifest of a jar that is compiled for this runtime. The host rejects programs for another runtime by the first one.
+        /// The second one is the hash of Collektive's compiler plugin, if it exists; the built-in plugin has the package's version.
+        /// </summary>
+        /// <exception cref="ToolException">The folder of jars is missing or empty.</exception>
+        internal List<(string Name, string Value)> Marks()
+        {
+            var isBuiltIn = Kind == AggregateRuntime.BuiltIn;
+            var marks = new List<(string, string)> { ("Collektive-Runtime", isBuiltIn ? "builtIn" : "collektive " + Hash(Jars())) };
+            if (!isBuiltIn && File.Exists(Plugin)) marks.Add(("Collektive-Plugin", Hash(Plugin)));
+            return marks;
+        }
 
         /// <summary>Options of the Kotlin compiler, and sources that are compiled with the programs.</summary>
         /// <exception cref="ToolException">The compiler plugin is missing, or not a compiler plugin.</exception>
@@ -67,7 +73,7 @@ namespace Collektive.Unity.Editor
         /// <summary>Returns whether a jar is a compiler plugin. The names of a jar's entries are not compressed, so they can be searched directly.</summary>
         private static bool IsPlugin(string path) => Encoding.ASCII.GetString(File.ReadAllBytes(path)).Contains(PluginEntry);
 
-        private static string Hash(string[] jars)
+        private static string Hash(params string[] jars)
         {
             using (var hash = IncrementalHash.CreateHash(HashAlgorithmName.SHA256))
             {

@@ -12,9 +12,6 @@ namespace Collektive.Unity.Editor
     /// </summary>
     internal sealed class SchemaProject
     {
-        /// <summary>The manifest's attribute for the hash of Collektive's compiler plugin.</summary>
-        internal const string PluginMark = "Collektive-Plugin";
-
         private SchemaProject(string schema, IReadOnlyList<SimulationSettings> simulations)
         {
             Schema = schema;
@@ -60,8 +57,8 @@ namespace Collektive.Unity.Editor
                 if (!HasPrograms) return false;
                 var attributes = JarManifest.Read(Jar);
                 bool Has(string name, string value) => attributes.TryGetValue(name, out var built) && built == value;
-                return !Has("Collektive-Version", PackageState.Version) || !Has("Collektive-Runtime", Runtime.ManifestValue)
-                    || Runtime.PluginHash.Length > 0 && !Has(PluginMark, Runtime.PluginHash) || !Has("Collektive-Sources", Sources);
+                return !Has("Collektive-Version", PackageState.Version) || Runtime.Marks().Exists(mark => !Has(mark.Name, mark.Value))
+                    || !Has("Collektive-Sources", Sources);
             }
         }
 
