@@ -410,7 +410,10 @@ int32_t physics_step(physics_world *world, const physics_command *commands, int3
     world->collect_motions(number, motions);
     std::sort(world->touches.begin(), world->touches.end(), [world](const physics_touch &a, const physics_touch &b) {
         const uint32_t a0 = world->shapes[a.a].identity, b0 = world->shapes[b.a].identity;
-        return a0 != b0 ? a0 < b0 : world->shapes[a.b].identity < world->shapes[b.b].identity;
+        if (a0 != b0) return a0 < b0;
+        const uint32_t a1 = world->shapes[a.b].identity, b1 = world->shapes[b.b].identity;
+        // A pair has two touches if a body becomes kinematic or dynamic inside a trigger. The exit is first.
+        return a1 != b1 ? a1 < b1 : a.phase > b.phase;
     });
     for (physics_break &broken : world->broken) {
         PxVec3 force, torque;

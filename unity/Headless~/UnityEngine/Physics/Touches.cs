@@ -27,7 +27,7 @@ namespace UnityEngine
         {
             Copy(result);
             Orders.Shuffle(touches, count);
-            PutExitsFirst();
+            if (Orders.IsPermuted) PutExitsFirst();
             // A message may change or destroy any object, but must not step physics.
             for (var index = 0; index < count; index++)
                 if (touches[index].IsTrigger && touches[index].StillRegistered) SendTrigger(index);
@@ -58,12 +58,11 @@ namespace UnityEngine
             for (var index = 0; index < result.ContactCount; index++) contacts[index] = result.Contacts[index];
         }
 
-        /// Moves the Exit of a pair before its Enter. A pair has both if a body becomes kinematic or dynamic inside a trigger. They are adjacent, unless they
-        /// were permuted.
+        /// Moves the Exit of a pair before its Enter. A pair has both if a body becomes kinematic or dynamic inside a trigger.
         void PutExitsFirst()
         {
-            for (var later = 1; later < count; later++)
-                for (var index = Orders.IsPermuted ? 0 : later - 1; index < later && touches[later].Phase == Physx.Phase.Exit; index++)
+            for (var later = 0; later < count; later++)
+                for (var index = 0; index < later && touches[later].Phase == Physx.Phase.Exit; index++)
                     if (touches[index].A == touches[later].A && touches[index].B == touches[later].B)
                         (touches[index], touches[later]) = (touches[later], touches[index]);
         }
