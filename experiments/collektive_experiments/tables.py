@@ -167,7 +167,7 @@ def _warn_of_different_jvms(store: Store) -> None:
 
 def _warn_of_keys_without_effect(experiment: Experiment, store: Store, results: list[str]) -> None:
     """Prints a warning about each varied key without an effect on the results, such as `timing.period` if the schedule is not asynchronous."""
-    # PyArrow's group_by would load a module that `./collektive clean` may have removed since the sweep's begin.
+    # PyArrow's group_by would load a module that `./collektive clean` may have removed since the sweep began.
     runs = read_parquet(store.folder, "runs").select([*experiment.keys, *results, "status"])
     count = len(experiment.keys)
     rows = [(row[:count], row[count:-1]) for row in zip(*(column.to_pylist() for column in runs.columns)) if row[-1] == "complete"]

@@ -114,8 +114,7 @@ namespace UnityEngine
             foreach (var root in new List<GameObject>(Scene.AllRoots())) Destroy(root);
             foreach (var root in new List<GameObject>(Scene.AllRoots()))
             {
-                Debug.LogError("Some objects were not cleaned up when closing the scene. (Did you spawn new GameObjects from OnDestroy?) "
-                    + $"'{root.NameImpl}' is destroyed without messages.", root);
+                Debug.LogError($"'{root.NameImpl}' was created while its scene was closed, for example in OnDestroy. It is destroyed without messages.", root);
                 foreach (var script in root.GetComponentsInChildren<MonoBehaviour>(true)) script.Silence();
                 Destroy(root);
             }

@@ -59,7 +59,7 @@ namespace UnityEngine
             Messages.Send(messages.OnEnable, this);
         }
 
-        /// Ends all messages to this script.
+        /// Stops all messages to this script.
         internal void Silence()
         {
             HasAwoken = false;

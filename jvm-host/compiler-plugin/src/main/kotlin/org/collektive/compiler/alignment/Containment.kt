@@ -17,10 +17,10 @@ import org.jetbrains.kotlin.ir.visitors.IrVisitorVoid
 import org.jetbrains.kotlin.ir.visitors.acceptChildrenVoid
 
 /**
- * Determines which values are or may contain a value of a sought type, directly or through other objects. An object may contain one if
+ * Determines which values are or may contain a value of a target type, directly or through other objects. An object may contain one if
  * one of the [classes] of the module is a subclass of its type and stores one, or is local and uses one.
  */
-internal class Containment(private val dsl: DslSymbols, classes: List<IrClass>, private val isSought: (IrType) -> Boolean) {
+internal class Containment(private val dsl: DslSymbols, classes: List<IrClass>, private val isTarget: (IrType) -> Boolean) {
     private var bases = emptySet<IrClass>()
     private var storing = newSearch()
 
@@ -32,11 +32,11 @@ internal class Containment(private val dsl: DslSymbols, classes: List<IrClass>, 
         } while (bases.size > known)
     }
 
-    fun isIn(type: IrType): Boolean = isSought(type) ||
+    fun isIn(type: IrType): Boolean = isTarget(type) ||
         type is IrSimpleType && type.arguments.any { argument -> argument.typeOrNull?.let(::isIn) == true } ||
         type.getClass()?.let(::isStoredIn) == true
 
-    /** Whether the code in [element] has a value that is or may contain one of a sought type. */
+    /** Whether the code in [element] has a value that is or may contain one of a target type. */
     fun isUsedIn(element: IrElement): Boolean {
         var isUsed = false
         element.acceptChildrenVoid(object : IrVisitorVoid() {
