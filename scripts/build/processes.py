@@ -19,6 +19,8 @@ _SAME_SIGNAL = 1
 _SET_CHILD_SUBREAPER = 36
 # The environment variable of programs that may outlive the command.
 _DETACHED = "COLLEKTIVE_DETACHED"
+# Keeps the objects of detached programs, because Python would ignore an interrupt that arrives in Popen.__del__.
+_detached: list[subprocess.Popen[bytes]] = []
 _FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -106,8 +108,8 @@ def was_interrupted() -> bool:
 
 def start_detached(command: Sequence[str | Path]) -> None:
     """Starts a program of the user, such as a browser, which may outlive this command, even after Ctrl-C. Does not wait for it."""
-    subprocess.Popen(command, env={**os.environ, _DETACHED: "1"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                     start_new_session=True)
+    _detached.append(subprocess.Popen(command, env={**os.environ, _DETACHED: "1"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                      stderr=subprocess.DEVNULL, start_new_session=True))
 
 
 def end_orphans() -> None:

@@ -9,7 +9,7 @@ import pytest
 from checkout import SETUP, Checkout
 
 # Code that starts a child of the group's first process. The child writes its process id to a file.
-CHILD = "processes.call([sys.executable, '-c', 'import os, sys, time; open(sys.argv[1], \"w\").write(str(os.getpid())); {}', str(root / 'pid')])"
+CHILD = "processes.call([sys.executable, '-c', 'import os, signal, sys, time; signal.signal(2, signal.SIG_DFL); open(sys.argv[1], \"w\").write(str(os.getpid())); {}', str(root / 'pid')])"
 SLEEP = CHILD.format("time.sleep(600)")
 
 
@@ -186,14 +186,18 @@ def test_orphans_of_a_program_end_in_any_process_group(checkout: Checkout) -> No
 
 def test_a_detached_program_outlives_the_command(checkout: Checkout) -> None:
     """Tests a program that starts another one and ends, as xdg-open does with the user's browser."""
-    main = """def main():
-    processes.start_detached(['sh', '-c', 'sleep 600 & echo $! > "$0"', str(root / 'pid')])
+    # Python ignores exceptions in __del__, including the one of Ctrl-C. The signal arrives during the slow one if the program starts quickly.
+    main = """import subprocess, time
+subprocess.Popen.__del__ = lambda *_: time.sleep(1)
+def main():
     try:
-        time.sleep(600)
+        processes.start_detached(['sh', '-c', 'sleep 600 & echo $! > "$0"', str(root / 'pid')])
+        while True:
+            time.sleep(0.05)
     finally:
         processes.end_orphans()
 """
-    process = checkout.start("import time\n" + main + run_in_group("main()"))
+    process = checkout.start(main + run_in_group("main()"))
     child = child_of(checkout)
     process.send_signal(signal.SIGINT)
     assert process.wait(20) == 128 + signal.SIGINT
