@@ -16,7 +16,7 @@ const { outputFiles: [{ text }] } = buildSync({
   },
   bundle: true, write: false, format: 'esm', nodePaths: [modules],
 });
-const { clock, colouring, digitsOf, drawable, fieldsOf, Group, historyOf, isolated, Legend, LiveRecording, open, short, View } = await import(
+const { clock, colouring, conflicting, digitsOf, drawable, fieldsOf, Group, historyOf, isolated, Legend, LiveRecording, open, short, View } = await import(
   `data:text/javascript;base64,${Buffer.from(text).toString('base64')}`
 );
 
@@ -107,6 +107,16 @@ test('values between gaps are isolated, also with the times of another run', () 
 
 test('a compared run without a field has no values of it', async () => {
   assert.deepEqual(await historyOf({ recording: { times: [0, 1], texts: ['segment'] }, fields: [] }, { name: 'hops' }, 7), [null, null]);
+});
+
+test('runs whose fields have other kinds or constants conflict', () => {
+  const field = (kind, ...words) => ({ name: 'role', kind, words });
+  const run = [{ name: 'hops', kind: 'number', words: [] }, field('category', 'explorer', 'relay')];
+  assert.equal(conflicting(run, [field('category', 'relay', 'explorer')]), run[1]);
+  assert.equal(conflicting(run, [field('number')]), run[1]);
+  for (const others of [run, [], [field('category', 'explorer', 'relay', 'base')], [field('category', 'explorer')]]) {
+    assert.equal(conflicting(run, others), undefined);
+  }
 });
 
 test('texts of numbers and times are short and exact', () => {

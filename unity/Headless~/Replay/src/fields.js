@@ -35,6 +35,12 @@ export async function historyOf({ recording, fields }, { name }, id, needed) {
   return values;
 }
 
+/** Returns the first field whose values mean something else in the field of `others` with the same name: another kind, or other constants of an enum. */
+export function conflicting(fields, others) {
+  return fields.find(({ name, kind, words }) => others.some((other) => other.name === name
+    && (other.kind !== kind || words.some((word, value) => (other.words[value] ?? word) !== word))));
+}
+
 /** Returns the slot of a node in a frame; -1 if it is missing. */
 export function slotOf({ slots, ids }, id) {
   return slots.find((slot) => ids[slot] === id) ?? -1;

@@ -2,7 +2,7 @@
 import { Charts } from './charts.js';
 import { element, part } from './dom.js';
 import { canRecord, compose, save, Video } from './exports.js';
-import { clock, historyOf, slotOf } from './fields.js';
+import { clock, conflicting, fieldsOf, historyOf, slotOf } from './fields.js';
 import { bindKeys } from './keys.js';
 import { Legend } from './legend.js';
 import { open, ReplayError } from './recording.js';
@@ -284,6 +284,8 @@ export class Player {
       const data = /<script id="replay"[^>]*>([^<]*)</.exec(page);
       if (!data) throw new ReplayError('This file is not a replay page. Choose a replay.html.');
       const recording = await open(data[1].trim());
+      const field = conflicting(this.runs[0].fields, fieldsOf(recording));
+      if (field) throw new ReplayError(`The field "${field.name}" has another meaning in this replay. Compare runs of the same schema.`);
       await recording.load(0);
       this.compare(null);
       const holder = element('side').cloneNode(true);
