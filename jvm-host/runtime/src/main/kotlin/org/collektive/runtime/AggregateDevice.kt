@@ -40,7 +40,8 @@ internal class AggregateDevice<ID : Any>(
     // The alignment stack of the thread that runs the round; null between rounds.
     private var ownStack: PathStack? = null
     private var lastRegion = 0
-    private val stack get() = ownStack ?: error("device $localId or one of its fields is used outside its round")
+    private val stackOfThread get() = ownStack?.takeIf { it.thread === Thread.currentThread() }
+    private val stack get() = stackOfThread ?: error("device $localId or one of its fields is used outside its round or on another thread")
     override val depth get() = stack.depth
 
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
@@ -120,11 +121,11 @@ internal class AggregateDevice<ID : Any>(
 
     override fun beginRegion() = stack.beginRegion()
 
-    override val region: Int get() = ownStack?.region ?: 0
+    override val region: Int get() = stackOfThread?.region ?: 0
 
     override fun popTo(depth: Int) = stack.popTo(depth)
 
-    override fun tokens(): List<Any?> = ownStack?.tokens().orEmpty()
+    override fun tokens(): List<Any?> = stackOfThread?.tokens().orEmpty()
 
     override fun reservePath(value: Any?): PathNode {
         val path = stack.path(this)

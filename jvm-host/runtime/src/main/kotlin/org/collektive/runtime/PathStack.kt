@@ -7,6 +7,9 @@ import org.collektive.alignment.RunningDevice
  * device would not.
  */
 internal class PathStack(private val tree: PathTree) {
+    /** The thread that created this stack, the only one that may use it. */
+    val thread: Thread = Thread.currentThread()
+
     /** Holds the device whose round runs on the thread. */
     val running: RunningDevice = RunningDevice.ofThread()
 

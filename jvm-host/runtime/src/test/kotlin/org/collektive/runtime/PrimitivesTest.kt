@@ -229,6 +229,18 @@ class PrimitivesTest {
     }
 
     @Test
+    fun `a device and its fields cannot be used on another thread while the round runs`() {
+        val network = network(1, 2).line(1, 2)
+        val program: Aggregate<Int>.() -> Any? = {
+            val near = neighborhood()
+            val uses = listOf<() -> Any?>({ evolve(0) { it } }, { near.map { it.id } })
+            uses.map { use -> CompletableFuture.supplyAsync { runCatching(use).exceptionOrNull()?.message }.get() }
+        }
+        val message = "device 1 or one of its fields is used outside its round or on another thread"
+        assertEquals(listOf(message, message), network.round(program)[1])
+    }
+
+    @Test
     fun `two primitives at one path clash, and the error names the path`() {
         val network = network(1)
         val error = assertFailsWith<AlignmentClashException> {
