@@ -20,7 +20,7 @@ namespace Collektive.Unity.Editor
             if (change != PlayModeStateChange.ExitingEditMode) return;
             var canPlay = ToolsMenu.TryRun(() =>
             {
-                var failed = ProgramBuild.Refresh(SchemaProject.FindAll());
+                var failed = ProgramBuild.Refresh(SchemaProject.FindAll().FindAll(project => project.IsUsed));
                 return failed.Count == 0 || MayPlay(failed[0]);
             });
             if (canPlay && EditorApplication.isCompiling)

@@ -27,7 +27,10 @@ namespace Collektive.Unity.Editor
 
             var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
             foreach (var simulation in simulations) AddPrograms(simulation, files);
-            foreach (var path in AssetDatabase.GetDependencies(ScenesOf(options, simulations), true))
+            var dependencies = AssetDatabase.GetDependencies(ScenesOf(options, simulations), true);
+            // Scripts can use libraries that no simulation lists.
+            Refresh(simulations, project => !project.IsUsed && Array.IndexOf(dependencies, project.Jar) >= 0);
+            foreach (var path in dependencies)
             {
                 var library = AssetDatabase.LoadAssetAtPath<ProgramLibrary>(path);
                 if (library != null) Add(library, files);
@@ -46,10 +49,7 @@ namespace Collektive.Unity.Editor
             var settings = simulation.Settings;
             var problem = settings.FindProblem() ?? settings.FindLibraryProblem();
             if (problem != null) throw simulation.Failure(problem);
-            var failed = ProgramBuild.Refresh(SchemaProject.FindAll(new[] { settings }));
-            if (failed.Count > 0)
-                throw simulation.Failure(failed[0].Jar + " is older than its sources because the build failed: fix the errors in the console");
-            if (EditorApplication.isCompiling) throw simulation.Failure("the C# code of a schema has changed: build again when Unity has compiled it");
+            Refresh(new List<SceneSimulation> { simulation }, project => project.IsUsed);
             try
             {
                 Schemas.Find(settings.SchemaName);
@@ -70,6 +70,14 @@ namespace Collektive.Unity.Editor
                 throw simulation.Failure("the folder of Collektive's jars, " + settings.runtimeJars
                     + ", does not exist: correct Runtime Jars in the Simulation Manager's settings");
             Add(settings.runtimeJars, files);
+        }
+
+        private static void Refresh(List<SceneSimulation> simulations, Predicate<SchemaProject> isWanted)
+        {
+            var failed = ProgramBuild.Refresh(SchemaProject.FindAll(simulations.ConvertAll(simulation => simulation.Settings)).FindAll(isWanted));
+            if (failed.Count > 0)
+                throw simulations[0].Failure(failed[0].Jar + " is older than its sources because the build failed: fix the errors in the console");
+            if (EditorApplication.isCompiling) throw simulations[0].Failure("the C# code of a schema has changed: build again when Unity has compiled it");
         }
 
         private static void AddJvms(List<SceneSimulation> simulations, string[] platforms, SortedDictionary<string, string> files)

@@ -85,14 +85,13 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Builds the outdated jars that simulations use, and waits for them.</summary>
+        /// <summary>Builds the outdated jars among those of the projects, and waits for them.</summary>
         /// <returns>The projects whose jars are outdated because their builds failed; the errors are logged.</returns>
         internal static List<SchemaProject> Refresh(List<SchemaProject> projects)
         {
-            var used = projects.FindAll(project => project.IsUsed);
-            Start(used.FindAll(project => project.IsStale && project.Jar != current?.Jar));
+            Start(projects.FindAll(project => project.IsStale && project.Jar != current?.Jar));
             if (IsRunning) Wait();
-            return used.FindAll(project => project.IsStale);
+            return projects.FindAll(project => project.IsStale);
         }
 
         private static string KeyOf(SchemaProject project) => "Collektive.Built." + project.Jar;

@@ -141,6 +141,18 @@ namespace Collektive.Headless.Tests.Editor
         }
 
         [Test]
+        public void An_outdated_library_that_only_an_object_refers_to_fails_the_build_if_it_cannot_be_built()
+        {
+            ProgramLibraryTests.Pack("Assets/Other/other.clkprograms", Schema);
+            var scene = Scene();
+            File.AppendAllText(scene, "--- !u!114 &5\nMonoBehaviour:\n  spawned: " + LibraryAt("Assets/Other/other.clkprograms") + "\n");
+            Write("Assets/Other/other.fbs", BuildTests.Schema);
+            Write("Assets/Other/Programs/Count.kt", "fun broken(");
+            var error = Assert.Throws<BuildFailedException>(() => Players.Build(BuildTarget.StandaloneLinux64, Assets, scene));
+            Assert.That(error.Message, Is.StringContaining("Assets/Other/other.clkprograms is older than its sources because the build failed"));
+        }
+
+        [Test]
         public void A_scene_that_cannot_start_fails_the_build()
         {
             Fails("jar missing.jar does not exist: select a library of programs", "jars.Array.data[0]", "missing.jar", "schema", Schema);
