@@ -32,6 +32,14 @@ def is_marked(folder: str) -> bool:
     return not os.path.islink(folder) and os.path.isfile(os.path.join(folder, MARKER))
 
 
+def is_file(path: str) -> bool:
+    """Returns whether a path leads to a file. Raises `OSError` if the disk has an error, for which `os.path.isfile` returns False."""
+    try:
+        return stat.S_ISREG(os.stat(path).st_mode)
+    except (FileNotFoundError, NotADirectoryError):
+        return False
+
+
 def deletable_above(folder: str) -> str | None:
     """
     Returns the folder of a run or a bundle that is the given folder or contains it, or None. A resumed sweep may delete such a folder.

@@ -212,7 +212,7 @@ class Store:
 def _object(path: str) -> dict[str, Any] | None:
     """Returns the JSON object in a file, or None if the file is absent or damaged."""
     # Opening a pipe would wait for its writer.
-    if not os.path.isfile(path):
+    if not files.is_file(path):
         return None
     try:
         with open(path, "rb") as file:
@@ -227,7 +227,7 @@ def _is_list_of_texts(value: Any) -> bool:
 
 
 def _hash(path: str) -> str:
-    if not os.path.isfile(path):
+    if not files.is_file(path):
         return ""
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,5 +1,7 @@
 """Tests that runs of a sweep are independent, and that a sweep changes only its own results."""
+import errno
 import gc
+import hashlib
 import itertools
 import json
 import os
@@ -470,6 +472,30 @@ def test_an_edited_record_is_damaged(tmp_path: Path, edited: dict[str, object]) 
     for change, is_valid in (({}, True), (edited, False)):
         (folder / "run.json").write_text(json.dumps({**record, **change}))
         assert (Store(str(tmp_path)).record(Run("seed=1", {}, {})) is not None) == is_valid
+
+
+@pytest.mark.parametrize("name", ["run.json", "metrics.csv"])
+def test_an_error_of_the_disk_is_not_damage(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    store, run = Store(str(tmp_path)), Run("seed=1", {}, {})
+    folder = tmp_path / "runs/seed=1"
+    folder.mkdir(parents=True)
+    for each in ("manifest.json", "metrics.csv", files.MARKER):
+        (folder / each).touch()
+    hashes = {each: hashlib.sha256().hexdigest() for each in ("manifest.json", "metrics.csv")}
+    (folder / "run.json").write_text(json.dumps({"name": "seed=1", "status": "complete", "message": "", "files": hashes}))
+    assert store.is_complete(run)
+    stat = os.stat
+
+    def fail(path: str, **options: bool) -> os.stat_result:
+        if os.path.basename(path) == name:
+            raise OSError(errno.EIO, os.strerror(errno.EIO), path)
+        return stat(path, **options)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "stat", fail)
+        with pytest.raises(OSError, match="Input/output error"):
+            store.is_complete(run)
+    assert store.is_complete(run)
 
 
 def test_ctrl_c_during_imports_is_a_one_line_error(tmp_path: Path) -> None:
