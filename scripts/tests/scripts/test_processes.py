@@ -9,7 +9,8 @@ import pytest
 from checkout import SETUP, Checkout
 
 # Code that starts a child of the group's first process. The child writes its process id to a file.
-CHILD = "processes.call([sys.executable, '-c', 'import os, signal, sys, time; signal.signal(2, signal.SIG_DFL); open(sys.argv[1], \"w\").write(str(os.getpid())); {}', str(root / 'pid')])"
+CHILD = ("processes.call([sys.executable, '-c', 'import os, signal, sys, time; signal.signal(2, signal.SIG_DFL); "
+         "open(sys.argv[1], \"w\").write(str(os.getpid())); {}', str(root / 'pid')])")
 SLEEP = CHILD.format("time.sleep(600)")
 
 
