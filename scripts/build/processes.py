@@ -70,7 +70,9 @@ def run_in_group(main: Callable[[], int]) -> int:
         _end_group(group, signal.SIGINT if number == signal.SIGINT else signal.SIGTERM)
 
     for number in _FORWARDED:
-        signal.signal(number, forward)
+        # `nohup` ignores SIGHUP, so that a command continues when its terminal is closed.
+        if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, forward)
     signal.pthread_sigmask(signal.SIG_SETMASK, unblocked)
     code = os.waitstatus_to_exitcode(os.waitpid(group, 0)[1])
     # The first process may end before its children. This process then waits for them, because the init process of a container may not reap them.

@@ -61,6 +61,13 @@ def test_a_signal_ends_all_processes_and_is_the_exit_code(checkout: Checkout, nu
     assert ends(child)
 
 
+def test_nohup_protects_a_command_from_the_end_of_its_terminal(checkout: Checkout) -> None:
+    process = checkout.start(f"signal.signal(signal.SIGHUP, signal.SIG_IGN); {run_in_group(CHILD.format('time.sleep(3)'))}")
+    child_of(checkout)
+    process.send_signal(signal.SIGHUP)
+    assert process.wait(20) == 0
+
+
 def test_an_interrupted_step_does_not_print_its_log(checkout: Checkout) -> None:
     # The message and the error come from the tool, which receives the signal, too.
     tool = "import signal, time; print('a message of the tool', flush=True); signal.signal(2, lambda *_: exit(1)); time.sleep(600)"
