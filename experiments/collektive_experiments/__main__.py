@@ -4,6 +4,7 @@ import os
 import re
 import signal
 import sys
+from types import FrameType
 from typing import NoReturn
 
 from . import experiment as experiments
@@ -51,9 +52,9 @@ def main(words: list[str]) -> int:
     except (ExperimentError, WorkerError) as error:
         print(f"collektive: {_line(str(error))}", file=sys.stderr)
         return 1
-    except KeyboardInterrupt:
+    except KeyboardInterrupt as error:
         print("collektive: interrupted", file=sys.stderr)
-        return 130
+        return 128 + (error.args or (signal.SIGINT,))[0]
     except OSError as error:
         print(f"collektive: a file could not be read or written: {_line(str(error))}", file=sys.stderr)
         return 1
@@ -113,6 +114,12 @@ def _line(message: str) -> str:
     return re.sub(r"[\x00-\x1f\x7f\u2028\u2029]", lambda found: repr(found[0])[1:-1], message)
 
 
+def _terminate(number: int, _: FrameType | None) -> NoReturn:
+    """Ends the program like Ctrl-C, which removes temporary files. A second signal does not interrupt this."""
+    signal.signal(number, signal.SIG_IGN)
+    raise KeyboardInterrupt(number)
+
+
 def _plot(options: argparse.Namespace) -> int:
     # This import is here because importing Matplotlib takes half a second.
     from .figures import plot
@@ -125,4 +132,5 @@ def _plot(options: argparse.Namespace) -> int:
 
 
 if __name__ == "__main__":
+    signal.signal(signal.SIGTERM, _terminate)
     sys.exit(main(sys.argv[1:]))

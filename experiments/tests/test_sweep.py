@@ -346,6 +346,19 @@ def test_a_dry_run_whose_trial_fails_prints_no_estimate(project: Project) -> Non
     assert "runs into" not in result.stdout
 
 
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupted_dry_run_leaves_no_files(number: signal.Signals, project: Project, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    driver = project.start("--dry-run", **MANY)
+    while not list(tmp_path.glob("collektive-*/out/logs/trial.txt")):
+        assert driver.poll() is None
+        time.sleep(0.02)
+    driver.send_signal(number)
+    driver.communicate(timeout=30)
+    assert driver.returncode == 128 + number
+    assert list(tmp_path.iterdir()) == []
+
+
 @pytest.mark.parametrize(("given", "seed"), [({}, 1), ({"seed": (1 << 64) - 1}, (1 << 64) - 1)])
 def test_runs_without_a_manifest_have_a_seed(project: Project, given: dict[str, Any], seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tables, "require_unchanged", lambda *_: None)
