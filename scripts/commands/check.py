@@ -88,7 +88,7 @@ def _check_scenario(file: Path, trust: list[str]) -> bool:
 def _check_experiment(file: Path, trust: list[str]) -> bool:
     # The command takes the lock itself.
     lock.release()
-    return _is_valid(processes.call([COLLEKTIVE, "sweep", file, "--dry-run", *trust]))
+    return _is_valid(processes.call([COLLEKTIVE, "sweep", "--dry-run", *trust, "--", file]))
 
 
 def _is_valid(code: int) -> bool:

@@ -45,7 +45,7 @@ def run_scenario(scenario: str, **options: object) -> int:
     """Runs a scenario with these options, the others at their defaults."""
     parser = argparse.ArgumentParser()
     add_arguments(parser)
-    return run(parser.parse_args([scenario], argparse.Namespace(**options)))
+    return run(parser.parse_args(["--", scenario], argparse.Namespace(**options)))
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -232,6 +232,14 @@ def test_a_repetition_does_not_replace_its_original(tmp_path: Path, monkeypatch:
         repeat.run(arguments)
 
 
+def test_names_of_files_may_begin_like_options(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(run_command, "run", lambda arguments: 0 if arguments.scenario == "-a.json" else 1)
+    assert run_command.run_scenario("-a.json") == 0
+    parser = collektive.parser_for("sweep")
+    monkeypatch.setattr(processes, "call", lambda command: 0 if parser.parse_args(list(map(str, command[1:]))).experiment == "-a.json" else 1)
+    assert check._check_experiment(Path("-a.json"), ["--trust-jvm"])
+
+
 def test_benchmarks_replace_only_their_results(tmp_path: Path) -> None:
     file = tmp_path / "notes.json"
     for content, expected in (('{"mine": 1}', pytest.raises(Failure, match="was not written by --out")), ('{\n  "machine": {}\n}\n', contextlib.nullcontext())):
