@@ -40,8 +40,10 @@ internal class AggregateDevice<ID : Any>(
     // The alignment stack of the thread that runs the round; null between rounds.
     private var ownStack: PathStack? = null
     private var lastRegion = 0
+    private val stack get() = ownStack ?: outside()
+
+    // `stack` if it is the running thread's. Only the first function of each use checks the thread, because the check costs time.
     private val stackOfThread get() = ownStack?.takeIf { it.thread === Thread.currentThread() }
-    private val stack get() = stackOfThread ?: error("device $localId or one of its fields is used outside its round or on another thread")
     override val depth get() = stack.depth
 
     override fun round(inbox: Inbox, program: RoundProgram, sensors: Any?): Any? {
@@ -115,7 +117,7 @@ internal class AggregateDevice<ID : Any>(
         for (record in older) if (record.isRetained) record.forEachPath(action)
     }
 
-    override fun push(token: Any?) = stack.push(token)
+    override fun push(token: Any?) = (stackOfThread ?: outside()).push(token)
 
     override fun markEntry() = stack.markEntry()
 
@@ -128,7 +130,7 @@ internal class AggregateDevice<ID : Any>(
     override fun tokens(): List<Any?> = stackOfThread?.tokens().orEmpty()
 
     override fun reservePath(value: Any?): PathNode {
-        val path = stack.path(this)
+        val path = (stackOfThread ?: outside()).path(this)
         if (!running.reserve(path)) throw clash(path, value)
         return path
     }
@@ -249,6 +251,8 @@ internal class AggregateDevice<ID : Any>(
         if (count == field.neighborCount) return field
         return Field.make(field.context, keptIds.copyOf(count).requireNoNulls(), keptValues.copyOf(count), field.localValue)
     }
+
+    private fun outside(): Nothing = error("device $localId or one of its fields is used outside its round or on another thread")
 
     private fun requireShareable(value: Any?) {
         rule.refusal(value)?.let { throw IllegalArgumentException(withPlace("$it; it cannot be shared or stored")) }
