@@ -49,8 +49,8 @@ export class Legend {
   }
 
   /** Returns a field's range and categories over all compared runs. */
-  wholeOf({ name, kind, least, greatest, order }) {
-    const same = this.otherFields.filter((each) => each.name === name && each.kind === kind);
+  wholeOf({ name, least, greatest, order }) {
+    const same = this.otherFields.filter((each) => each.name === name);
     const all = [{ least, greatest, order }, ...same];
     return {
       least: all.some((each) => each.least === undefined) ? undefined : Math.min(...all.map((each) => each.least)),
