@@ -13,14 +13,14 @@ from types import FrameType
 
 _waiting = False
 _interrupted_at = -math.inf
+# Keeps the objects of detached programs, because Python would ignore an interrupt that arrives in Popen.__del__.
+_detached_programs: list[subprocess.Popen[bytes]] = []
 # Signals that arrive within this time, in seconds, count as one. `timeout` and Slurm signal all processes of a command.
 _SAME_SIGNAL = 1
 # A constant from linux/prctl.h. With this option, orphaned descendants become children of this process.
 _SET_CHILD_SUBREAPER = 36
 # The environment variable of programs that may outlive the command.
 _DETACHED = "COLLEKTIVE_DETACHED"
-# Keeps the objects of detached programs, because Python would ignore an interrupt that arrives in Popen.__del__.
-_detached: list[subprocess.Popen[bytes]] = []
 _FORWARDED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -110,8 +110,9 @@ def was_interrupted() -> bool:
 
 def start_detached(command: Sequence[str | Path]) -> None:
     """Starts a program of the user, such as a browser, which may outlive this command, even after Ctrl-C. Does not wait for it."""
-    _detached.append(subprocess.Popen(command, env={**os.environ, _DETACHED: "1"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                      stderr=subprocess.DEVNULL, start_new_session=True))
+    program = subprocess.Popen(command, env={**os.environ, _DETACHED: "1"}, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.DEVNULL, start_new_session=True)
+    _detached_programs.append(program)
 
 
 def end_orphans() -> None:
