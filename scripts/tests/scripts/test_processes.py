@@ -194,7 +194,7 @@ def test_orphans_of_a_program_end_in_any_process_group(checkout: Checkout) -> No
 
 def test_a_detached_program_outlives_the_command(checkout: Checkout) -> None:
     """Tests a program that starts another one and ends, as xdg-open does with the user's browser."""
-    # Python ignores exceptions in __del__, including the one of Ctrl-C. The signal arrives during the slow one if the program starts quickly.
+    # Python ignores exceptions in __del__, including KeyboardInterrupt. If __del__ is called before the end, it is so slow that the signal arrives inside it.
     main = """import subprocess, time
 subprocess.Popen.__del__ = lambda *_: time.sleep(1)
 def main():

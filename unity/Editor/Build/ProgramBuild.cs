@@ -85,7 +85,7 @@ namespace Collektive.Unity.Editor
             }
         }
 
-        /// <summary>Builds the outdated jars among those of the projects, and waits for them.</summary>
+        /// <summary>Builds the outdated jars of the projects, and waits for them.</summary>
         /// <returns>The projects whose jars are outdated because their builds failed; the errors are logged.</returns>
         internal static List<SchemaProject> Refresh(List<SchemaProject> projects)
         {

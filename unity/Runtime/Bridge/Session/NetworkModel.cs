@@ -35,7 +35,7 @@ namespace Collektive.Bridge
         /// <summary>Mean number of successive messages in the bad state, at least 1 and at least share / (1 - share).</summary>
         public double burstLength = 1;
 
-        /// <summary>Probability, 0..1, that the bad state loses a message that would otherwise arrive.</summary>
+        /// <summary>Probability, 0..1, that a message in the bad state is lost, in addition to the other losses.</summary>
         public double burstLoss = 1;
 
         /// <summary>Returns the first error, or null.</summary>

@@ -42,7 +42,7 @@ internal class AggregateDevice<ID : Any>(
     private var lastRegion = 0
     private val stack get() = ownStack ?: outside()
 
-    // `stack` if it is the running thread's. Only the first function of each use checks the thread, because the check costs time.
+    // Null on other threads, too. Only the functions that begin a use check the thread, because the check costs time.
     private val stackOfThread get() = ownStack?.takeIf { it.thread === Thread.currentThread() }
     override val depth get() = stack.depth
 
